@@ -66,9 +66,10 @@ class Experiment:
     theory, or None. summary: the first line of the file's docstring, or empty. path: of the file,
     or None. options: those that it was opened with. opened: opens it anew with other options, or
     None. alone: whether its laws then share nothing with these, since its file is run anew.
-    function: that has made the scenario, or None. plain: the experiment without those options that
-    set fields and laws, if there are any. files: all files read for it. functions: the public
-    functions that its file defines, by name.
+    function: that has made the scenario, or None. seed: that it was opened with, or None. plain:
+    the experiment without those options that set fields and laws, if there are any. files: all
+    files read for it; written: when these were written, ns. functions: the public functions that
+    its file defines, by name.
     """
 
     scenario: Scenario
@@ -81,8 +82,10 @@ class Experiment:
     opened: Callable[[Mapping[str, Any]], Experiment] | None = None
     alone: bool = False
     function: Callable[..., Any] | None = None
+    seed: int | None = None
     plain: Experiment | None = None
     files: frozenset[Path] = frozenset()
+    written: Mapping[Path, int] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
 
     def reopened(self) -> Experiment:
@@ -100,6 +103,18 @@ class Experiment:
         if self.opened is None:
             return open_experiment(self.scenario, options, self.control)
         return self.opened(options)
+
+    def decides_as(self, other: Experiment) -> bool:
+        """Return whether it has the same laws and add-ons, so far as can be told.
+
+        They come from the same version of the same files, and their arguments are the same.
+        """
+        return (
+            self.written == other.written
+            and len(self._laws) == len(other._laws)
+            and all(map(law_parameters.same, self._laws, other._laws))
+            and self.scenario.addons == other.scenario.addons
+        )
 
     def redrawn(self, scenario: Scenario) -> Experiment:
         """Return the experiment with another scenario; robots of the same names keep their laws.
@@ -132,7 +147,7 @@ class Experiment:
         if body is not None:
             return [*parameters.of_body(self.scenario, plain.scenario, body)]
         made, given = self.function, self.options
-        own = [] if made is None else [*parameters.of_arguments(made, given)]
+        own = [] if made is None else [*parameters.of_arguments(made, given, self.seed)]
         names = {each.name for each in own}
         laws = law_parameters.of_laws(self._laws, plain._laws)
         return own + [each for each in laws if each.name.rpartition(".")[2] not in names]
@@ -221,8 +236,10 @@ def open_experiment(
         options=given,
         opened=partial(open_experiment, source, control=control, seed=seed),
         alone=control is None and isinstance(source, (str, Path)),
+        seed=seed,
         plain=None if experiment is plain else plain,
         files=frozenset(files) if control is None else experiment.files,
+        written={path: path.stat().st_mtime_ns for path in files if path.exists()},
     )
 
 

@@ -13,7 +13,7 @@ from mars2d.core.errors import InputError, nearest
 from mars2d.core.usercode import name_of
 from mars2d.scenario.parameters import Argument, Parameter, arguments_of, is_number
 
-__all__ = ["PREFIX", "of_laws", "with_settings"]
+__all__ = ["PREFIX", "of_laws", "same", "with_settings"]
 
 Law = Callable[[Any], Any]
 
@@ -78,6 +78,27 @@ def _key(law: Law, team: Law | None) -> str:
     if name == "control" and law is not team and code is not None:
         return Path(code.co_filename).stem
     return name
+
+
+def same(law: Law | None, other: Law | None) -> bool:
+    """Return whether two laws do the same, if all else in their files is the same.
+
+    Only for functions and partials can that be told, without variables of an outer function.
+    """
+    if law is other:
+        return True
+    one, two = (None if each is None else _Bound.of(each) for each in (law, other))
+    if one is None or two is None:
+        return False
+    codes = [getattr(each.function, "__code__", None) for each in (one, two)]
+    closed = any(getattr(each.function, "__closure__", None) for each in (one, two))
+    plain = all(map(_is_plain, [*one.args, *one.keywords.values()]))
+    given = (one.args, one.keywords) == (two.args, two.keywords) if plain else False
+    return codes[0] is not None and codes[0] == codes[1] and not closed and given
+
+
+def _is_plain(value: object) -> bool:
+    return value is None or isinstance(value, (bool, int, float, str))
 
 
 def of_laws(laws: Sequence[Law | None], plain: Sequence[Law | None]) -> Iterator[Parameter]:

@@ -182,12 +182,18 @@ def _annotation(
     return next(bounds, None), annotation.__origin__
 
 
-def of_arguments(function: Callable[..., Any], given: Mapping[str, Any]) -> Iterator[Parameter]:
-    """Yield the parameters of a scenario function. given: the values that are set, by name."""
+def of_arguments(
+    function: Callable[..., Any], given: Mapping[str, Any], seed: int | None
+) -> Iterator[Parameter]:
+    """Yield the parameters of a scenario function.
+
+    given: the values that are set, by name. seed: of the run, the default of a parameter ``seed``.
+    """
     for name, argument in arguments_of(function).items():
-        value = given.get(name, argument.default)
+        default = seed if name == "seed" and seed is not None else argument.default
+        value = given.get(name, default)
         if is_number(value):
-            usual = value if argument.default is None else argument.default
+            usual = value if default is None else default
             yield Parameter.of(name, value, argument, usual)
 
 

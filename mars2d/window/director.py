@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, Mars2dError
 from mars2d.output.raster.painter import Painter
 from mars2d.scenario.changes import with_poses, without_body
 from mars2d.scenario.experiment import Experiment
@@ -147,7 +147,7 @@ class Director:
         mass, name = setting.value * factor, timeline.scenario.bodies[body].name
         try:
             reason = self.set(setting.name, mass)
-        except InputError as error:
+        except Mars2dError as error:
             self._notes.say(str(error), "error")
             return
         anew = f"started anew, as {reason}: " if reason else ""
@@ -157,13 +157,18 @@ class Director:
         """Set a parameter; return why the run starts anew, or "".
 
         restart: whether it may. Raises InputError where it can't have that value, and for a
-        recording.
+        recording; LawError where a law or a sensor fails with it.
         """
         timeline = self.timeline
         if timeline is None:
             raise InputError(RECORDING)
         back, branches = timeline.needs_way_back, len(timeline.branches)
-        reason = timeline.set({name: value}, self._show_way_back, restart=restart)
+        try:
+            reason = timeline.set({name: value}, self._show_way_back, restart=restart)
+        except Mars2dError:
+            self._player.error = timeline.error
+            self._player.settle()
+            raise
         if reason and not restart:
             return reason
         self._player.error = None

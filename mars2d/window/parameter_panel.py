@@ -120,7 +120,10 @@ class ParameterPanel(Panel):
         if self._known is None or self._known[0] is not experiment or self._known[1] != body:
             selected = body is not None and (self._known is None or self._known[1] != body)
             self._known = experiment, body
-            self._lines = [] if experiment is None else list(_lines(experiment, body))
+            try:
+                self._lines = [] if experiment is None else list(_lines(experiment, body))
+            except InputError as error:  # of a Range of a law
+                self._lines, self.said = [Line("No parameters")], (str(error), "error")
             if selected:  # let its sliders be seen
                 heading = max(k for k, line in enumerate(self._lines) if line.parameter is None)
                 self._scroll = sum(line.height for line in self._lines[:heading])
@@ -324,10 +327,7 @@ class ParameterPanel(Panel):
         unit = f" {parameter.unit}" if parameter.unit else ""
         try:
             reason = self._set_to(name, value, restart)
-        except InputError as error:
-            self.said = str(error), "error"
-            return
-        except Mars2dError as error:  # of a law that is asked again
+        except Mars2dError as error:  # of the value, or of a law that is asked again
             self.said = str(error), "error"
             return
         if reason and not restart:

@@ -380,13 +380,19 @@ class Timeline:
     def take(self, experiment: Experiment, progress: Progress = lambda _: True) -> str:
         """Go on from the present row with an experiment read again; return the effect, in words.
 
-        Its laws are asked along all rows, while the robots do what they did: so the laws remember
+        Other laws are asked along all rows, while the robots do what they did: so the laws remember
         the run, and going back stays exact. Raises InputError, and changes nothing, where a new
         start is needed (see `hot_reload.check_alike`), and where a law fails on the way.
         """
         self.check(experiment)
         past = self._past.with_laws_of(experiment)
         ended = self.over and self._world.finished
+        goes_on = not self.needs_way_back and experiment.decides_as(self._experiment)
+        if goes_on:  # with its laws as they are
+            past.waiting = self._past.waiting
+            self._change_to(experiment, self._world)
+            self._experiment, self._past = experiment, past
+            return "in effect from now on; R runs it from the start"
         if not ended:
             past.waiting.append(past.opened(experiment))
             world = past.world_at(Track(self._world, NEVER), self.row, progress)

@@ -135,6 +135,13 @@ def test_an_argument_in_which_laws_of_one_name_differ_has_no_value():
     assert [*found] == ["base", "gain"], "those of the laws are set by the function"
 
 
+def test_the_seed_of_the_run_is_that_of_a_function_that_has_one():
+    seed = names(open_experiment("corner_game", seed=4))["seed"]
+    assert (seed.value, seed.default) == (4, 4)
+    seed = names(open_experiment("corner_game", {"seed": 2}, seed=4))["seed"]
+    assert (seed.value, seed.default) == (2, 4)
+
+
 def test_a_law_called_control_has_the_name_of_its_file():
     found = open_experiment("corner_game", {"mu": 0.8})
     assert {each.name.partition(".")[0] for each in found.parameters()} <= {"mu", "seed", "laws"}

@@ -229,6 +229,16 @@ def test_a_file_without_parameters_and_a_failing_value_are_said(file):
     assert desk.panel.said == ("no such value", "error")
 
 
+def test_a_range_of_a_law_that_can_not_be_is_said(file, tmp_path):
+    path = tmp_path / "odd.py"
+    path.write_text(FILE.replace('"m/s")] = 0.1', '"m/s")] = 9'))
+    desk = Desk(file)
+    desk.experiment = open_experiment(path)
+    desk.draw()
+    assert desk.panel.parameters() == {}
+    assert "the default of go(speed) = 9: expected a number >= 0" in desk.panel._words()[0]
+
+
 # -- a window ---------------------------------------------------------------------------------
 
 
