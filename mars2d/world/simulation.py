@@ -59,8 +59,8 @@ class Simulation(State):
         settings: Mapping[str, Any],
     ) -> None:
         """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
-        super().__init__(scenario, seed, storage)
-        self.filename, self.settings = whole(filename), settings
+        super().__init__(scenario, seed, storage, settings)
+        self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
         self.engine_seconds = 0.0
         self._drawn = Scene()  # by the add-ons, at the end
@@ -157,7 +157,6 @@ class Simulation(State):
             self.filename,
             Scene([*self._drawn.shapes]),
             self.operator.log,
-            self.settings,
         )
 
     @property

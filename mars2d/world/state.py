@@ -92,15 +92,20 @@ class State(Uncopied):
     recorder: writes the rows. addons: by name.
     """
 
-    def __init__(self, scenario: Scenario, seed: int, storage: Storage) -> None:
-        """Put the bodies where they start. storage: makes the columns of the record."""
+    def __init__(
+        self, scenario: Scenario, seed: int, storage: Storage, settings: Mapping[str, Any]
+    ) -> None:
+        """Put the bodies where they start.
+
+        storage: makes the columns of the record. settings: that it states.
+        """
         self.scenario = scenario
         self.seed = seed
         self.iteration = 0
         self.over = False
         self.over_message = ""
         self.broken_off = False
-        self.recorder = Recorder(scenario, storage, versions)
+        self.recorder = Recorder(scenario, storage, versions, settings)
         self.history = History(self.recorder)
         self.addons = Addons()
         n = len(scenario.robots)

@@ -503,7 +503,7 @@ class _Line:
 
 def settings_of(world: World, done: int | None = None) -> dict[str, Any]:
     """Return the options that hold at the newest row of a world; done: after so many changes."""
-    settings = dict(world.simulation.settings)
+    settings = dict(world.recorder.settings)
     for each in world.operator.log[:done]:
         if isinstance(each, Change):
             settings.update(each.settings)

@@ -7,6 +7,7 @@ import pytest
 
 from mars2d import InputError, load
 from mars2d.cli.command_line import main
+from mars2d.output.formats.mcap import Log
 from mars2d.record.interventions import Change
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.timeline import Timeline, settings_of
@@ -91,6 +92,21 @@ def test_before_the_first_step_a_run_begins_with_the_value_as_if_it_were_its_own
     assert speeds(after(timeline, 3).record) == [0.1] * 2
     timeline.restart()
     assert timeline.experiment.options == {"speed": 0.1}
+
+
+def test_a_log_has_the_settings_of_each_start(tmp_path):
+    path = tmp_path / "file.py"
+    path.write_text(FILE)
+    with Log(tmp_path / "run.mcap") as log:
+        timeline = after(Timeline(open_experiment(path, {"speed": 0.3}), log=log), 5)
+        timeline.set({"mass": 2.0})
+        assert after(timeline, 5).set({"diameter": 0.4})
+        after(timeline, 5).set({"mass": 3.0})
+        after(timeline, 5)
+    record = load(tmp_path / "run.mcap")
+    assert record.settings == {"speed": 0.3, "mass": 2.0, "diameter": 0.4}
+    assert [(each.row, each.settings) for each in record.changes] == [(5, (("mass", 3.0),))]
+    assert rerun(record) is None
 
 
 def test_what_can_not_be_set_changes_nothing(timeline):
