@@ -8,7 +8,7 @@ import numbers
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from math import floor, isfinite, log10
-from typing import Annotated, Any, get_origin
+from typing import Annotated, Any, get_origin, get_type_hints
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import Description, number, real, text, wrong
@@ -169,7 +169,7 @@ def _annotation(
     """Return the Range in an annotation, or None, and the kind of value that it states."""
     if isinstance(annotation, str):
         try:
-            annotation = eval(annotation, getattr(function, "__globals__", {}))
+            annotation = _meant(annotation, getattr(function, "__globals__", {}))
         except Exception as error:
             if "Range" not in annotation:
                 return None, None  # the annotations of others are none of our business
@@ -180,6 +180,15 @@ def _annotation(
         return None, annotation
     bounds = (each for each in annotation.__metadata__ if isinstance(each, Range))
     return next(bounds, None), annotation.__origin__
+
+
+def _meant(annotation: str, names: dict[str, Any]) -> Any:
+    """Return what an annotation in quotes means, where these names are known."""
+
+    def annotated() -> None: ...
+
+    annotated.__annotations__ = {"it": annotation}
+    return get_type_hints(annotated, names, include_extras=True)["it"]
 
 
 def of_arguments(

@@ -221,3 +221,11 @@ def test_a_record_keeps_the_options_that_its_experiment_was_opened_with(file, tm
 
 def test_a_range_says_its_bounds():
     assert repr(Range(0, 1, unit="m")) == "Range(low=0.0, high=1.0, unit='m')"
+
+
+def test_annotations_may_be_postponed(tmp_path):
+    path = tmp_path / "later.py"
+    path.write_text("from __future__ import annotations\n" + FILE)
+    found = names(open_experiment(path))
+    assert found["mu"] == Parameter("mu", 0.9, 0.9, 0.5, 1.5)
+    assert found["laws.go.speed"].unit == "m/s"
