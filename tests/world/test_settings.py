@@ -167,3 +167,18 @@ def test_an_experiment_without_a_file_takes_values_as_well():
     timeline.undo()
     assert timeline.world.scenario.robots[0].mass == 1.0
     assert timeline.world.scenario.robots[1].controller.args[0] == 0.1
+
+
+def test_a_saved_file_with_another_mass_goes_on_and_keeps_what_was_set(timeline, tmp_path):
+    after(timeline, 5).set({"speed": 0.4})
+    path = tmp_path / "file.py"
+    path.write_text(FILE.replace("mass=1.0", "mass=3.0"))
+    timeline.take(after(timeline, 5).experiment.reopened())
+    assert timeline.world.scenario.robots[0].mass == 3.0
+    record = after(timeline, 10).record
+    assert speeds(record)[6:] == [0.4] * (len(record) - 7)
+    assert [(each.row, dict(each.settings)) for each in record.changes] == [
+        (5, {"speed": 0.4}),
+        (10, {}),
+    ]
+    assert rerun(record) is None
