@@ -105,6 +105,8 @@ class ParameterPanel(Panel):
         self._next = self._clicked = 0.0  # when it may be set; when the last click was
         self._scroll = 0.0  # points
         self._room = 0.0
+        self._image: pygame.Surface | None = None
+        self._drawn: tuple[object, ...] = ()
 
     # -- what there is ------------------------------------------------------------------------
 
@@ -140,8 +142,21 @@ class ParameterPanel(Panel):
     # -- drawing ------------------------------------------------------------------------------
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
-        """Draw the content within a rectangle."""
-        ui, lines = self.painter.ui, self._look()
+        """Draw the content within a rectangle; what was drawn is kept until it changes."""
+        lines, painter = self._look(), self.painter
+        state = (
+            rect.copy(), painter.ui, painter.theme, lines, self.focus, self.typed, self._words(),
+            self._held, self._value, self._scroll,
+        )  # fmt: skip
+        if self._image is None or state != self._drawn:
+            self._draw(surface, rect, lines)
+            self._drawn = *state[:-1], self._scroll
+            self._image = surface.subsurface(rect.clip(surface.get_rect())).copy()
+        else:
+            surface.blit(self._image, rect)
+
+    def _draw(self, surface: pygame.Surface, rect: pygame.Rect, lines: list[Line]) -> None:
+        ui = self.painter.ui
         below = self._draw_words(surface, rect)
         room = pygame.Rect(rect.left, rect.top, rect.width, rect.height - below)
         whole = sum(line.height for line in lines)
