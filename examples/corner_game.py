@@ -12,9 +12,11 @@ ahead       10 10 10 10 10  5 7 10 10 10    0 2 3 3 10
 inside      10 10 10 10 10  0 10 10 10 10   0 0 0 10 10
 """
 
+from typing import Annotated
+
 import numpy as np
 
-from mars2d import Animation, Holonomic, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Range, Robot, Scenario, load_law
 from mars2d.addons import Game
 
 SPEED, APART = 0.5, 4.0  # m/s, of the evader; m, between the starts at least
@@ -29,7 +31,7 @@ def starts(seed):
 
 
 def scenario(
-    mu: float = 0.9,
+    mu: Annotated[float, Range(0.3, 1.5)] = 0.9,
     pursuer: str = "corner_pursuers/straight.py",
     evader: str = "corner_evaders/corners.py",
     seed: int = 0,

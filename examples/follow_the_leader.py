@@ -6,8 +6,9 @@ v = k (d - d0), omega = k_a a, where d is the distance, d0 the one to keep, and 
 """
 
 from math import atan2, cos, hypot, pi
+from typing import Annotated
 
-from mars2d import Animation, Robot, Scenario
+from mars2d import Animation, Range, Robot, Scenario
 from mars2d.geometry import wrap
 
 SPEED, SIDE, GAP = 0.4, 5.0, 0.6
@@ -32,7 +33,7 @@ def follow(robot):
     return 1.5 * (hypot(dx, dy) - GAP) * cos(bearing), 2.0 * bearing
 
 
-def scenario(followers: int = 4):
+def scenario(followers: Annotated[int, Range(1, 8)] = 4):
     leader = Robot(name="leader", pose=(-2.5, -3, 0), controller=lead, color="#d55e00")
     team = [
         Robot(name=f"follower{k}", pose=(-2.5 - GAP * k, -3, 0), controller=follow)

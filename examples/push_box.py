@@ -9,17 +9,20 @@ Measured: each box's speed after 1 s and its path, and the contact's force at th
 friction of the second box is 1.9 % below F, that of the third 2 % above.
 """
 
+from typing import Annotated
+
 import numpy as np
 
-from mars2d import Animation, Prediction, Robot, Scenario, Unicycle
+from mars2d import Animation, Prediction, Range, Robot, Scenario, Unicycle
 from mars2d.bodies import Box
 from mars2d.core.materials import GRAVITY
 
 SPEED = 0.2  # m/s
 MASSES, LANES = (0.5, 1.0, 1.04, 2.0), (1.5, 0.5, -0.5, -1.5)  # kg, m
+N = Range(0.5, 20, unit="N")
 
 
-def scenario(mu: float = 0.5, force: float = 5.0):
+def scenario(mu: Annotated[float, Range(0, 1.5)] = 0.5, force: Annotated[float, N] = 5.0):
     pusher = Robot(diameter=0.3, drive=Unicycle(max_force=force), color="#0072b2")
     box = Box(length=0.4, width=0.4, ground_friction=mu, color="#e69f00")
     return Scenario(

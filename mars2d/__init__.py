@@ -24,6 +24,7 @@ from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import load_law
 from mars2d.scenario.material_pair import MaterialPair
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.scenario.parameters import Range
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -55,6 +56,7 @@ __all__ = [
     "Nearest",
     "Neighbourhood",
     "Prediction",
+    "Range",
     "Record",
     "Robot",
     "Scenario",

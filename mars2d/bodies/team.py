@@ -72,18 +72,31 @@ class Drives:
                     f"at most a million sampling times of {sampling_time:g} s",
                 )  # fmt: skip
         self.dead_time = np.array([drive.dead_time for drive in drives.values()])
-        self._sampling_time = sampling_time
-        column = {name: i for i, name in enumerate(drives)}
-        self._teams = []
-        for drive, names in _grouped(drives):
-            columns = np.array([column[name] for name in names])
-            streams = [stream(f"drive {name}") for name in names] if drive.noise else []
-            noise = _White(streams, sampling_time) if streams else None
-            everybody = len(names) == len(drives)
-            self._teams.append(_Team(drive, None if everybody else columns, noise))
-        self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
+        self._sampling_time, self._stream = sampling_time, stream
+        self._drives: Mapping[str, Drive] = {}
+        self._noisy: list[_Team] = []
+        self.renew(drives)
         self.cuts = Cuts(len(drives))
         self._reached = np.zeros((2, len(drives)))  # the commands that actuators have got to
+
+    def renew(self, drives: Mapping[str, Drive]) -> None:
+        """Take other drives of the same robots; those with noise must be the same as before.
+
+        The actuators go on from the commands that they have got to.
+        """
+        if drives == self._drives:
+            return
+        column = {name: i for i, name in enumerate(drives)}
+        before = self._noisy
+        self._drives, self._teams = drives, []
+        for drive, names in _grouped(drives):
+            columns = np.array([column[name] for name in names])
+            streams = [self._stream(f"drive {name}") for name in names] if drive.noise else []
+            noise = _White(streams, self._sampling_time) if streams else None
+            everybody = len(names) == len(drives)
+            noise = next((team.noise for team in before if team.drive == drive), noise)
+            self._teams.append(_Team(drive, None if everybody else columns, noise))
+        self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
         self._noisy = [team for team in self._teams if team.noise is not None]
 
     def limit(self, command: Float, last: Float) -> Float:

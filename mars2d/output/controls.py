@@ -41,6 +41,12 @@ CONTROLS = {
         "K",
         "M3.5 15a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0M11.5 9a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0",
     ),
+    "parameters": Control(
+        "Parameters",
+        "F2",
+        "M4 7h7M17 7h3M4 17h3M13 17h7M11 7a3 3 0 1 0 6 0a3 3 0 1 0-6 0"
+        "M7 17a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
+    ),
     "drive": Control(
         "Drive by hand",
         "H",

@@ -74,16 +74,18 @@ class Steer:
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """The scenario was changed: obstacles, workspace, add-ons that only draw, or laws.
+    """The scenario was changed: obstacles, workspace, masses, friction, drives or laws.
 
     moved: bodies that were moved at the same time, by index in `Scenario.bodies`, and their poses.
-    control: the law of the team from then on, which files do not keep.
+    control: the law of the team from then on, which files do not keep. settings: the parameters
+    that were set, if that is what changed it, by their names for ``--set``, with their values.
     """
 
     row: int
     scenario: Scenario
     moved: tuple[tuple[int, Triple], ...] = ()
     control: Callable[[Any], Any] | None = field(default=None, compare=False)
+    settings: tuple[tuple[str, Any], ...] = ()
 
 
 Intervention = Place | Pull | Steer | Change
@@ -106,6 +108,8 @@ def leaps_of(done: Iterable[Intervention]) -> tuple[Leap, ...]:
 def to_plain(intervention: Intervention) -> dict[str, Any]:
     """Return an intervention as dicts, lists, text and numbers."""
     kept = [each.name for each in fields(intervention) if each.name != "control"]
+    if not getattr(intervention, "settings", ()):
+        kept = [name for name in kept if name != "settings"]
     values = {
         name: serialize.from_description(pictures.enclosed(getattr(intervention, name)))
         for name in kept
@@ -120,11 +124,13 @@ def of_plain(data: Any) -> Intervention:
 
 
 def of_one_hand(before: Intervention, after: Intervention) -> bool:
-    """Return whether two interventions in turn belong to one pull, or to one drive."""
+    """Return whether two interventions in turn belong to one pull, one drive, or one slider."""
     if isinstance(before, Pull) and isinstance(after, Pull):
         return before.body == after.body and before.target is not None
     if isinstance(before, Steer) and isinstance(after, Steer):
         return before.robot == after.robot and before.driven
+    if isinstance(before, Change) and isinstance(after, Change) and after.settings:
+        return [name for name, _ in before.settings] == [name for name, _ in after.settings]
     return False
 
 
@@ -148,6 +154,7 @@ def check(done: Sequence[Intervention], scenario: Scenario, rows: int) -> None:
             sound &= [body.name for body in each.scenario.bodies] == [
                 body.name for body in scenario.bodies
             ]
+            sound &= all(len(pair) == 2 and isinstance(pair[0], str) for pair in each.settings)
         if not (sound and _is_index(each.row, rows + 1) and each.row >= before):
             raise ValueError(type(each).__name__)
         before = each.row

@@ -69,7 +69,9 @@ class Record:
     `content` refers. over_message: why the run ended. finished: False if an error or Ctrl-C ended
     the run, or while it goes on. drawn: the add-ons' drawing at the end, which files do not keep.
     missing: the user's own parts that a file could not hold. interventions: changes that were made
-    to the world from outside, in order; `scenario` is the one at the start. branches: runs in a
+    to the world from outside, in order; `scenario` is the one at the start. settings: the options
+    with which the experiment was opened, by the names of ``--set``; files keep numbers, texts, and
+    lists of these. branches: runs in a
     window that were left for this one, which are kept in files of their own.
     """
 
@@ -96,6 +98,7 @@ class Record:
     drawn: Scene = field(default_factory=Scene, repr=False)
     missing: tuple[str, ...] = ()
     interventions: tuple[Intervention, ...] = ()
+    settings: Mapping[str, Any] = field(default_factory=dict)
     branches: tuple[Record, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
@@ -141,12 +144,27 @@ class Record:
     @cached_property
     def energy(self) -> Energy:
         """The kinetic energy of each body in each row, and the work that has made it, J."""
-        return energy_of(self.scenario, self._poses, self._velocities, self.work)
+        kinetic = [
+            energy_of(scenario, self._poses[rows], self._velocities[rows], self.work).kinetic
+            for scenario, rows in self._spans
+        ]
+        return Energy(np.concatenate(kinetic), self.work)
 
     @cached_property
     def momentum(self) -> Momentum:
         """The momentum of each body in each row, N s, and the angular one of all, N m s."""
-        return momentum_of(self.scenario, self._poses, self._velocities)
+        found = [
+            momentum_of(scenario, self._poses[rows], self._velocities[rows])
+            for scenario, rows in self._spans
+        ]
+        return Momentum(*map(np.concatenate, zip(*found, strict=True)))
+
+    @property
+    def _spans(self) -> list[tuple[Scenario, slice]]:
+        """The rows between changes, with the scenario that holds in them."""
+        begins = sorted({0, *(change.row for change in self.changes)})
+        ends = [*begins[1:], len(self)]
+        return [(self.scenario_at(a), slice(a, b)) for a, b in zip(begins, ends, strict=True)]
 
     @property
     def _poses(self) -> Float:

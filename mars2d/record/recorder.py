@@ -96,13 +96,15 @@ class Recorder:
         scenario: Scenario,
         storage: Storage = Column,
         versions: Callable[[], Mapping[str, str]] = dict,
+        settings: Mapping[str, Any] | None = None,
     ) -> None:
         """Make the columns for the robots and sensors of a scenario.
 
         storage: makes columns, in memory or in files. versions: returns the versions of the
-        software on which the numbers depend, for the record.
+        software on which the numbers depend, for the record. settings: the options that the
+        experiment was opened with, for the record.
         """
-        self.versions = versions
+        self.versions, self.settings = versions, dict(settings or {})
         n, props = len(scenario.robots), len(scenario.props)
         capacity = min(scenario.last_iteration + 1, 4096)
         self._columns = {
@@ -260,6 +262,7 @@ class Recorder:
             versions=self.versions(),
             drawn=drawn,
             interventions=tuple(each for each in interventions if each.row < self.rows),
+            settings=self.settings,
         )
 
     def _messages_as_of(self, now: float) -> NDArray[np.void]:

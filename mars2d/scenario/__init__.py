@@ -9,6 +9,7 @@ from mars2d.scenario.experiment import (
     open_module,
 )
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.scenario.parameters import Range
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -22,6 +23,7 @@ __all__ = [
     "Nearest",
     "Neighbourhood",
     "Prediction",
+    "Range",
     "Robot",
     "Scenario",
     "Within",

@@ -3,30 +3,46 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import norms
+from mars2d.core.description import Description
 from mars2d.core.errors import InputError, counted
 from mars2d.core.plane import Outline, lines_and_areas, outside_polygon
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.starts import footprint
 
-__all__ = ["check_same", "obstruction", "with_poses"]
+__all__ = ["check_same", "moves_alike", "obstruction", "with_poses"]
 
 Float = NDArray[np.float64]
 
 FREE = frozenset(
-    {"title", "robots", "props", "workspace", "on_exit", "stop_time", "addons", "animation"}
+    {"title", "robots", "props", "joints", "workspace", "on_exit", "stop_time", "addons"}
+    | {"animation"}
 )
-"""Fields of a scenario that may change; robots, props and add-ons in some ways only."""
+"""Fields of a scenario that may change; robots, props, joints and add-ons in some ways only."""
 
-FREE_OF_BODIES = frozenset({"pose", "color"})
-FREE_OF_ROBOTS = FREE_OF_BODIES | {"controller"}
+MECHANICAL = frozenset(
+    {"mass", "moment", "material", "friction", "restitution", "static_friction"}
+    | {"ground_friction", "static_ground_friction"}
+)
+"""Fields of bodies that may change, and with which the engine begins anew."""
+
+FREE_OF_BODIES = MECHANICAL | {"pose", "color"}
+FREE_OF_ROBOTS = FREE_OF_BODIES | {"drive", "controller"}
+
+FIXED_OF_DRIVES = frozenset({"noise", "dead_time"})
+"""Fields of drives that may not change; of a drive with noise, none may."""
+
+FREE_OF_JOINTS = frozenset({"stiffness", "damping"})
+"""Fields of joints that may change."""
 
 
 def check_same(before: Scenario, after: Scenario) -> None:
@@ -35,13 +51,33 @@ def check_same(before: Scenario, after: Scenario) -> None:
         if field.name not in FREE and getattr(before, field.name) != getattr(after, field.name):
             raise _needs_new_start(f"Scenario.{field.name} is another one")
     _check_bodies("robots", FREE_OF_ROBOTS, before, after)
+    for one, other in zip(before.robots, after.robots, strict=True):
+        _check_drive(f"drive of {one.name}", one.drive, other.drive)
     _check_bodies("props", FREE_OF_BODIES, before, after)
+    _check_joints(before, after)
     busy = [{a.key: a for a in scenario.addons if a.acts} for scenario in (before, after)]
     for key in sorted({*busy[0], *busy[1]}):
         if busy[0].get(key) != busy[1].get(key):
             raise _needs_new_start(
                 f"the add-on {key!r}, which does something at each step, is another one"
             )
+
+
+def moves_alike(before: Scenario, after: Scenario) -> bool:
+    """Return whether bodies and joints of both scenarios answer forces in the same way.
+
+    For a scenario that `check_same` lets pass: else an engine has to begin anew.
+    """
+    if before.joints != after.joints:
+        return False
+    pairs = [*zip(before.robots, after.robots, strict=True)]
+    if any(one.drive != other.drive for one, other in pairs):
+        return False
+    return all(
+        getattr(one, name, None) == getattr(other, name, None)
+        for one, other in [*pairs, *zip(before.props, after.props, strict=True)]
+        for name in MECHANICAL
+    )
 
 
 def _check_bodies(name: str, free: frozenset[str], before: Scenario, after: Scenario) -> None:
@@ -51,10 +87,36 @@ def _check_bodies(name: str, free: frozenset[str], before: Scenario, after: Scen
     for one, other in zip(first, second, strict=True):
         if type(one) is not type(other):
             raise _needs_new_start(f"{one.name} is a {type(other).__name__} now")
-        for field in dataclasses.fields(one):
-            here, there = getattr(one, field.name), getattr(other, field.name)
-            if field.name not in free and here != there:
-                raise _needs_new_start(f"{field.name} of {one.name} is another one")
+        changed = next(_changed(one, other, free), None)
+        if changed is not None:
+            raise _needs_new_start(f"{changed} of {one.name} is another one")
+
+
+def _check_drive(name: str, before: Drive, after: Drive) -> None:
+    if before == after:
+        return
+    if type(before).__qualname__ != type(after).__qualname__:
+        raise _needs_new_start(f"{name} is another one")
+    if before.noise:
+        raise _needs_new_start(f"{name} is another one, and has noise")
+    for field in FIXED_OF_DRIVES:
+        if getattr(before, field) != getattr(after, field):
+            raise _needs_new_start(f"{name} has another {field}")
+
+
+def _check_joints(before: Scenario, after: Scenario) -> None:
+    same = [type(joint) for joint in before.joints] == [type(joint) for joint in after.joints]
+    pairs = zip(before.joints, after.joints, strict=False)
+    if not same or any(any(_changed(one, other, FREE_OF_JOINTS)) for one, other in pairs):
+        raise _needs_new_start("Scenario.joints is another one")
+
+
+def _changed(before: Description, after: Description, free: frozenset[str]) -> Iterator[str]:
+    """Yield the fields that differ, except those that are free; both are of one class."""
+    for field in dataclasses.fields(before):
+        here, there = getattr(before, field.name), getattr(after, field.name)
+        if field.name not in free and here != there:
+            yield field.name
 
 
 def _needs_new_start(what: str) -> InputError:
@@ -84,15 +146,6 @@ def with_poses(scenario: Scenario, poses: Float) -> Scenario:
         if scenario.physics == "ideal":
             return scenario
         raise
-
-
-def with_body(scenario: Scenario, body: int, **fields: Any) -> Scenario:
-    """Return the scenario with other fields of a robot or prop: an index of `Scenario.bodies`."""
-    n = len(scenario.robots)
-    return scenario.replace(
-        robots=[r.replace(**fields) if i == body else r for i, r in enumerate(scenario.robots)],
-        props=[p.replace(**fields) if i + n == body else p for i, p in enumerate(scenario.props)],
-    )
 
 
 def without_body(scenario: Scenario, body: int) -> Scenario:

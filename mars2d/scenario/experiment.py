@@ -7,7 +7,6 @@ import difflib
 import importlib.util
 import inspect
 import itertools
-import numbers
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -32,8 +31,11 @@ from mars2d.core.errors import (
 from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
 from mars2d.core.usercode import called, stack_of
+from mars2d.scenario import law_parameters, parameters
+from mars2d.scenario.law_parameters import PREFIX
 from mars2d.scenario.map_option import MapOption, reading_options
 from mars2d.scenario.options import override
+from mars2d.scenario.parameters import Parameter
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.scenario import Scenario
 
@@ -71,9 +73,12 @@ class Experiment:
 
     filename: the file's name, or empty. checks: the function of the record that compares a run with
     theory, or None. summary: the first line of the file's docstring, or empty. path: of the file,
-    or None. opened: opens the experiment anew, with laws that share nothing with these; None if it
-    does not come from a file alone. files: all files read for it. functions: the public functions
-    that its file defines, by name.
+    or None. options: those that it was opened with. opened: opens it anew with other options, or
+    None. alone: whether its laws then share nothing with these, since its file is run anew.
+    function: that has made the scenario, or None. seed: that it was opened with, or None. plain:
+    the experiment without those options that set fields and laws, if there are any. files: all
+    files read for it; written: when these were written, ns. functions: the public functions that
+    its file defines, by name.
     """
 
     scenario: Scenario
@@ -82,8 +87,14 @@ class Experiment:
     checks: Callable[[Any], Any] | None = None
     summary: str = ""
     path: Path | None = None
-    opened: Callable[[], Experiment] | None = None
+    options: Mapping[str, Any] = field(default_factory=dict)
+    opened: Callable[[Mapping[str, Any]], Experiment] | None = None
+    alone: bool = False
+    function: Callable[..., Any] | None = None
+    seed: int | None = None
+    plain: Experiment | None = None
     files: frozenset[Path] = frozenset()
+    written: Mapping[Path, int] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
 
     def reopened(self) -> Experiment:
@@ -91,18 +102,76 @@ class Experiment:
 
         Raises InputError, as `open_experiment` does, if the file has an error by now.
         """
-        return self if self.opened is None else self.opened()
+        return self if self.opened is None or not self.alone else self.opened(self.options)
+
+    def with_options(self, options: Mapping[str, Any]) -> Experiment:
+        """Return the experiment opened anew with these options, which replace those of before.
+
+        Raises InputError, as `open_experiment` does.
+        """
+        if self.opened is None:
+            return open_experiment(self.scenario, options, self.control)
+        return self.opened(options)
+
+    def decides_as(self, other: Experiment) -> bool:
+        """Return whether it has the same laws and add-ons, so far as can be told.
+
+        They come from the same version of the same files, and their arguments are the same.
+        """
+        return (
+            self.written == other.written
+            and len(self._laws) == len(other._laws)
+            and all(map(law_parameters.same, self._laws, other._laws))
+            and self.scenario.addons == other.scenario.addons
+        )
 
     def redrawn(self, scenario: Scenario) -> Experiment:
-        """Return the experiment with another scenario; robots of the same names keep their laws."""
+        """Return the experiment with another scenario; robots of the same names keep their laws.
+
+        Options that are set later change its fields and laws, but no parameters of a function.
+        """
         laws = {robot.name: robot.controller for robot in self.scenario.robots}
         robots = [r.replace(controller=laws.get(r.name, r.controller)) for r in scenario.robots]
-        opened = self.opened
-        return dataclasses.replace(
-            self,
-            scenario=scenario.replace(robots=robots),
-            opened=None if opened is None else lambda: opened().redrawn(scenario),
-        )
+
+        def opened(options: Mapping[str, Any]) -> Experiment:
+            fields, of_laws = _split({k: v for k, v in options.items() if before.get(k) != v})
+            again = self.with_options({**before, **of_laws}) if self.alone or of_laws else self
+            again = again.redrawn(scenario)
+            set_too = _set(again.scenario, fields, None)
+            return dataclasses.replace(
+                again, scenario=set_too, options=options, opened=opened, plain=again
+            )
+
+        before = self.options
+        drawn = scenario.replace(robots=robots)
+        return dataclasses.replace(self, scenario=drawn, opened=opened, plain=None, function=None)
+
+    def parameters(self, body: int | None = None) -> list[Parameter]:
+        """Return the numbers that can be set: of the scenario function, and of laws.
+
+        body: an index of `Scenario.bodies`, for the parameters of that robot or prop instead. An
+        argument of a law is left out if the scenario function has one of its name, which sets it.
+        """
+        plain = self if self.plain is None else self.plain
+        if body is not None:
+            return [*parameters.of_body(self.scenario, plain.scenario, body)]
+        made, given = self.function, self.options
+        own = [] if made is None else [*parameters.of_arguments(made, given, self.seed)]
+        names = {each.name for each in own}
+        laws = law_parameters.of_laws(self._laws, plain._laws)
+        return own + [each for each in laws if each.name.rpartition(".")[2] not in names]
+
+    @property
+    def _laws(self) -> list[Callable[[Any], Any] | None]:
+        """The team's law, then those of the robots."""
+        return [self.control, *(robot.controller for robot in self.scenario.robots)]
+
+    def _with_laws(self, settings: Mapping[str, Any]) -> Experiment:
+        """Return the experiment with other values of its laws' arguments."""
+        control, *own = law_parameters.with_settings(self._laws, settings)
+        robots = zip(self.scenario.robots, own, strict=True)
+        scenario = self.scenario.replace(robots=[r.replace(controller=law) for r, law in robots])
+        return dataclasses.replace(self, scenario=scenario, control=control)
 
     def predictions(self, record: Run) -> tuple[Prediction, ...]:
         """Return the predictions that `checks` compares with a run; none without `checks`.
@@ -149,7 +218,8 @@ def open_experiment(
     """Return the experiment that `source` names, with its fields overridden by `options`.
 
     source: a file (.py, or .toml of a scenario), the name of a shipped example, a module, or a
-    Scenario. options: values by dotted names of fields, or by parameters of a scenario function.
+    Scenario. options: values by dotted names of fields, by parameters of a scenario function, or
+    by arguments of laws, for example ``laws.follow.gain``.
     ``map`` is a file whose walls replace those of the experiment, or a Map; options such as
     ``map.unit`` say how to read it. control: the law of the team, instead of the experiment's own.
     seed: of the run. A scenario function with a parameter ``seed`` gets it unless the options set
@@ -157,38 +227,63 @@ def open_experiment(
     """
     if options is not None and not isinstance(options, Mapping):
         raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
-    given = options or {}
+    given = dict(options or {})
+    rest, of_laws = _split(given)
     with files_read() as files:
-        experiment = _opened(source, given, control, seed)
-    if control is None and isinstance(source, (str, Path)):
-        opened = partial(open_experiment, source, dict(given), seed=seed)
-        return dataclasses.replace(experiment, opened=opened, files=frozenset(files))
-    return experiment
+        plain, chart = _opened(source, rest, control, seed)
+        try:
+            scenario = _set(plain.scenario, rest, chart)
+            same = scenario is plain.scenario
+            experiment = plain if same else dataclasses.replace(plain, scenario=scenario)
+            if of_laws:
+                experiment = experiment._with_laws(of_laws)
+        except Mars2dError as error:
+            error.where = error.where or plain.filename or None
+            raise
+    return dataclasses.replace(
+        experiment,
+        options=given,
+        opened=partial(open_experiment, source, control=control, seed=seed),
+        alone=control is None and isinstance(source, (str, Path)),
+        seed=seed,
+        plain=None if experiment is plain else plain,
+        files=frozenset(files) if control is None else experiment.files,
+        written={path: path.stat().st_mtime_ns for path in files if path.exists()},
+    )
+
+
+def _split(options: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the options that are not of laws, and those that are."""
+    of_laws = {name: value for name, value in options.items() if str(name).startswith(PREFIX)}
+    return {name: value for name, value in options.items() if name not in of_laws}, of_laws
 
 
 def _opened(
     source: str | Path | ModuleType | Scenario,
-    given: Mapping[str, Any],
+    options: dict[str, Any],
     control: Callable[[Any], Any] | None,
     seed: int | None,
-) -> Experiment:
-    options = dict(given)
+) -> tuple[Experiment, MapOption | None]:
+    """Return an experiment without fields set, and the map that is to be.
+
+    Those of the options that its scenario function takes, and a map's, are taken out.
+    """
     if isinstance(source, Scenario):
-        chart = MapOption.popped(options, Path())
-        return Experiment(_set(source, options, chart), control)
+        return Experiment(source, control), MapOption.popped(options, Path())
     if isinstance(source, ModuleType):
         module, name = source, getattr(source, "__file__", None) or source.__name__
     elif isinstance(source, (str, Path)):
         path = _find(source)
         if path.suffix.lower() == ".toml":
-            return _of_scenario_file(path, given, control)
+            return _of_scenario_file(path, control), MapOption.popped(options, path)
         module, name = _load(path), str(path)
     else:
         raise InputError(
             f"experiment = {shown(source)}: expected a file, the name of an example, or a Scenario"
         )
     try:
-        scenario = _scenario_of(module, options, Path(name), seed)
+        chart = MapOption.popped(options, Path(name))
+        scenario, function, chart = _scenario_of(module, options, chart, seed)
         own = getattr(module, "control", None)
         if own is not None:
             checks.law("control", own, "the world")
@@ -206,24 +301,17 @@ def _opened(
         for key, value in vars(module).items()
         if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
     }
-    return Experiment(
-        scenario, law, Path(name).name, check, summary, path=lies, functions=functions
+    opened = Experiment(
+        scenario, law, Path(name).name, check, summary, lies, functions=functions, function=function
     )
+    return opened, chart
 
 
-def _of_scenario_file(
-    path: Path, options: Mapping[str, Any], control: Callable[[Any], Any] | None
-) -> Experiment:
+def _of_scenario_file(path: Path, control: Callable[[Any], Any] | None) -> Experiment:
     from mars2d.scenario import toml_file
 
     note_file(path)
     scenario, own = toml_file.read(path)
-    rest = dict(options)
-    try:
-        scenario = _set(scenario, rest, MapOption.popped(rest, path))
-    except Mars2dError as error:
-        error.where = error.where or path.name
-        raise
     law = own if control is None else control
     return Experiment(scenario, law, path.name, path=path.absolute())
 
@@ -233,11 +321,14 @@ def open_module(source: str | Path) -> ModuleType:
     return _load(_find(source))
 
 
-def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
+def load_law(
+    path: str | Path, name: str = "control", *arguments: Any, **values: Any
+) -> Callable[[Any], Any]:
     """Return the law called `name` from a file: a function or generator of the robot.
 
     path: a relative path is looked for beside the file that calls this, then in the current folder.
-    Each call runs the file anew, so that robots with the same law share nothing. Raises InputError,
+    arguments, values: of the function, before the robot and by name, as for functools.partial. Each
+    call runs the file anew, so that robots with the same law share nothing. Raises InputError,
     which points at file and line.
     """
     if not isinstance(path, (str, Path)):
@@ -245,24 +336,37 @@ def load_law(path: str | Path, name: str = "control") -> Callable[[Any], Any]:
     if not isinstance(name, str):
         raise wrong("load_law(name)", name, "the name of a function, as 'control'")
     caller = Path(sys._getframe(1).f_code.co_filename)
-    return law_in(file_beside(Path(path), caller, "a law", [".py"]), name)
+    file = file_beside(Path(path), caller, "a law", [".py"])
+    return law_in(file, name, given=(arguments, values))
 
 
-def law_in(file: Path, name: str, subject: str = "the robot") -> Callable[[Any], Any]:
-    """Return the law called `name` in a file, which is run anew; `subject`: the robot or world."""
+def law_in(
+    file: Path,
+    name: str,
+    subject: str = "the robot",
+    given: tuple[Sequence[Any], Mapping[str, Any]] = ((), {}),
+) -> Callable[[Any], Any]:
+    """Return the law called `name` in a file, which is run anew.
+
+    subject: the robot or world. given: the arguments of the function that are given.
+    """
     module = _load(file, "a law")
     try:
-        return _law_of(module, name, subject)
+        return _law_of(module, name, subject, *given)
     except InputError as error:
         error.where = file.name
         raise
 
 
-def _law_of(module: ModuleType, name: str, subject: str) -> Callable[[Any], Any]:
+def _law_of(
+    module: ModuleType, name: str, subject: str, args: Sequence[Any], values: Mapping[str, Any]
+) -> Callable[[Any], Any]:
     law = getattr(module, name, None)
     if law is None:
         functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
         raise InputError(f"has no law {name!r}{nearest(name, functions)}")
+    if (args or values) and callable(law):
+        law = partial(law, *args, **values)
     checks.law(name, law, subject)
     return cast("Callable[[Any], Any]", law)
 
@@ -349,9 +453,12 @@ def _line_in(error: BaseException, path: Path) -> str:
 
 
 def _scenario_of(
-    module: ModuleType, options: dict[str, Any], path: Path, seed: int | None
-) -> Scenario:
-    """Return a module's scenario, made by its scenario function if it has one."""
+    module: ModuleType, options: dict[str, Any], chart: MapOption | None, seed: int | None
+) -> tuple[Scenario, Callable[..., Any] | None, MapOption | None]:
+    """Return a module's scenario, its scenario function if it has one, and the map that is to be.
+
+    Options that the function takes are taken out, and so is the map.
+    """
     names = [name for name in vars(module) if not name.startswith("__")]
     if not hasattr(module, "scenario"):
         close = difflib.get_close_matches("scenario", set(names) - {"Scenario"}, n=1)
@@ -359,22 +466,21 @@ def _scenario_of(
         raise InputError(
             f"has no `scenario`: an experiment's file needs `scenario = Scenario(...)`{hint}"
         )
-    scenario = module.scenario
-    chart = MapOption.popped(options, path)
+    scenario, function = module.scenario, None
     if isinstance(scenario, type):
         kind = scenario.__name__
         raise InputError(f"scenario = {kind}: expected an object; write {kind}(...)")
     if callable(scenario) and not isinstance(scenario, Scenario):
-        parameters = inspect.signature(scenario).parameters
-        if chart is not None and "map" in parameters:
-            options["map"] = chart.value_for(parameters["map"].default)
+        function, takes = scenario, inspect.signature(scenario).parameters
+        if chart is not None and "map" in takes:
+            options["map"] = chart.value_for(takes["map"].default)
             chart = None
-        if seed is not None and "seed" in parameters:
+        if seed is not None and "seed" in takes:
             options.setdefault("seed", seed)
-        scenario = _call_scenario(scenario, options)
+        scenario = _call_scenario(function, options)
     if not isinstance(scenario, Scenario):
         raise InputError(f"scenario = {shown(scenario)}: expected a Scenario, or a function of one")
-    return _set(scenario, options, chart)
+    return scenario, function, chart
 
 
 def _set(scenario: Scenario, options: Mapping[str, Any], chart: MapOption | None) -> Scenario:
@@ -384,27 +490,31 @@ def _set(scenario: Scenario, options: Mapping[str, Any], chart: MapOption | None
 
 def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any:
     """Call a scenario function with those of the options that are its parameters."""
-    parameters = inspect.signature(function).parameters
-    chosen = {name: options.pop(name) for name in list(options) if name in parameters}
+    takes, numeric = inspect.signature(function).parameters, parameters.arguments_of(function)
+    chosen = {name: options.pop(name) for name in list(options) if name in takes}
     fields = {f.name for f in dataclasses.fields(Scenario)}
     for name in options:
         if name.partition(".")[0] not in fields:
-            known = [*parameters, *fields, *(f"map.{option}" for option in reading_options())]
+            known = [*takes, *fields, *(f"map.{option}" for option in reading_options())]
             raise InputError(f"there is no option {name!r}{nearest(name, known)}")
     missing = [
         name
-        for name, p in parameters.items()
+        for name, p in takes.items()
         if p.default is p.empty
         and name not in chosen
         and p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)
     ]
     if missing:
         raise InputError(
-            f"scenario({', '.join(parameters)}) needs {missing[0]!r}: give it a default, "
+            f"scenario({', '.join(takes)}) needs {missing[0]!r}: give it a default, "
             f"or set it with --set {missing[0]}=..."
         )
     for name, value in chosen.items():
-        _check_kind(name, value, parameters[name].default)
+        if name in numeric:
+            numeric[name].check(f"scenario({name})", value)
+        elif isinstance(takes[name].default, bool) and isinstance(value, str):
+            expected = f"True or False; its default is {takes[name].default}"
+            raise wrong(f"scenario({name})", value, expected)
     try:
         return function(**chosen)
     except BaseException as error:
@@ -419,12 +529,3 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
             given = "".join(f", with {name} = {shown(value)}" for name, value in unsaid.items())
             problem.where = f"{_line_in(error, Path(code.co_filename))}{given}"
         raise problem from error
-
-
-def _check_kind(name: str, value: Any, default: Any) -> None:
-    """Refuse a value that is no number if the default is one, and text if that is a truth value."""
-    if isinstance(default, bool):
-        if isinstance(value, str):
-            raise wrong(f"scenario({name})", value, f"True or False; its default is {default}")
-    elif isinstance(default, numbers.Real) and not isinstance(value, numbers.Real):
-        raise wrong(f"scenario({name})", value, f"a number; its default is {default}")

@@ -8,14 +8,27 @@ from typing import Any
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import Description
 from mars2d.core.usercode import name_of
-from mars2d.scenario.changes import FREE, check_same
+from mars2d.scenario.changes import (
+    FREE,
+    FREE_OF_BODIES,
+    FREE_OF_JOINTS,
+    FREE_OF_ROBOTS,
+    check_same,
+)
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
 __all__ = ["alike", "carried", "check_alike", "merged"]
 
-WHOLE = FREE - {"robots", "props", "addons"}
+WHOLE = FREE - {"robots", "props", "joints", "addons"}
 """Fields of a scenario that may change while its world runs, each as a whole."""
+
+PARTS = {
+    "robots": FREE_OF_ROBOTS - {"controller"},
+    "props": FREE_OF_BODIES,
+    "joints": FREE_OF_JOINTS,
+}
+"""The lists of parts, and the fields of each part that may change."""
 
 
 def alike(first: Any, second: Any) -> bool:
@@ -79,14 +92,26 @@ def carried(fresh: Scenario, kept: Scenario) -> Scenario:
     return fresh.replace(
         **{name: getattr(kept, name) for name in WHOLE},
         addons=[_recognised(read.get(a.key), a) if a.key in read else a for a in kept.addons],
-        robots=_moved(fresh.robots, kept.robots),
-        props=_moved(fresh.props, kept.props),
+        **{
+            name: [
+                one.replace(**_different(one, other, one, free))
+                for one, other in zip(getattr(fresh, name), getattr(kept, name), strict=True)
+            ]
+            for name, free in PARTS.items()
+        },
     )
 
 
-def _moved(fresh: Any, kept: Any) -> list[Any]:
-    """Return bodies with the poses and colours of others."""
-    return [a.replace(pose=b.pose, color=b.color) for a, b in zip(fresh, kept, strict=True)]
+def _different(before: Any, after: Any, of: Any, free: frozenset[str]) -> dict[str, Any]:
+    """Return the free fields that differ in two parts, with the values of the latter.
+
+    of: a part that has them all.
+    """
+    return {
+        field.name: getattr(after, field.name)
+        for field in dataclasses.fields(of)
+        if field.name in free and not alike(getattr(before, field.name), getattr(after, field.name))
+    }
 
 
 def merged(before: Scenario, after: Scenario, live: Scenario) -> Scenario:
@@ -99,10 +124,10 @@ def merged(before: Scenario, after: Scenario, live: Scenario) -> Scenario:
         for name in (*WHOLE, "addons")
         if not alike(getattr(before, name), getattr(after, name))
     }
-    for name in ("robots", "props"):
-        bodies = zip(*(getattr(s, name) for s in (before, after, live)), strict=True)
+    for name, free in PARTS.items():
+        parts = zip(*(getattr(s, name) for s in (before, after, live)), strict=True)
         changes[name] = [
-            there if one.color == other.color else there.replace(color=other.color)
-            for one, other, there in bodies
+            there.replace(**_different(one, other, there, free - {"pose"}))
+            for one, other, there in parts
         ]
     return live.replace(**changes)

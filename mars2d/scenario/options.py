@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mars2d.core.description import Description
-from mars2d.core.errors import InputError, nearest, shown
+from mars2d.core.errors import InputError, nearest, one_line, shown
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["override", "parse_setting"]
+__all__ = ["override", "parse_setting", "settings_in_words"]
 
 
 def override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
@@ -88,6 +88,15 @@ def _index(text: str, items: Sequence[Any], path: tuple[str, ...]) -> int:
             f"there is no option {option!r}: expected * or 0 to {len(items) - 1}{named}"
         )
     return int(text)
+
+
+def settings_in_words(settings: Mapping[str, Any]) -> str:
+    """Return settings in one line.
+
+    >>> settings_in_words({"mu": 0.3, "laws.follow.gain": 2})
+    'mu = 0.3, laws.follow.gain = 2'
+    """
+    return one_line(", ".join(f"{name} = {shown(value)}" for name, value in settings.items()))
 
 
 def parse_setting(text: str) -> tuple[str, Any]:

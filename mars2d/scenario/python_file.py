@@ -5,7 +5,8 @@ from __future__ import annotations
 import dataclasses
 import sys
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from mars2d.core.description import Description
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
 from mars2d.scenario.law_reference import Reference, seen_from
+from mars2d.scenario.options import settings_in_words
 from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
 from mars2d.scenario.registry import BASES
 from mars2d.scenario.scenario import Scenario
@@ -26,14 +28,18 @@ MAX_TITLE = 90
 
 
 def as_python(
-    scenario: Scenario, control: Law | None = None, folder: Path | str | None = None
+    scenario: Scenario,
+    control: Law | None = None,
+    folder: Path | str | None = None,
+    settings: Mapping[str, Any] | None = None,
 ) -> str:
     r"""Return the text of a Python file that makes a scenario, for `mars2d run`.
 
     Only values that differ from their defaults are written. Laws are loaded from their files, if
-    they are functions at the top of these. Other code is left out, or replaced as in a loaded
-    record, and named in a comment. control: the law of the team. folder: the folder of the file;
-    laws near it get relative paths.
+    they are functions at the top of these, or a functools.partial of one with plain values. Other
+    code is left out, or replaced as in a loaded record, and named in a comment. control: the law of
+    the team. folder: the folder of the file; laws near it get relative paths. settings: the
+    parameters that were set, for a comment.
 
     >>> print(as_python(Scenario(title="Alone", stop_time=5.0)).partition("\n\n")[2])
     from mars2d import Robot, Scenario
@@ -45,9 +51,11 @@ def as_python(
     lister = _Lister(None if folder is None else Path(folder))
     body = [laid_out(_named("scenario = ", lister.call(kept)))]
     if control is not None:
-        body.append(f"control = {lister.law(control)}")
+        body.append(laid_out(_named("control = ", lister.law(control))))
     lost = [*missing, *(f"law {name_of(law)}" for law in lister.lost)]
     notes = [comment(f"{serialize.LOST}: {name}") for name in dict.fromkeys(lost)]
+    if settings:
+        notes.insert(0, comment(f"With {settings_in_words(settings)}"))
     title = comment(kept.title)[2:][:MAX_TITLE].replace("\\", "/").replace('"', "'").strip()
     head = [f'"""{title or "A scenario."}"""', "", *lister.imports(), ""]
     return "\n".join([*head, *notes, *body]) + "\n"
@@ -98,16 +106,26 @@ class _Lister:
             return Brackets("(", items, ",)" if len(items) == 1 else ")", filled=True)
         return Brackets("[", items, "]", filled=True)
 
-    def law(self, law: Law) -> str:
+    def law(self, law: Law) -> Node:
         """Return the call that loads a law; "None" if it can't be found by name."""
-        found = Reference.of(law)
-        if found is None:
+        function, args, values = law, (), {}
+        if isinstance(law, partial):
+            function, args, values = law.func, law.args, law.keywords
+        found = Reference.of(function)
+        plain = all(map(_is_plain, [*args, *values.values()])) and not {"path", "name"} & {*values}
+        if found is None or not plain:
             self.lost.append(law)
             return "None"
         file = found.file if self.folder is None else seen_from(found.file, self.folder)
-        name = "" if found.name == "control" else f", {quoted(found.name)}"
+        items: list[Node] = [quoted(file)]
+        if args or found.name != "control":
+            items.append(quoted(found.name))
+        items += map(self._plain, args)
+        items += [_named(f"{name}=", self._plain(value)) for name, value in values.items()]
         self._names["load_law"] = "mars2d", "load_law"
-        return f"load_law({quoted(file)}{name})"
+        if not (args or values):
+            return f"load_law({', '.join(map(str, items))})"
+        return Brackets("load_law(", items, ")", filled=True)
 
     def _class(self, kind: type[Description]) -> str:
         """Return the name for a class; the later of two with one name gets its family's, too."""
@@ -132,6 +150,13 @@ class _Lister:
             broken = Brackets(f"from {module} import (", sorted(names), ")", filled=True)
             lines.append(line if len(line) <= WIDTH else laid_out(broken))
         return sorted(lines)
+
+
+def _is_plain(value: object) -> bool:
+    """Return whether a value is a number, a word, or a tuple of these: it can be written down."""
+    if isinstance(value, tuple):
+        return all(map(_is_plain, value))
+    return value is None or type(value) in (bool, int, float, str)
 
 
 def _public_module(kind: type) -> str:

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, Mars2dError
 from mars2d.output.raster.painter import Painter
-from mars2d.scenario.changes import with_body, with_poses, without_body
+from mars2d.scenario.changes import with_poses, without_body
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.scenario.scenario import Scenario
@@ -139,13 +139,44 @@ class Director:
             self.change(lambda world: world.hands.place(body, pose))
 
     def scale_mass(self, body: int, factor: float) -> None:
-        """Start anew with a body that is heavier or lighter by a factor."""
-        scenario = self._player.source.scenario
-        mass = scenario.bodies[body].inertia.mass * factor
-        name = scenario.bodies[body].name
-        self._begin_anew(
-            lambda drawn: with_body(drawn, body, mass=mass), f"{name} with a mass of {mass:.4g} kg"
-        )
+        """Go on with a body that is heavier or lighter by a factor, or start anew with it."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        setting, *_ = timeline.experiment.parameters(body)
+        mass, name = setting.value * factor, timeline.scenario.bodies[body].name
+        try:
+            reason = self.set(setting.name, mass)
+        except Mars2dError as error:
+            self._notes.say(str(error), "error")
+            return
+        anew = f"started anew, as {reason}: " if reason else ""
+        self._notes.say(f"{anew}{name} with a mass of {mass:.4g} kg")
+
+    def set(self, name: str, value: float, restart: bool = True) -> str:
+        """Set a parameter; return why the run starts anew, or "".
+
+        restart: whether it may. Raises InputError where it can't have that value, and for a
+        recording; LawError where a law or a sensor fails with it.
+        """
+        timeline = self.timeline
+        if timeline is None:
+            raise InputError(RECORDING)
+        back, branches = timeline.needs_way_back, len(timeline.branches)
+        try:
+            reason = timeline.set({name: value}, self._show_way_back, restart=restart)
+        except Mars2dError:
+            self._player.error = timeline.error
+            self._player.settle()
+            raise
+        if reason and not restart:
+            return reason
+        self._player.error = None
+        if reason or back or not (self._player.playing and timeline.newest):
+            self._player.settle()
+        if not reason and len(timeline.branches) > branches:
+            self._notes.say("a new branch begins here; B shows what was run before")
+        return reason
 
     def remove(self, body: int) -> None:
         """Start anew without a body."""

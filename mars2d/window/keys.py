@@ -83,6 +83,7 @@ SEE = (
 )
 
 DO = (
+    Key("parameters", ("f2",), ("F2",), "parameters of the experiment, as sliders, on and off"),
     Key("drive", ("h",), ("H",), "drive the selected robot by hand: arrow keys, WASD, controller"),
     Key("edit", ("e",), ("E",), "draw walls, robots and more, while paused"),
     Key("undo", ("ctrl+z",), ("Ctrl Z",), "undo the last thing done by hand"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -47,11 +47,16 @@ class Saver:
         """Save a picture."""
         self._try(lambda: f"picture: {save_picture(surface, _here(), self._stem)}")
 
-    def python(self, scenario: Scenario, control: Callable[[Any], Any] | None) -> None:
-        """Save a scenario as a Python file; control: the law of its team."""
+    def python(
+        self,
+        scenario: Scenario,
+        control: Callable[[Any], Any] | None,
+        settings: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Save a scenario as a Python file; see `save_python`."""
 
         def save() -> str:
-            path, copied = save_python(scenario, _here(), self._stem, control)
+            path, copied = save_python(scenario, _here(), self._stem, control, settings)
             return f"scenario: {path}{', and on the clipboard' if copied else ''}"
 
         self._try(save)
@@ -147,13 +152,18 @@ def save_picture(surface: pygame.Surface, folder: Path, stem: str) -> Path:
 
 
 def save_python(
-    scenario: Scenario, folder: Path, stem: str, control: Callable[[Any], Any] | None = None
+    scenario: Scenario,
+    folder: Path,
+    stem: str,
+    control: Callable[[Any], Any] | None = None,
+    settings: Mapping[str, Any] | None = None,
 ) -> tuple[Path, bool]:
     """Write a scenario as Python under a free name, and copy it to the clipboard if there is one.
 
-    control: the law of the team. Returns the path, and whether the clipboard has the text.
+    control: the law of the team. settings: the parameters that were set, for a comment. Returns the
+    path, and whether the clipboard has the text.
     """
-    text = as_python(scenario, control, folder)
+    text = as_python(scenario, control, folder, settings)
     path = free_name(folder, stem, ".py")
     with _removed_on_failure(path), atomic_write(path) as file:
         file.write(text.encode(errors="replace"))

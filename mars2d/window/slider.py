@@ -1,4 +1,4 @@
-"""Sliders: a line with a handle; and the slider of the speed."""
+"""Sliders: a line with a handle; the slider of the speed, and that of a value."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mars2d.core.scene import Scene
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 
-__all__ = ["BEHIND", "Slider", "SpeedSlider", "draw_tooltip", "times"]
+__all__ = ["BEHIND", "Slider", "SpeedSlider", "ValueSlider", "draw_tooltip", "times"]
 
 SPEED_LINE = 4.0
 """The height of the speed slider's line, points."""
@@ -42,9 +42,27 @@ class Slider:
     def _fill(self, surface: pygame.Surface, painter: Painter, end: float, color: str) -> None:
         """Draw the line from its left end to a pixel `end` from the left of the surface."""
         line, before = self._line, surface.get_clip()
-        surface.set_clip(pygame.Rect(line.left, line.top, end - line.left, line.height))
+        filled = pygame.Rect(line.left, line.top, end - line.left, line.height)
+        surface.set_clip(filled.clip(before))
         painter.panel(surface, line, color, line.height / 2)
         surface.set_clip(before)
+
+    def _draw_handle(
+        self,
+        surface: pygame.Surface,
+        painter: Painter,
+        x: float,
+        *,
+        ground: str,
+        fill: str,
+        large: bool,
+    ) -> None:
+        """Draw the handle, a disc, at a pixel from the left. ground: the colour round it."""
+        scene, center = Scene(), (x, -self._line.centery)
+        scene.circle(center, 0.0, fill=ground, pixels=10.0 if large else 8.5)
+        edge, radius = painter.theme.selected, 8.0 if large else 6.5
+        scene.circle(center, 0.0, fill=fill, stroke=edge, width=1.5, pixels=radius)
+        painter.paint(surface, scene.shapes, PIXELS, shaded=False)
 
 
 class SpeedSlider(Slider):
@@ -106,18 +124,10 @@ class SpeedSlider(Slider):
             return
         hovered = held or (pointer is not None and self.hit(pointer))
         self._draw_line(surface, painter, speed)
-        scene = Scene()
-        center = self.x_of(speed), -self._line.centery
-        scene.circle(center, 0.0, fill=theme.bar, pixels=10.0 if hovered else 8.5)
-        scene.circle(
-            center,
-            0.0,
-            fill=theme.selected if speed > 0 else theme.bar,
-            stroke=theme.selected,
-            width=1.5,
-            pixels=8.0 if hovered else 6.5,
+        fill = theme.selected if speed > 0 else theme.bar
+        self._draw_handle(
+            surface, painter, self.x_of(speed), ground=theme.bar, fill=fill, large=hovered
         )
-        painter.paint(surface, scene.shapes, PIXELS, shaded=False)
         self._words(surface, rect, painter, speed, reached)
         if hovered and pointer is not None:
             wanted = self.speed_at(pointer[0])
@@ -171,6 +181,51 @@ class SpeedSlider(Slider):
         color = theme.muted if speed == inf else theme.waiting.ink
         image = fonts.render(text, 12.5 * ui, color)
         surface.blit(image, image.get_rect(midleft=(left, rect.centery + round(11 * ui))))
+
+
+class ValueSlider(Slider):
+    """Shows a value on a line from its lowest to its highest, with a tick at its default."""
+
+    def __init__(self) -> None:
+        """Start with nothing drawn."""
+        super().__init__()
+        self._low, self._high = 0.0, 1.0
+
+    def value_at(self, x: float) -> float:
+        """Return the value at a pixel from the left, between the lowest and the highest."""
+        share = (x - self._line.left) / max(1, self._line.width)
+        return self._low + min(max(share, 0.0), 1.0) * (self._high - self._low)
+
+    def x_of(self, value: float) -> float:
+        """Return where a value lies, pixels from the left."""
+        share = (value - self._low) / (self._high - self._low)
+        return self._line.left + self._line.width * min(max(share, 0.0), 1.0)
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        rect: pygame.Rect,
+        painter: Painter,
+        value: float,
+        default: float,
+        between: tuple[float, float],
+        *,
+        held: bool,
+    ) -> None:
+        """Draw the slider within a rectangle. held: whether the handle is dragged."""
+        ui, theme = painter.ui, painter.theme
+        self._low, self._high = between
+        line = pygame.Rect(rect.left, 0, rect.width, max(2, round(SPEED_LINE * ui)))
+        line.centery = rect.centery
+        self._place(rect, line, round(8 * ui))
+        painter.panel(surface, line, theme.track, line.height / 2)
+        self._fill(surface, painter, self.x_of(value), theme.selected)
+        tick = pygame.Rect(0, 0, max(1, round(1.5 * ui)), round(12 * ui))
+        tick.center = round(self.x_of(default)), line.centery
+        surface.fill(theme.muted, tick)
+        self._draw_handle(
+            surface, painter, self.x_of(value), ground=theme.plate, fill=theme.selected, large=held
+        )
 
 
 def draw_tooltip(

@@ -20,7 +20,7 @@ Pixel = tuple[int, int]
 
 TRANSPORT = (("start", "back", "pause", "step", "newest", "loop"),)
 SEE = ("layers", "fit", "follow", "contacts")
-CHANGE = ("drive", "edit", "restart", "branch")
+CHANGE = ("parameters", "drive", "edit", "restart", "branch")
 SAVE = ("picture", "film", "python")
 LOOK = ("screen", "dark", "text", "help")
 

@@ -111,6 +111,7 @@ def open_world(
             filename=experiment.filename,
             watch=watch_by(watchers),
             storage=storage,
+            settings=experiment.options,
         )
     except InputError as error:
         error.where = error.where or experiment.filename or None

@@ -18,7 +18,7 @@ from mars2d.core.plane import Point
 from mars2d.physics.engine import Engine
 from mars2d.physics.kinematics import Kinematics
 from mars2d.record.interventions import Change, Intervention, Place, Pull, Steer
-from mars2d.scenario.changes import check_same, obstruction, with_poses
+from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.interfaces import Operated
 
@@ -144,6 +144,7 @@ class Operator:
         scenario: Scenario,
         control: Callable[[Any], Any] | None = None,
         moved: Mapping[int, tuple[float, float, float]] | None = None,
+        settings: Mapping[str, Any] | None = None,
     ) -> None:
         """Go on with another scenario, see `World.change`."""
         world, moved = self._world, dict(moved or {})
@@ -152,9 +153,11 @@ class Operator:
             checks.law("control", control, "the world")
         world.observe()
         start = world.motion.moved(moved)
-        moves_on = not moved and scenario.surfaces == world.scenario.surfaces
-        changed = scenario if moves_on else with_poses(scenario, start.state[:, :3].T)
-        self.log.append(Change(world.iteration, scenario, tuple(moved.items()), control))
+        stays = not moved and scenario.surfaces == world.scenario.surfaces
+        moves_on = stays and moves_alike(world.scenario, scenario)
+        changed = scenario if stays else with_poses(scenario, start.state[:, :3].T)
+        made = tuple((settings or {}).items())
+        self.log.append(Change(world.iteration, scenario, tuple(moved.items()), control, made))
         world.go_on(changed, control, None if moves_on else start)
 
     def pull(
@@ -223,7 +226,8 @@ class Operator:
         if isinstance(intervention, Place):
             self.place(intervention.body, intervention.pose)
         elif isinstance(intervention, Change):
-            self.change(intervention.scenario, intervention.control, dict(intervention.moved))
+            moved, settings = dict(intervention.moved), dict(intervention.settings)
+            self.change(intervention.scenario, intervention.control, moved, settings)
         elif isinstance(intervention, Steer):
             self._note(intervention)
         else:

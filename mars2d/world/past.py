@@ -66,7 +66,7 @@ class Past:
 
     def __init__(self, experiment: Experiment, seed: int) -> None:
         self._experiment, self._seed = experiment, seed
-        self._start = experiment.scenario
+        self._start, self._options = experiment.scenario, experiment.options
         self.waiting: list[World] = []
         self.driven: set[int] = set()
         self.doubt = ""
@@ -76,7 +76,7 @@ class Past:
     def with_laws_of(self, experiment: Experiment) -> Past:
         """Return the past of the same run, in which no world waits, for laws read again."""
         past = Past(experiment, self._seed)
-        past._start, past.driven = self._start, self.driven
+        past._start, past._options, past.driven = self._start, self._options, self.driven
         past._cost, past._opening = self._cost, self._opening
         return past
 
@@ -154,7 +154,8 @@ class Past:
     def opened(self, experiment: Experiment) -> World:
         """Return a world at the start of this run, with the laws of an experiment read again."""
         scenario = carried(experiment.scenario, self._start)
-        return open_world(replace(experiment, scenario=scenario), self._seed)
+        begun = replace(experiment, scenario=scenario, options=self._options)
+        return open_world(begun, self._seed)
 
     def _open(self) -> World:
         """Let another world wait at the start, in place of another if there are many."""
@@ -235,7 +236,8 @@ def _redo(track: Track, world: World) -> None:
     for intervention in track.interventions(row):
         if isinstance(intervention, Change):
             scenario = carried(world.scenario, intervention.scenario)
-            world.change(scenario, world.control, dict(intervention.moved))
+            moved, settings = dict(intervention.moved), dict(intervention.settings)
+            world.change(scenario, world.control, moved, settings)
         else:
             world.operator.redo(intervention)
 

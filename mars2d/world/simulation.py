@@ -51,10 +51,15 @@ class Simulation(State):
     """
 
     def __init__(
-        self, scenario: Scenario, seed: int, filename: str, storage: Storage | None
+        self,
+        scenario: Scenario,
+        seed: int,
+        filename: str,
+        storage: Storage | None,
+        settings: Mapping[str, Any],
     ) -> None:
         """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
-        super().__init__(scenario, seed, storage)
+        super().__init__(scenario, seed, storage, settings)
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
         self.engine_seconds = 0.0
@@ -357,13 +362,14 @@ class Simulation(State):
         start: how everything moves from now on, where bodies or obstacles were moved.
         """
         same = {addon.key for addon in self.scenario.addons if addon in scenario.addons}
+        energy = self.energy.total
         self.scenario = scenario
+        self._drives.renew({str(robot.name): robot.drive for robot in scenario.robots})
         there = {key: addon for key, addon in vars(self.addons).items() if key in same}
         self._take_scenario(there, control)
-        if start is None:
-            self.surroundings.renew()
-        else:
-            self.rebuild(start)
+        if start is not None:
+            self.restart_engine(start, energy)
+        self.surroundings.renew()
 
     def resume(self, worked: Float) -> None:
         """Go on with an engine that was put here, also from within a step of the one before."""
@@ -373,7 +379,7 @@ class Simulation(State):
 
     def rebuild(self, start: Start) -> None:
         """Go on with everything moving like this."""
-        self.restart_engine(start)
+        self.restart_engine(start, self.energy.total)
         self.surroundings.renew()
 
 

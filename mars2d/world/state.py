@@ -92,10 +92,17 @@ class State(Uncopied):
     recorder: writes the rows. addons: by name.
     """
 
-    def __init__(self, scenario: Scenario, seed: int, storage: Storage | None) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        seed: int,
+        storage: Storage | None,
+        settings: Mapping[str, Any],
+    ) -> None:
         """Put the bodies where they start.
 
-        storage: makes the columns of the record; None: nothing is recorded.
+        storage: makes the columns of the record; None: nothing is recorded. settings: that the
+        record states.
         """
         self.scenario = scenario
         self.seed = seed
@@ -105,7 +112,9 @@ class State(Uncopied):
         self.broken_off = False
         self.storage = storage
         self.recorder = (
-            Unrecorded(scenario) if storage is None else Recorder(scenario, storage, versions)
+            Unrecorded(scenario, settings=settings)
+            if storage is None
+            else Recorder(scenario, storage, versions, settings)
         )
         self.history = History(self.recorder)
         self.addons = Addons()
@@ -120,15 +129,15 @@ class State(Uncopied):
         self.engine = ENGINES[scenario.physics](scenario, None)
         self._take_engine()
 
-    def restart_engine(self, start: Start) -> None:
-        """Begin with a new engine; start: how everything moves.
+    def restart_engine(self, start: Start, energy: Float) -> None:
+        """Begin with a new engine; start: how everything moves. energy: of all bodies before, J.
 
         What that changes in the bodies' energies is the work of hands.
         """
-        self._worked, before = self.work, self.energy.total
+        self._worked = self.work
         self.engine = ENGINES[self.scenario.physics](self.scenario, start)
         self._take_engine()
-        self._worked[WORK.index("hands")] += self.energy.total - before
+        self._worked[WORK.index("hands")] += self.energy.total - energy
 
     def resume(self, worked: Float) -> None:
         """Go on with an engine that was put here; worked: the work before it (6,), J."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, LawError
 from mars2d.record.columns import DiskError
 from mars2d.record.frame import Frame
-from mars2d.record.interventions import Intervention, of_one_hand
+from mars2d.record.interventions import Change, Intervention, of_one_hand
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import check_alike, merged
@@ -171,6 +171,11 @@ class Timeline:
         return replace(_closed(self._world), branches=tuple(_closed(world) for world in others))
 
     @property
+    def settings(self) -> dict[str, Any]:
+        """The options that hold at the newest row of the present branch, by name."""
+        return settings_of(self._world)
+
+    @property
     def touched(self) -> bool:
         """Whether hands did anything in this run, so that it can't just be run again."""
         return bool(self.branches or self._world.operator.log or self._past.driven)
@@ -262,7 +267,7 @@ class Timeline:
         than that by more than a control step does; a file is opened at the newest row only if there
         is time for it.
         """
-        own = self._experiment.opened is not None  # else worlds would share what laws remember
+        own = self._experiment.alone  # else worlds would share what laws remember
         if own and self._gone_back:
             self._past.prepare(self._track, self.row, seconds)
 
@@ -289,6 +294,8 @@ class Timeline:
         world = self.branch(progress)
         log = [*world.operator.log]
         try:
+            if settings_of(world) != self._experiment.options:  # they were set later than this row
+                self._change_to(self._experiment, world)
             act(world)
         except InputError:
             if world is not before:
@@ -316,8 +323,14 @@ class Timeline:
         row = log[done].row
         self._past.forget_from(row)
         self.remark = ""
-        world = self._past.world_at(replace(self._track, done=done), row, progress)
+        experiment, past = self._experiment, self._past
+        held = settings_of(self._world, done)
+        if held != experiment.options:
+            experiment = experiment.with_options(held)
+            past = past.with_laws_of(experiment)
+        world = past.world_at(replace(self._track, done=done), row, progress)
         self.row = row
+        self._experiment, self._past = experiment, past
         self._adopt(world)
         self.remark = self._past.doubt
         return log[done]
@@ -326,28 +339,80 @@ class Timeline:
         """Raise InputError for an experiment that `take` can't go on with."""
         check_alike(self._experiment.scenario, experiment.scenario)
 
+    def set(
+        self,
+        options: Mapping[str, Any],
+        progress: Progress = lambda _: True,
+        *,
+        restart: bool = True,
+    ) -> str:
+        """Set parameters of the experiment, by the names of ``--set``.
+
+        The run goes on with them from the present row if it can, else it starts anew; returns the
+        reason for a new start, or "". restart: whether it may start anew; else it is left as it is.
+        Raises InputError, and changes nothing, where there are no such parameters, or no such
+        values.
+        """
+        before = self._experiment
+        after = before.with_options({**before.options, **options})
+        begun = self.newest > 0 or self.touched
+        reason = self._needs_start(after) if begun else ""
+        if begun and not reason:
+            self.take(after, progress)
+        elif restart or not reason:
+            self.restart(after)
+        return reason
+
+    def _needs_start(self, experiment: Experiment) -> str:
+        """Return the reason why the run can't go on with an experiment, or ""."""
+        if self.over and self._world.finished:
+            return "the run is over"
+        before, after = self._experiment.scenario, experiment.scenario
+        try:
+            self.check(experiment)
+        except InputError as error:
+            return str(error).partition(": ")[2]
+        for one, other in zip(before.bodies, after.bodies, strict=True):
+            if one.pose != other.pose:
+                return f"{one.name} starts elsewhere"
+        return ""
+
     def take(self, experiment: Experiment, progress: Progress = lambda _: True) -> str:
         """Go on from the present row with an experiment read again; return the effect, in words.
 
-        Its laws are asked along all rows, while the robots do what they did: so the laws remember
+        Other laws are asked along all rows, while the robots do what they did: so the laws remember
         the run, and going back stays exact. Raises InputError, and changes nothing, where a new
         start is needed (see `hot_reload.check_alike`), and where a law fails on the way.
         """
         self.check(experiment)
         past = self._past.with_laws_of(experiment)
         ended = self.over and self._world.finished
+        goes_on = not self.needs_way_back and experiment.decides_as(self._experiment)
+        if goes_on:  # with its laws as they are
+            past.waiting = self._past.waiting
+            self._change_to(experiment, self._world)
+            self._experiment, self._past = experiment, past
+            return "in effect from now on; R runs it from the start"
         if not ended:
             past.waiting.append(past.opened(experiment))
             world = past.world_at(Track(self._world, NEVER), self.row, progress)
-            wanted = merged(self._experiment.scenario, experiment.scenario, world.scenario)
-            if self.row or wanted != world.scenario:
-                world.change(wanted, world.control)  # so the record tells of it
+            self._change_to(experiment, world)
         self._experiment, self._past = experiment, past
         self._lines = {w: replace(line, since=NEVER) for w, line in self._lines.items()}
         if ended:
             return "in effect where you go back and change something; R runs it from the start"
         self._adopt(world)
         return "in effect from now on; R runs it from the start"
+
+    def _change_to(self, experiment: Experiment, world: World) -> None:
+        """Change a world where an experiment differs from the one whose settings it has."""
+        before, held = self._experiment, settings_of(world)
+        if held != before.options:
+            before = before.with_options(held)
+        wanted = merged(before.scenario, experiment.scenario, world.scenario)
+        made = {k: v for k, v in experiment.options.items() if k not in held or held[k] != v}
+        if self.row or wanted != world.scenario or made:
+            world.change(wanted, world.control, settings=made)  # so the record tells of it
 
     def _adopt(self, world: World) -> None:
         """Go on with a world at the present row; the one before becomes a branch.
@@ -384,6 +449,10 @@ class Timeline:
         if other not in self.branches:
             self._show_run(other)
             return
+        experiment, held = self._experiment, settings_of(other)
+        if held != experiment.options:
+            self._experiment = experiment.with_options(held)
+            self._past = self._past.with_laws_of(self._experiment)
         self.branches.remove(other)
         self.branches.append(self._world)
         common = self._lines[self._world].common(self._lines[other])
@@ -430,6 +499,15 @@ class _Line:
             shared += 1
         rest = [*self.parts[shared:][:1], *other.parts[shared:][:1]]
         return min((row for _, row in rest), default=NEVER)
+
+
+def settings_of(world: World, done: int | None = None) -> dict[str, Any]:
+    """Return the options that hold at the newest row of a world; done: after so many changes."""
+    settings = dict(world.recorder.settings)
+    for each in world.operator.log[:done]:
+        if isinstance(each, Change):
+            settings.update(each.settings)
+    return settings
 
 
 def _closed(world: World) -> Record:

@@ -5,9 +5,10 @@ import pytest
 
 from mars2d import Animation, Holonomic, InputError, Robot, Scenario, Unicycle, Within, World
 from mars2d.addons import Communication, Game, Map, Trails
-from mars2d.bodies.joints import Rope
+from mars2d.bodies.joints import Rope, Spring
 from mars2d.bodies.props import Box, Puck
 from mars2d.sensors import Proximity
+from mars2d.world.verify import rerun
 
 RED, BLUE = Robot(name="red"), Robot(name="blue", pose=(2, 0, 0))
 BLOCK = Map([[(1.0, 1.0), (1.5, 1.0), (1.5, 1.5)]], name="block")
@@ -40,10 +41,11 @@ def robots(**changes):
         ({"robots": [RED, BLUE, Robot(pose=(0, 3, 0))]}, "3 robots in place of 2"),
         ({"props": []}, "0 props in place of 1"),
         ({"props": [Puck(pose=(-2, 0, 0), name="crate")]}, "crate is a Puck now"),
-        ({"props": [BOX.replace(mass=3.0)]}, "mass of crate is another one"),
+        ({"props": [BOX.replace(length=0.7)]}, "length of crate is another one"),
         (robots(diameter=0.4), "diameter of red is another one"),
         (robots(drive=Holonomic()), "drive of red is another one"),
-        (robots(drive=Unicycle(max_force=9.0)), "drive of red is another one"),
+        (robots(drive=Unicycle(dead_time=0.1)), "drive of red has another dead_time"),
+        (robots(drive=Unicycle(noise=0.1)), "drive of red has another noise"),
         (robots(sensors=[Proximity(range=1.0)]), "sensors of red is another one"),
         (robots(sees="partial"), "sees of red is another one"),
         (robots(name="rot"), "name of rot|name of red"),
@@ -91,6 +93,66 @@ def test_walls_are_drawn_while_robots_drive_and_stop_them():
     for _ in range(5):
         world.step()
     assert world.pose[0, 0] > 1.0
+
+
+def test_a_lighter_crate_is_pushed_faster_from_then_on_and_the_energy_is_accounted_for():
+    drive = Unicycle(max_linear_speed=5.0, max_force=2.0, force_limited=True)
+    red = Robot(name="red", controller=lambda robot: (5.0, 0.0), drive=drive)
+    crate = Box(pose=(0.4, 0, 0), name="crate", mass=3.0, ground_friction=0.0)
+    world = World(Scenario(robots=[red], props=[crate], workspace=None, stop_time=2.0))
+    for _ in range(10):
+        world.step()
+    before = world.prop_velocity[0, 0]
+    assert before == pytest.approx(2.0 / 4.0, abs=0.03), "a = F / (m + M)"
+    world.change(world.scenario.replace(props=[crate.replace(mass=1.0)]))
+    while not world.over:
+        world.step()
+    gained = world.prop_velocity[0, 0] - before
+    assert gained == pytest.approx(2.0 / 2.0, abs=0.03), "a = F / (m + M)"
+    record = world.record
+    assert abs(record.energy.missing).max() < 1e-12
+    lost = np.diff(record.energy.by("hands"))
+    assert np.flatnonzero(lost).tolist() == [9]
+    assert lost[9] == pytest.approx(-(3.0 - 1.0) / 2 * before**2, rel=1e-6)
+    assert record.momentum.linear[9, 0, 1] == pytest.approx(3 * record.prop_velocity[9, 0, 0])
+    assert record.momentum.linear[10, 0, 1] == pytest.approx(record.prop_velocity[10, 0, 0])
+    assert rerun(record) is None
+
+
+def test_a_stronger_drive_and_a_stiffer_spring_act_from_then_on():
+    drive = Unicycle(max_force=1.0)
+    red = Robot(name="red", controller=forward, drive=drive)
+    anchor = Spring(a="red", b=None, stiffness=5.0, damping=4.0)
+    world = World(Scenario(robots=[red], joints=[anchor]))
+
+    def stretch():
+        for _ in range(100):
+            world.step()
+        return world.pose[0, 0]
+
+    assert stretch() == pytest.approx(1.0 / 5.0, abs=0.01), "F / k"
+    world.change(world.scenario.replace(robots=[red.replace(drive=drive.replace(max_force=2.0))]))
+    assert stretch() == pytest.approx(2.0 / 5.0, abs=0.01)
+    world.change(world.scenario.replace(joints=[anchor.replace(stiffness=10.0)]))
+    assert stretch() == pytest.approx(2.0 / 10.0, abs=0.01)
+    assert rerun(world.record) is None
+
+
+def test_a_slower_drive_brakes_a_robot_at_its_rate_while_the_noise_of_another_goes_on():
+    quick = Unicycle(max_linear_speed=1.0, max_acceleration=0.5)
+    noisy = BLUE.replace(drive=Unicycle(noise=0.1), controller=forward)
+    before = Scenario(robots=[RED.replace(drive=quick, controller=lambda _: (1.0, 0.0)), noisy])
+    one, other = World(before), World(before)
+    for k in range(50):
+        if k == 30:
+            slow = before.robots[0].replace(drive=quick.replace(max_linear_speed=0.5))
+            one.change(before.replace(robots=[slow, noisy]))
+        one.step()
+        other.step()
+    assert one.velocity[0, 0] == pytest.approx(0.5)
+    speeds = np.diff(one.history.pose[:, 0, 0]) / 0.1
+    assert speeds[30] == pytest.approx(0.975), "it gets slower by 0.5 m/s^2, not at once"
+    assert one.pose[:, 1] == pytest.approx(other.pose[:, 1], abs=1e-9)
 
 
 def test_a_robot_in_motion_goes_on_as_if_nothing_had_happened():

@@ -81,7 +81,7 @@ def bounded():
                 yield pytest.param(name, kind, field, value, id=f"{name}.{field.name}={value:g}")
 
 
-@pytest.mark.parametrize(("name", "kind", "field", "value"), bounded())
+@pytest.mark.parametrize(("name", "kind", "field", "value"), [*bounded()])
 def test_gate_and_schema_refuse_the_same_numbers(name, kind, field, value):
     with pytest.raises(InputError, match=rf"{name}\.{field.name} = "):
         field.metadata["check"](f"{name}.{field.name}", value)

@@ -89,12 +89,26 @@ def state_of(window):
         "line": None if banner is None or banner.excerpt is None else banner.excerpt.line,
         "buttons": {name: place.center for name, place in window.toolbar.places.items()},
         "menu": {title: at.center for title, at in window.toolbar.menu.places.items()},
-        "close": window._inspector.closes.center,
+        "closes": {name: place.center for name, place in window.dock.closes.items()},
+        "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
+        "sliders": sliders_of(window.parameters) if window.parameters.is_open else {},
         "loop": player.loop,
         "full": pygame.display.is_fullscreen(),
         "filming": window.saver._film is not None,
         "editor": None if window.editor is None else editor_of(window.editor),
+    }
+
+
+def sliders_of(panel):
+    lines = {name: slider._line for name, slider in panel._sliders.items()}
+    return {
+        "values": {name: each.value for name, each in panel.parameters().items()},
+        "places": {name: [*lines[name]] for name in panel.places},
+        "resets": {name: place.center for name, place in panel.resets.items()},
+        "focus": panel.focus,
+        "typed": panel.typed,
+        "said": panel._words()[0],
     }
 
 

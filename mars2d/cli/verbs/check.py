@@ -24,7 +24,7 @@ from mars2d.output.figures.map import save_map
 from mars2d.record.record import Record, load
 from mars2d.scenario.experiment import Experiment, examples, open_experiment, open_module
 from mars2d.scenario.map_option import reading_options
-from mars2d.scenario.options import parse_setting
+from mars2d.scenario.options import parse_setting, settings_in_words
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.testing.file import trials
@@ -65,7 +65,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="KEY=VALUE",
-        help="how a map is read; with --laws, a field of the experiment",
+        help="how a map is read; with --laws, a field of the experiment, if not as in the record",
     )
     parser.add_argument("--figure", type=Path, metavar="OUT", help="draw a map: .png, .pdf, .svg")
 
@@ -257,6 +257,12 @@ def _check_record(path: Path) -> Record:
     tell(f"ended       {one_line(record.over_message)}")
     tell(f"made with   {one_line(versions)}")
     tell(f"digest      {record.digest}")
+    if record.settings:
+        tell(f"settings    {settings_in_words(record.settings)}")
+    for change in record.changes:
+        if change.settings:
+            when = change.row * record.scenario.sampling_time
+            tell(f"set         at {when:g} s: {settings_in_words(dict(change.settings))}")
     if record.missing:
         tell(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
     if not len(record):
@@ -280,7 +286,8 @@ def _check_record(path: Path) -> Record:
 
 def _ask_laws(path: Path, record: Record, source: str, settings: dict[str, Any]) -> None:
     """Ask the laws of an experiment again in the states of a record."""
-    source = _source_of(path, record) if source == SAME else source
+    if source == SAME:
+        source, settings = _source_of(path, record), {**record.settings, **settings}
     experiment = open_experiment(source, settings, seed=record.seed)
     bar = Progress(max(len(record), 1), "rows")
     try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from contextlib import suppress
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
@@ -56,7 +57,8 @@ MEANING = {
     "scenario": "its scenario", "seed": "its seed", "over_message": "why it ended",
     "finished": "whether it was finished", "filename": "the name of its experiment",
     "versions": "the versions it was made by", "sensor_robots": "which robots carry its sensors",
-    "interventions": "what was done by hand", "digest": "its digest", "contents": "its messages",
+    "interventions": "what was done by hand", "settings": "its settings", "digest": "its digest",
+    "contents": "its messages",
     "columns": "the shapes of its columns", "exact": "its columns", "messages": "its messages",
 }  # fmt: skip
 """The values of a header in words."""
@@ -87,8 +89,18 @@ def of_record(record: Record) -> dict[str, Any]:
         "messages": bool(record.contents),
         "sensor_robots": {name: list(robots) for name, robots in record.sensor_robots.items()},
         "interventions": [interventions.to_plain(each) for each in record.interventions],
+        **_settings_of(record),
         "digest": record.digest,
     }
+
+
+def _settings_of(record: Record) -> dict[str, Any]:
+    """Return the settings that a file can hold; nothing where there are none."""
+    plain = {}
+    for name, value in record.settings.items():
+        with suppress(TypeError, ValueError):  # such as a Map, or NaN
+            plain[str(name)] = json.loads(json.dumps(value, allow_nan=False))
+    return {"settings": plain} if plain else {}
 
 
 def numbers_of(record: Record) -> dict[str, NDArray[Any]]:
@@ -229,12 +241,25 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
         versions=dict(header["versions"]),
         missing=(*missing, *dict.fromkeys(lost)),
         interventions=tuple(interventions.of_plain(each) for each in header["interventions"]),
+        settings=_settings_in(header),
     )
     _check_kinds(header)
     _check(record)
     if not torn and _digest(record, header) != header["digest"]:
         raise InputError("damaged: its columns do not have the digest that it states")
     return record
+
+
+def _settings_in(header: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the settings that a header holds. Raises ValueError where it holds anything else."""
+    settings = header.get("settings", {})
+    if not isinstance(settings, dict):
+        raise TypeError("settings")
+    return {name: _tuples(value) for name, value in settings.items()}
+
+
+def _tuples(value: Any) -> Any:
+    return tuple(map(_tuples, value)) if isinstance(value, list) else value
 
 
 def _digest(record: Record, header: Mapping[str, Any]) -> str:

@@ -150,9 +150,9 @@ class Log:
         start = min(same, recorder.rows)
         self._counts = start, 0, 0, 0
         self._begun.append(start)
-        empty = Recorder(recorder.scenario, versions=recorder.versions).record(
-            world.seed, "not over", False, world.filename, Scene()
-        )
+        empty = Recorder(
+            recorder.scenario, versions=recorder.versions, settings=recorder.settings
+        ).record(world.seed, "not over", False, world.filename, Scene())
         robots = recorder.sensor_robots
         self._header = headers.of_record(empty) | {"sensor_robots": robots}
         self._tape.begin(self._header, recorder.scenario, robots, start)

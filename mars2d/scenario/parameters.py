@@ -1,0 +1,254 @@
+"""Parameters: numbers of a scenario function, of a law or of a body that can be set, by name."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import numbers
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from math import floor, isfinite, log10
+from typing import Annotated, Any, get_origin, get_type_hints
+
+from mars2d.bodies.props.base import Prop
+from mars2d.core.description import Description, number, real, text, wrong
+from mars2d.core.errors import InputError
+from mars2d.core.hints import described
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Argument", "Parameter", "Range", "arguments_of", "of_arguments", "of_body"]
+
+STEPS = 100
+"""A slider has at least as many steps, unless its numbers are whole."""
+
+BOUNDS = frozenset({"no_load_speed", "grip", "side_grip"})
+"""The bounds of drives whose names don't begin with ``max_``."""
+
+
+class Range(Description):
+    """The bounds of a parameter, in its annotation; values beyond them are refused.
+
+    >>> from typing import Annotated
+    >>> def scenario(mu: Annotated[float, Range(0.5, 1.5)] = 0.9): ...
+    >>> arguments_of(scenario)["mu"].bounds
+    Range(low=0.5, high=1.5)
+    """
+
+    low: float = number(kw_only=False, doc="the lowest value")
+    high: float = number(kw_only=False, doc="the highest value")
+    unit: str = text(default="", doc="the unit, for example m/s")
+
+    def _validate(self) -> None:
+        if not self.low < self.high:
+            raise wrong("Range.high", self.high, f"a number > low, {self.low:g}")
+
+    def check(self, name: str, value: Any) -> None:
+        """Raise InputError, which begins with `name`, for a value beyond the bounds."""
+        unit = f" [{self.unit}]" if self.unit else ""
+        expected = f"a number >= {self.low:g} and <= {self.high:g}{unit}, as its Range says"
+        if not self.low <= real(name, value, expected) <= self.high:
+            raise wrong(name, value, expected)
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """A numeric argument of a function.
+
+    default: or None. whole: whether it is a whole number. bounds: those of its annotation, or None.
+    """
+
+    default: float | None = None
+    whole: bool = False
+    bounds: Range | None = None
+
+    def check(self, name: str, value: Any) -> None:
+        """Raise InputError, which begins with `name`, for a value that it can't have."""
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            usual = "" if self.default is None else f"; its default is {self.default}"
+            raise wrong(name, value, f"a number{usual}")
+        if self.whole and self.bounds is not None and not isinstance(value, numbers.Integral):
+            raise wrong(
+                name, value, f"a whole number from {self.bounds.low:g} to {self.bounds.high:g}"
+            )
+        if self.bounds is not None:
+            self.bounds.check(name, value)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A number that can be set, as a slider shows it.
+
+    name: as ``--set`` knows it. value: now. default: as the file has it. low, high: the ends of its
+    slider. whole: whether it is a whole number.
+    """
+
+    name: str
+    value: float
+    default: float
+    low: float
+    high: float
+    unit: str = ""
+    whole: bool = False
+
+    @property
+    def step(self) -> float:
+        """The step of a slider: a power of ten, at most a hundredth of the way from low to high."""
+        return 1.0 if self.whole else 10.0**self._exponent
+
+    @property
+    def _exponent(self) -> int:
+        return floor(log10((self.high - self.low) / STEPS))
+
+    def nearest(self, value: float) -> float:
+        """Return the value nearest to a number that a slider can have, between low and high."""
+        value = min(max(value, self.low), self.high)
+        if self.whole:
+            return round(value)
+        stepped = round(value, -self._exponent)
+        return stepped if self.low <= stepped <= self.high else value
+
+    @classmethod
+    def of(cls, name: str, value: float, argument: Argument, default: float) -> Parameter:
+        """Return the parameter of an argument; without a Range, its slider's ends are a guess.
+
+        They are 0 and twice the default, or -1 and 1; a whole number >= 0 goes to 10 at least.
+        """
+        bounds, whole = argument.bounds, argument.whole
+        if bounds is not None:
+            return cls(name, value, default, bounds.low, bounds.high, bounds.unit, whole)
+        low, high = sorted((0.0, 2.0 * default)) if default or whole else (-1.0, 1.0)
+        if whole and default >= 0:
+            high = max(high, 10.0)
+        return cls(name, value, default, min(low, value), max(high, value), "", whole)
+
+
+def arguments_of(function: Callable[..., Any]) -> dict[str, Argument]:
+    """Return the numeric arguments of a function by name: with a number as default, or a Range.
+
+    Raises InputError for a Range in an annotation that can't be read, and for a default beyond it.
+    """
+    found = {}
+    for name, parameter in _signature(function).items():
+        default = parameter.default
+        bounds, kind = _annotation(function, name, parameter.annotation)
+        if is_number(default):
+            if bounds is not None:
+                bounds.check(f"the default of {_of(function, name)}", default)
+            found[name] = Argument(default, _is_whole(default, kind), bounds)
+        elif bounds is not None:
+            found[name] = Argument(None, kind is int, bounds)
+    return found
+
+
+def is_number(value: object) -> bool:
+    """Return whether a value is a finite real number, and no truth value."""
+    return (
+        isinstance(value, numbers.Real) and not isinstance(value, bool) and isfinite(float(value))
+    )
+
+
+def _is_whole(value: object, kind: object) -> bool:
+    return isinstance(value, numbers.Integral) and kind in (int, inspect.Parameter.empty)
+
+
+def _of(function: Callable[..., Any], name: str) -> str:
+    return f"{getattr(function, '__name__', 'scenario')}({name})"
+
+
+def _signature(function: Callable[..., Any]) -> Mapping[str, inspect.Parameter]:
+    try:
+        return inspect.signature(function).parameters
+    except (TypeError, ValueError):  # of a compiled function
+        return {}
+
+
+def _annotation(
+    function: Callable[..., Any], name: str, annotation: Any
+) -> tuple[Range | None, object]:
+    """Return the Range in an annotation, or None, and the kind of value that it states."""
+    if isinstance(annotation, str):
+        try:
+            annotation = _meant(annotation, getattr(function, "__globals__", {}))
+        except Exception as error:
+            if "Range" not in annotation:
+                return None, None  # the annotations of others are none of our business
+            raise InputError(
+                f"{_of(function, name)}: its annotation can't be read: {described(error)}"
+            ) from error
+    if get_origin(annotation) is not Annotated:
+        return None, annotation
+    bounds = (each for each in annotation.__metadata__ if isinstance(each, Range))
+    return next(bounds, None), annotation.__origin__
+
+
+def _meant(annotation: str, names: dict[str, Any]) -> Any:
+    """Return what an annotation in quotes means, where these names are known."""
+
+    def annotated() -> None: ...
+
+    annotated.__annotations__ = {"it": annotation}
+    return get_type_hints(annotated, names, include_extras=True)["it"]
+
+
+def of_arguments(
+    function: Callable[..., Any], given: Mapping[str, Any], seed: int | None
+) -> Iterator[Parameter]:
+    """Yield the parameters of a scenario function.
+
+    given: the values that are set, by name. seed: of the run, the default of a parameter ``seed``.
+    """
+    for name, argument in arguments_of(function).items():
+        default = seed if name == "seed" and seed is not None else argument.default
+        value = given.get(name, default)
+        if is_number(value):
+            usual = value if default is None else default
+            yield Parameter.of(name, value, argument, usual)
+
+
+def of_body(scenario: Scenario, plain: Scenario, body: int) -> Iterator[Parameter]:
+    """Yield the parameters of a robot or prop: mass, friction, restitution, bounds of its drive.
+
+    scenario, plain: as it is now, and as its file has it. body: an index of `Scenario.bodies`.
+    """
+    part, usual = (_part(each, body) for each in (scenario, plain))
+    index = body - len(scenario.robots)
+    family, index = ("robots", body) if index < 0 else ("props", index)
+    key = str(index) if set(str(part.name)) & set(".*") else part.name
+    defaults = dict(_numbers_of(usual))
+    for name, value in _numbers_of(part):
+        default = defaults.get(name, value)
+        low, high = (0.0, 1.0) if name == "restitution" else (0.0, 2 * default)
+        if "friction" in name:
+            high = max(high, 1.0)
+        elif name != "restitution":
+            low = high / STEPS  # they can't be 0
+        bounds = min(low, value), max(high, value)
+        yield Parameter(f"{family}.{key}.{name}", value, default, *bounds, _unit_of(part, name))
+
+
+def _part(scenario: Scenario, body: int) -> Robot | Prop:
+    n = len(scenario.robots)
+    return scenario.robots[body] if body < n else scenario.props[body - n]
+
+
+def _numbers_of(part: Robot | Prop) -> Iterator[tuple[str, float]]:
+    """Yield the fields of a body that sliders set, as far as they are numbers."""
+    yield "mass", part.inertia.mass
+    yield "friction", float(part.surface.friction)
+    yield "restitution", float(part.surface.restitution)
+    if isinstance(part, Prop):
+        yield "ground_friction", part.ground_friction
+        return
+    for field in dataclasses.fields(part.drive):
+        value = getattr(part.drive, field.name)
+        if (field.name.startswith("max_") or field.name in BOUNDS) and is_number(value):
+            yield f"drive.{field.name}", value
+
+
+def _unit_of(part: Robot | Prop, name: str) -> str:
+    """Return the unit of a field, such as ``mass`` or ``drive.max_force``."""
+    *within, last = name.split(".")
+    holder = part.drive if within and isinstance(part, Robot) else part
+    field = next(f for f in dataclasses.fields(holder) if f.name == last)
+    return str(field.metadata.get("unit", ""))
