@@ -77,13 +77,15 @@ class Change:
     """The scenario was changed: obstacles, workspace, add-ons that only draw, or laws.
 
     moved: bodies that were moved at the same time, by index in `Scenario.bodies`, and their poses.
-    control: the law of the team from then on, which files do not keep.
+    control: the law of the team from then on, which files do not keep. given: the names of robots
+    that were given other laws by hand, not by their file; files do not keep these either.
     """
 
     row: int
     scenario: Scenario
     moved: tuple[tuple[int, Triple], ...] = ()
     control: Callable[[Any], Any] | None = field(default=None, compare=False)
+    given: frozenset[str | None] = field(default=frozenset(), compare=False)
 
 
 Intervention = Place | Pull | Steer | Change

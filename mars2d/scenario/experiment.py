@@ -10,7 +10,7 @@ import itertools
 import numbers
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -84,15 +84,18 @@ class Experiment:
         """
         return self if self.opened is None else self.opened()
 
-    def redrawn(self, scenario: Scenario) -> Experiment:
-        """Return the experiment with another scenario; robots of the same names keep their laws."""
-        laws = {robot.name: robot.controller for robot in self.scenario.robots}
+    def redrawn(self, scenario: Scenario, given: Collection[str | None] = ()) -> Experiment:
+        """Return the experiment with another scenario; robots of the same names keep their laws.
+
+        given: the names of robots that get the laws of `scenario` instead.
+        """
+        laws = {r.name: r.controller for r in self.scenario.robots if r.name not in given}
         robots = [r.replace(controller=laws.get(r.name, r.controller)) for r in scenario.robots]
         opened = self.opened
         return dataclasses.replace(
             self,
             scenario=scenario.replace(robots=robots),
-            opened=None if opened is None else lambda: opened().redrawn(scenario),
+            opened=None if opened is None else lambda: opened().redrawn(scenario, given),
         )
 
     def predictions(self, record: Run) -> tuple[Prediction, ...]:

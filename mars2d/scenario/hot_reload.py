@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Collection
 from typing import Any
 
 from mars2d.bodies.props.base import Prop
@@ -70,16 +71,20 @@ def _body(before: Robot | Prop, after: Robot | Prop) -> Robot | Prop:
     )
 
 
-def carried(fresh: Scenario, kept: Scenario) -> Scenario:
+def carried(fresh: Scenario, kept: Scenario, given: Collection[str | None] = ()) -> Scenario:
     """Return a scenario read again, with everything that may change as in `kept`.
 
-    Its laws, and other parts with code, are those of `fresh`.
+    Its laws, and other parts with code, are those of `fresh`. given: the names of robots whose laws
+    are those of `kept`.
     """
     read = {addon.key: addon for addon in fresh.addons}
     return fresh.replace(
         **{name: getattr(kept, name) for name in WHOLE},
         addons=[_recognised(read.get(a.key), a) if a.key in read else a for a in kept.addons],
-        robots=_moved(fresh.robots, kept.robots),
+        robots=[
+            robot.replace(controller=other.controller) if robot.name in given else robot
+            for robot, other in zip(_moved(fresh.robots, kept.robots), kept.robots, strict=True)
+        ],
         props=_moved(fresh.props, kept.props),
     )
 

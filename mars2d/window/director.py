@@ -237,8 +237,13 @@ class Director:
     def apply(self, outcome: Outcome) -> None:
         """Continue with the drawn scenario, from now or from the start."""
         assert self.timeline is not None
+        laws = {robot.name: robot.controller for robot in self._player.frame.scenario.robots}
+        robots = outcome.scenario.robots
+        given = frozenset(
+            r.name for r in robots if r.controller is not laws.get(r.name, r.controller)
+        )
         if outcome.when == "start":
-            drawn = self.timeline.experiment.redrawn(outcome.scenario)
+            drawn = self.timeline.experiment.redrawn(outcome.scenario, given)
             self._restart(drawn, "started anew with what was drawn; Space goes on")
             return
         before = self.scenario_now().bodies
@@ -248,7 +253,8 @@ class Director:
         def draw(world: World) -> None:
             check_alike(world.scenario, outcome.scenario)
             # In the past this is another world, whose own laws go on.
-            world.change(carried(world.scenario, outcome.scenario), world.control, moved)
+            drawn = carried(world.scenario, outcome.scenario, given)
+            world.operator.change(drawn, world.control, moved, given)
 
         if self.change(draw):
             self._notes.say("what was drawn holds from now on; Space goes on")

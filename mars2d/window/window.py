@@ -9,7 +9,7 @@ from math import inf
 
 import pygame
 
-from mars2d.core.errors import Mars2dError
+from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.plane import Point
 from mars2d.core.watchdog import Watchdog
 from mars2d.output.layers.table import LAYERS, Layers
@@ -21,6 +21,7 @@ from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
+from mars2d.scenario.controllers import standing_still
 from mars2d.window import keys
 from mars2d.window.context import (
     entries_of_body,
@@ -649,6 +650,23 @@ class Window:
             self.selected = self.selected or 0
             self.director.drive(self.selected)
 
+    def say_who_stands_still(self) -> None:
+        """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""
+        timeline = self.director.timeline
+        if timeline is None:
+            return
+        experiment = timeline.experiment
+        idle = standing_still(experiment.scenario, experiment.control)
+        drawn = experiment.path is not None and experiment.path.suffix == ".toml"
+        all_idle = len(idle) == len(experiment.scenario.robots) and not experiment.scenario.props
+        if not idle or not (drawn or all_idle):
+            return
+        first, want = next(iter(idle.items()))
+        name = experiment.scenario.robots[first].name
+        more = f", and {counted(len(idle) - 1, 'more robot')}" if len(idle) > 1 else ""
+        stands = "stand" if more else "stands"
+        self.notes.say(f"{name}{more} {stands} still: {name} lacks {want}", "warning")
+
     def wait_for(self, robot: int) -> None:
         """Let a person drive a robot, and wait for the person to start."""
         self.player.pause()
@@ -664,10 +682,12 @@ class Window:
         self.editor = self.director.editor(self._painter)
         if self.editor is not None:
             self.editor.text, self.editor.scale = self.text, self.scale
+            self.editor.viewpoint.look_as(self.viewpoint)
 
     def _close_editor(self, editor: Editor) -> None:
         """Close the editor, and apply its outcome."""
         self.editor, self.text = None, editor.text
+        self.viewpoint.look_as(editor.viewpoint)
         self._keyboard.clear()
         if editor.dialogs.outcome is not None:
             self.director.apply(editor.dialogs.outcome)

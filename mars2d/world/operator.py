@@ -144,8 +144,12 @@ class Operator:
         scenario: Scenario,
         control: Callable[[Any], Any] | None = None,
         moved: Mapping[int, tuple[float, float, float]] | None = None,
+        given: frozenset[str | None] = frozenset(),
     ) -> None:
-        """Go on with another scenario, see `World.change`."""
+        """Go on with another scenario, see `World.change`.
+
+        given: the names of robots that get other laws by hand; these hold if the run is repeated.
+        """
         world, moved = self._world, dict(moved or {})
         check_same(world.scenario, scenario)
         if control is not None:
@@ -154,7 +158,7 @@ class Operator:
         start = world.motion.moved(moved)
         moves_on = not moved and scenario.surfaces == world.scenario.surfaces
         changed = scenario if moves_on else with_poses(scenario, start.state[:, :3].T)
-        self.log.append(Change(world.iteration, scenario, tuple(moved.items()), control))
+        self.log.append(Change(world.iteration, scenario, tuple(moved.items()), control, given))
         world.go_on(changed, control, None if moves_on else start)
 
     def pull(

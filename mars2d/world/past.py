@@ -234,8 +234,9 @@ def _redo(track: Track, world: World) -> None:
         return
     for intervention in track.interventions(row):
         if isinstance(intervention, Change):
-            scenario = carried(world.scenario, intervention.scenario)
-            world.change(scenario, world.control, dict(intervention.moved))
+            given = intervention.given
+            scenario = carried(world.scenario, intervention.scenario, given)
+            world.operator.change(scenario, world.control, dict(intervention.moved), given)
         else:
             world.operator.redo(intervention)
 

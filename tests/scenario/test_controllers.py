@@ -64,7 +64,7 @@ def test_before_the_last_waypoint_it_slows_down_by_its_gain():
 
 
 def test_without_waypoints_it_says_which_robot_has_none():
-    with pytest.raises(LawError, match="this world has no add-on 'waypoints' .robot0"):
+    with pytest.raises(LawError, match=r"this world has no add-on 'waypoints' \(robot0"):
         alone(Robot(controller=FollowWaypoints(), pose=(1, 1, 0)), stop_time=1)
 
 
