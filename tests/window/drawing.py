@@ -58,7 +58,8 @@ class Hands(Driver):
     def fill(self, text):
         """Type over the field of the open prompt, and press Enter."""
         self.until(lambda s: s["prompt"] is not None)
-        self.press(*["BackSpace"] * len(self.state["typed"]))
+        for _ in self.state["typed"]:
+            self.press("BackSpace")
         self.type(text)
         self.press("Return")
         self.until(lambda s: s["prompt"] is None or s["error"])

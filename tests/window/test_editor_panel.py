@@ -10,10 +10,8 @@ from mars2d.scenario.controllers import ByHand, FollowWaypoints, Wander
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from tests.window.drawing import open_editor, team
+from tests.window.drawing import team
 from tests.window.person import needs_screen
-
-__all__ = ["open_editor"]
 
 
 def chosen(open_editor, scenario, x=0, y=0, **options):
@@ -118,12 +116,12 @@ def test_mass_friction_and_colour_of_several_bodies_are_set_at_once(open_editor)
     scenario = team((-1, 0), (1, 0)).replace(props=[Box(pose=(0, 3))])
     hands = open_editor(scenario)
     hands.press("ctrl+a")
-    hands.until(lambda s: len(s["selection"]) == 3 and ["Friction", "0.5"] in s["rows"])
+    hands.until(lambda s: len(s["selection"]) == 3 and ["Mass", "several"] in s["rows"])
     hands.row("Mass")
     hands.fill("2.5")
     hands.until(lambda s: [m for m, _, _ in s["members"]] == [2.5] * 3)
-    hands.sign("-", "Friction")
-    hands.until(lambda s: [f for _, f, _ in s["members"]] == [0.45] * 3)
+    hands.sign("-", "Mass")
+    hands.until(lambda s: [m for m, _, _ in s["members"]] == [2.0] * 3)
     hands.row("Friction")
     hands.fill("rubber")
     hands.until(lambda s: ["Friction", "rubber"] in s["rows"])
@@ -148,11 +146,11 @@ def test_a_drive_is_chosen_and_keeps_what_both_have(open_editor):
     hands.entry("Car")
     hands.until(lambda s: s["drives"] == ["Car(max_linear_speed=0.8)"])
     hands.row("Drive")
-    hands.entry("wheelbase")
+    hands.entry("Wheelbase")
     hands.fill("0.3")
     hands.until(lambda s: s["drives"] == ["Car(max_linear_speed=0.8, wheelbase=0.3)"])
     hands.row("Drive")
-    hands.entry("force limited")
+    hands.entry("Force limited")
     hands.until(lambda s: "force_limited=True" in s["drives"][0])
 
 
@@ -168,7 +166,7 @@ def test_sensors_are_added_changed_and_removed(open_editor):
     hands.entry("Proximity")
     hands.until(lambda s: len(s["sensors"][0]) == 3 and "proximity2" in s["panel"])
     hands.row("range_finder")
-    hands.entry("beams")
+    hands.entry("Beams")
     hands.fill("36")
     hands.until(lambda s: s["sensors"][0][0] == "RangeFinder(beams=36)")
     hands.row("proximity2")
@@ -204,7 +202,7 @@ def test_escape_lets_the_tie_go_and_a_joint_is_changed_in_its_menu(open_editor):
     hands.until(lambda s: s["tool"] == "select" and len(s["joints"]) == 1)
     hands.click(0, 0)
     hands.row("Rope to robot1")
-    hands.entry("length")
+    hands.entry("Length")
     hands.fill("3")
     hands.press("ctrl+s")
     hands.until(lambda s: not s["changed"])
