@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,12 +14,14 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.driver import Driver
-from mars2d.window.editor import Editor, Outcome
 from mars2d.window.notes import Notes
 from mars2d.window.player import Player
 from mars2d.window.saving import copied
 from mars2d.world.timeline import Progress, Timeline
 from mars2d.world.world import World
+
+if TYPE_CHECKING:
+    from mars2d.window.editor import Editor, Outcome
 
 __all__ = ["Director"]
 
@@ -226,6 +229,8 @@ class Director:
 
     def editor(self, painter: Painter) -> Editor | None:
         """Return an editor of the scenario as it is now."""
+        from mars2d.window.editor import Editor  # few runs need it, and it is slow to import
+
         timeline = self._live()
         if timeline is None:
             return None

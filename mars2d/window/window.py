@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from math import inf
+from typing import TYPE_CHECKING
 
 import pygame
 
@@ -40,7 +41,6 @@ from mars2d.window.display import (
     show_drawn,
     started_display,
 )
-from mars2d.window.editor import Editor
 from mars2d.window.ghosts import ghosts
 from mars2d.window.grab import CLICK, Grab
 from mars2d.window.help import Help
@@ -58,6 +58,9 @@ from mars2d.window.toolbar import Toolbar, layer_entries
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
+
+if TYPE_CHECKING:
+    from mars2d.window.editor import Editor
 
 __all__ = ["Window"]
 
