@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from math import pi
+from math import cos, pi, sin
 from typing import Any, ClassVar
 
 import numpy as np
@@ -58,6 +58,14 @@ class RangeFinder(Scanner):
         """Its beams."""
         closed = self.field_of_view >= 2 * pi and self.beams > 2
         return Fan(self.angles, self.range, closed=closed)
+
+    def sign(self, scene: Scene, color: str) -> str:
+        """Draw a piece of the free area, and where it ends."""
+        scene.sector((-9.0, 0.0, 0.0), 16.0, 0.9, fill=faded(color, 0.15))
+        for along in (-0.3, 0.0, 0.3):
+            c, s = cos(along), sin(along)
+            scene.circle((16 * c - 9, 16 * s), 0.0, fill=color, pixels=1.5)
+        return "a laser's hit"
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the area that the beams sweep, and a dot where one has hit something."""

@@ -359,16 +359,25 @@ class Window:
             beneath=others,
             marks=marks,
             hurried=self.viewpoint.hurried,
+            selected=self.selected,
         )
         self._inspect(surface, frame)
         if notes and not self.saver.filming:
-            self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
+            off = self._selected_pixel(frame)
+            self.notes.draw(surface, layout.plot, self._painter, time.monotonic(), off)
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
+
+    def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
+        """Return where the selected body is drawn, if one is selected."""
+        if self.selected is None:
+            return None
+        ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
+        return x, y
 
     def _draw_bars(self, surface: pygame.Surface, frame: Frame, banner: Banner | None) -> None:
         """Draw the bars round the picture."""
@@ -404,8 +413,7 @@ class Window:
         self._inspected = pygame.Rect(0, 0, 0, 0)
         if self.selected is None:
             return
-        ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
-        at = None if self.viewpoint.makes_room else (x, y)
+        at = None if self.viewpoint.makes_room else self._selected_pixel(frame)
         place = self._inspector.place(self.layout.plot, at)
         if place is not None and not (self._drives and self._hides(place, frame)):
             self._inspected = self._inspector.draw(surface, place, frame, self.selected)

@@ -67,7 +67,9 @@ def difference() -> str:
         impulses_are_where_thought,
     )
 
-    found = (f"pymunk {version()} is not as it was written for: {what}" for what in changes(ffi, lib))
+    found = (
+        f"pymunk {version()} is not as it was written for: {what}" for what in changes(ffi, lib)
+    )
     known = {
         "its joints have their impulses elsewhere": impulses_are_where_thought,
         "its bodies have their poses elsewhere": bodies_are_as_thought,

@@ -16,7 +16,6 @@ from mars2d.bodies.joints.base import Joint
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
-from mars2d.output.layers.bodies import names
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.layout import Layout, next_text_size
 from mars2d.output.raster.painter import Painter
@@ -399,20 +398,19 @@ class Editor:
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.desk.camera
         frame = self._sketch.frame(draft, bare=self._plain)
-        named = names(frame).shapes if self._names else []
         if self._names:
             draw_idle(draft, self.properties.idle(draft), scene)
-        marks, hurried = [*named, *scene.shapes], self.viewpoint.hurried
-        draw = partial(self._stage.draw, marks=marks, hurried=hurried)
+        layers, hurried = LAYERS.switched(names=self._names), self.viewpoint.hurried
+        draw = partial(self._stage.draw, marks=scene.shapes, hurried=hurried)
         try:
-            draw(surface, frame, camera, LAYERS, plot)
+            draw(surface, frame, camera, layers, plot)
         except Mars2dError as error:  # raised by another add-on's drawing
             if self._plain:
                 raise
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
             frame = self._sketch.frame(draft, bare=True)
-            draw(surface, frame, camera, LAYERS, plot)
+            draw(surface, frame, camera, layers, plot)
         remark = self.tool.remark
         if remark:
             x, y = self._pointer
