@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
-from math import cos, sin
 from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.bodies.drives.base import Drive
+from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import Description, number
 from mars2d.core.interfaces import ScenarioLike
 from mars2d.core.plane import wrap
@@ -95,9 +95,10 @@ def steered(drive: Drive, heading: float, direction: float, speed: float) -> Com
     """
     share = min(speed / drive.max_linear_speed, 1.0)
     if drive.frame == "world":
-        return drive.steered(share * cos(direction), share * sin(direction))
+        c, s = cosine_sine(direction)
+        return drive.steered(share * c, share * s)
     off = float(wrap(direction - heading))
-    across, ahead = min(max(-TURN_GAIN * off, -1.0), 1.0), cos(off)
+    across, ahead = min(max(-TURN_GAIN * off, -1.0), 1.0), cosine_sine(off)[0]
     if not _spins(drive):
         sign = 1.0 if ahead >= 0 else -1.0
         return drive.steered(sign * across, sign * share * max(abs(ahead), SLOW))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot
 from typing import Any, ClassVar
 
+from mars2d.core.arithmetic import angle_of, norm
 from mars2d.core.description import number, text
 from mars2d.core.interfaces import ScenarioLike
 from mars2d.scenario.controllers.base import Command, Paced, steered
@@ -42,9 +42,9 @@ class FollowRobot(Paced):
         ]
         if not seen:
             return 0.0, 0.0
-        dx, dy = min((place.tolist() for place in seen), key=lambda place: hypot(*place))
-        speed = min(self.gain * (hypot(dx, dy) - self.distance), self.speed)
-        return steered(robot.drive, theta, atan2(dy, dx), speed) if speed > 0 else (0.0, 0.0)
+        dx, dy = min((place.tolist() for place in seen), key=lambda place: norm(*place))
+        speed = min(self.gain * (norm(dx, dy) - self.distance), self.speed)
+        return steered(robot.drive, theta, angle_of(dy, dx), speed) if speed > 0 else (0.0, 0.0)
 
     def want(self, scenario: ScenarioLike, index: int) -> str:
         """Return what a robot lacks to be moved by this law: one that it follows."""

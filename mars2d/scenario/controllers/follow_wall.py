@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan, atan2, inf, pi
+from math import inf, pi
 from typing import Any, ClassVar
 
 import numpy as np
 
-from mars2d.core.arithmetic import cosines_sines
+from mars2d.core.arithmetic import angle_of, cosines_sines
 from mars2d.core.description import choice, number, text
 from mars2d.core.interfaces import ScenarioLike
 from mars2d.geometry.bearings import beam_angles
@@ -62,7 +62,7 @@ class FollowWall(Paced):
         angles = beam_angles(len(ranges), self.field_of_view)
         to_wall = _middle(angles, NEAR * shortest - ranges)
         sign = 1.0 if self.side == "left" else -1.0
-        along = to_wall - sign * (pi / 2 - atan(self.gain * (shortest - self.distance)))
+        along = to_wall - sign * (pi / 2 - angle_of(self.gain * (shortest - self.distance), 1.0))
         return steered(robot.drive, heading, heading + along, self.speed)
 
     def want(self, scenario: ScenarioLike, index: int) -> str:
@@ -80,4 +80,4 @@ def _middle(angles: Float, weights: Float) -> float:
     """Return the mean of angles (k,), weighted where the weights (k,) are positive."""
     c, s = cosines_sines(angles)
     weights = np.clip(weights, 0.0, None)
-    return atan2(float(weights @ s), float(weights @ c))
+    return angle_of(float(weights @ s), float(weights @ c))

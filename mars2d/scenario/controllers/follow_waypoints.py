@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from math import atan2, hypot
 from typing import Any, ClassVar
 
+from mars2d.core.arithmetic import angle_of, norm
 from mars2d.core.description import number
 from mars2d.core.interfaces import ScenarioLike
 from mars2d.scenario.controllers.base import Command, Paced, steered
@@ -32,8 +32,8 @@ class FollowWaypoints(Paced):
             return 0.0, 0.0
         (gx, gy), (x, y, theta) = ways.goal(robot.index), robot.pose.tolist()
         last = len(ways.routes[robot.index]) - ways.reached[robot.index] == 1
-        speed = min(self.gain * hypot(gx - x, gy - y), self.speed) if last else self.speed
-        return steered(robot.drive, theta, atan2(gy - y, gx - x), speed)
+        speed = min(self.gain * norm(gx - x, gy - y), self.speed) if last else self.speed
+        return steered(robot.drive, theta, angle_of(gy - y, gx - x), speed)
 
     def want(self, scenario: ScenarioLike, index: int) -> str:
         """Return what a robot lacks to be moved by this law: waypoints."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
-from math import cos, pi, sin
+from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
 
+from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import number, text
 from mars2d.scenario.controllers.base import Command, Paced
 from mars2d.sensors.base import Sensor
@@ -46,12 +47,14 @@ class Wander(Paced):
         share = min(self.speed / drive.max_linear_speed, 1.0)
         world = drive.frame == "world"
         while True:
-            ahead = (share * cos(way), share * sin(way)) if world else (0.0, share)
+            c, s = cosine_sine(way)
+            ahead = (share * c, share * s) if world else (0.0, share)
             while not np.any(getattr(robot.sense, self.sensor)):
                 yield drive.steered(*ahead)
             if world:
                 way += pi + rng.uniform(-HALF, HALF)
-                back = share * cos(way), share * sin(way)
+                c, s = cosine_sine(way)
+                back = share * c, share * s
             else:
                 back = rng.choice((-1.0, 1.0)), -share
             for _ in range(max(round(rng.uniform(0.5, 1.5) * self.turn / robot.sampling_time), 1)):
