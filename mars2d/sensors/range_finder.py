@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from math import cos, pi, sin
+from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
@@ -62,9 +62,9 @@ class RangeFinder(Scanner):
     def sign(self, scene: Scene, color: str) -> str:
         """Draw a piece of the free area, and where it ends."""
         scene.sector((-9.0, 0.0, 0.0), 16.0, 0.9, fill=faded(color, 0.15))
-        for along in (-0.3, 0.0, 0.3):
-            c, s = cos(along), sin(along)
-            scene.circle((16 * c - 9, 16 * s), 0.0, fill=color, pixels=1.5)
+        c, s = cosines_sines(np.array([-0.3, 0.0, 0.3]))
+        for place in np.column_stack([16 * c - 9, 16 * s]):
+            scene.circle(place, 0.0, fill=color, pixels=1.5)
         return "a laser's hit"
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
