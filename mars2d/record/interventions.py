@@ -107,7 +107,7 @@ def leaps_of(done: Iterable[Intervention]) -> tuple[Leap, ...]:
 
 def to_plain(intervention: Intervention) -> dict[str, Any]:
     """Return an intervention as dicts, lists, text and numbers."""
-    kept = [each.name for each in fields(intervention) if each.name != "control"]
+    kept = [each.name for each in fields(intervention) if each.compare]  # not what is code
     values = {
         name: serialize.from_description(pictures.enclosed(getattr(intervention, name)))
         for name in kept
