@@ -30,6 +30,7 @@ from mars2d.core.description import Description
 from mars2d.core.errors import InputError
 from mars2d.core.materials import MATERIALS
 from mars2d.geometry import Compound, Disc, Polygon
+from mars2d.scenario.controllers import Controller
 from mars2d.scenario.registry import members, summary
 from mars2d.sensors import Sensor
 
@@ -46,13 +47,14 @@ KINDS: tuple[type[Description], ...] = (
     Prop, *shipped("props"),
     Joint, *shipped("joints"),
     Sensor, *shipped("sensors"),
+    Controller, *shipped("controllers"),
     Addon, *shipped("addons"), Burst,
     Everyone, Within, Nearest, Delaunay, Graph,
     MaterialPair,
     Prediction,
 )  # fmt: skip
 
-BASES: tuple[type[Description], ...] = (Drive, Prop, Joint, Sensor, Addon)
+BASES: tuple[type[Description], ...] = (Drive, Prop, Joint, Sensor, Controller, Addon)
 """Classes derived from one of these state only the fields that it has not, or not so."""
 
 HEAD = """\

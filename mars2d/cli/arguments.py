@@ -16,7 +16,6 @@ from mars2d.output.raster import has_pygame, require_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.options import parse_setting
-from mars2d.study.work import cluster, worker_count
 from mars2d.window.display import Preferences
 from mars2d.world.teleop import robot_of
 
@@ -155,6 +154,8 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
 @contextmanager
 def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None, int | None]]:
     """Yield the executor and the number of workers that `add_workers` asks for."""
+    from mars2d.study.work import cluster, worker_count  # of many runs, and slow to import
+
     if arguments.workers is not None:
         worker_count(arguments.workers)
     if arguments.cluster is None:

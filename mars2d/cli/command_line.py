@@ -15,7 +15,7 @@ import time
 import traceback
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
@@ -111,7 +111,8 @@ def _hold_standard_files() -> None:
 def _outcome(argv: Sequence[str] | None) -> int:
     """Execute the verb, print an error that it raises, and return the exit code."""
     try:
-        arguments, unknown = parser().parse_known_args(argv)
+        words = sys.argv[1:] if argv is None else argv
+        arguments, unknown = parser(words[:1]).parse_known_args(words)
         if unknown:
             arguments.refuse(f"unrecognized arguments: {' '.join(unknown)}")
         arguments.execute(arguments)
@@ -157,8 +158,11 @@ def _stop_telling() -> None:
         sys.stderr.close()
 
 
-def parser() -> argparse.ArgumentParser:
-    """Return the parser of all verbs."""
+def parser(words: Sequence[str] = ()) -> argparse.ArgumentParser:
+    """Return the parser of all verbs, or only of the one that some words begin with.
+
+    The others' modules are then imported only if an error is to be said.
+    """
     root = _Parser(
         prog="mars2d",
         usage="mars2d [-h] [--version] [COMMAND ...]",
@@ -169,21 +173,28 @@ def parser() -> argparse.ArgumentParser:
     root.add_argument("--version", action="version", version=f"mars2d {__version__}")
     root.set_defaults(execute=partial(home, root), refuse=root.error)
     verbs = root.add_subparsers(prog="mars2d", metavar="COMMAND", parser_class=_Parser)
-    for name, verb in VERBS.items():
+    for name in words[:1] if words and words[0] in VERBS else VERBS:
+        verb = VERBS[name]
         doc = (verb.execute.__doc__ or "").strip()
         sub = verbs.add_parser(name, help=doc, description=doc, allow_abbrev=False)
         sub.set_defaults(execute=verb.execute, refuse=sub.error)
         verb.add_arguments(sub)
-    for sub in verbs.choices.values():
-        sub.elsewhere = {option for other in verbs.choices.values() for option in other.options}
     return root
+
+
+@cache
+def _all_options() -> frozenset[str]:
+    """Return the options of all verbs."""
+    found: list[str] = []
+    for verb in VERBS.values():
+        sub = _Parser(add_help=False)
+        verb.add_arguments(sub)
+        found += sub.options
+    return frozenset(found)
 
 
 class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one line that suggests the nearest known word."""
-
-    elsewhere: Collection[str] = ()
-    """The options of other verbs, which are not spelling mistakes."""
 
     @property
     def options(self) -> list[str]:
@@ -194,8 +205,9 @@ class _Parser(argparse.ArgumentParser):
         """Return a hint at what a word of the command line may mean."""
         if self.prog == "mars2d" and Path(word).suffix in (".py", ".toml"):
             return f"; write mars2d run {word}"
-        mistyped = "" if word in self.elsewhere else likely(word, known)
-        return instead(word, self.prog) or mistyped
+        if meant := instead(word, self.prog):
+            return meant
+        return "" if word in _all_options() else likely(word, known)  # another verb's is no slip
 
     def error(self, message: str) -> NoReturn:
         """Raise InputError instead of printing the usage and exiting."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -31,7 +32,8 @@ def is_masked(value: object) -> bool:
     >>> is_masked(np.ma.array([1.0, 2.0], mask=[True, False]))
     True
     """
-    return isinstance(value, np.ma.MaskedArray) and bool(np.ma.is_masked(value))
+    ma = sys.modules.get("numpy.ma")  # numpy imports it when asked: without it nothing is masked
+    return ma is not None and isinstance(value, ma.MaskedArray) and bool(ma.is_masked(value))
 
 
 def within(most: float, values: NDArray[np.float64]) -> bool:

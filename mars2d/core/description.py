@@ -161,7 +161,7 @@ def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = 
             raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
         return value
 
-    return entry(default=default, check=check, doc=doc)
+    return entry(default=default, check=check, doc=doc, of=of)
 
 
 def flag(*, default: Any = dataclasses.MISSING, doc: str = "") -> Any:
@@ -192,13 +192,14 @@ def entry(
     doc: str = "",
     factory: Any = dataclasses.MISSING,
     kw_only: bool = True,
+    of: Sequence[str] = (),
 ) -> Any:
-    """Declare a field with its own check, which returns the value to keep."""
+    """Declare a field with its own check, which returns the value to keep; of: all its values."""
     return dataclasses.field(
         default=default,
         default_factory=factory,
         kw_only=kw_only,
-        metadata={"check": check, "unit": unit, "doc": doc},
+        metadata={"check": check, "unit": unit, "doc": doc, "of": of},
     )
 
 

@@ -44,6 +44,10 @@ class RobotSpec(Protocol):
     def sensors(self) -> Sequence[Any]:
         """Its sensors, each a `mars2d.sensors.Sensor`."""
 
+    @property
+    def controller(self) -> Callable[[Any], Any] | None:
+        """Its own law, or None."""
+
 
 class ScenarioLike(Protocol):
     """A scenario, as add-ons see it."""

@@ -10,7 +10,7 @@ from importlib import import_module
 
 import numpy as np
 
-from mars2d.physics.islands import reason_without
+from mars2d.physics.islands import reason_without, version
 
 # -- the engine's solver ------------------------------------------------------------------------
 
@@ -125,14 +125,12 @@ def versions() -> dict[str, str]:
 
     The engine, sensors and add-ons round alike on all; laws may use the sines of a C library.
     """
-    from importlib.metadata import version
-
     from mars2d import __version__
 
     return {
         "mars2d": __version__,
         "compiled": "no" if reason_without() else "yes",
-        "pymunk": version("pymunk"),
+        "pymunk": version(),
         "numpy": np.__version__,
         "python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}",

@@ -77,8 +77,10 @@ class Change:
     """The scenario was changed: obstacles, workspace, masses, friction, drives or laws.
 
     moved: bodies that were moved at the same time, by index in `Scenario.bodies`, and their poses.
-    control: the law of the team from then on, which files do not keep. settings: the parameters
-    that were set, if that is what changed it, by their names for ``--set``, with their values.
+    control: the law of the team from then on, which files do not keep. given: the names of robots
+    that were given other laws by hand, not by their file; files do not keep these either. settings:
+    the parameters that were set, if that is what changed it, by their names for ``--set``, with
+    their values.
     """
 
     row: int
@@ -86,6 +88,7 @@ class Change:
     moved: tuple[tuple[int, Triple], ...] = ()
     control: Callable[[Any], Any] | None = field(default=None, compare=False)
     settings: tuple[tuple[str, Any], ...] = ()
+    given: frozenset[str | None] = field(default=frozenset(), compare=False)
 
 
 Intervention = Place | Pull | Steer | Change
@@ -107,7 +110,7 @@ def leaps_of(done: Iterable[Intervention]) -> tuple[Leap, ...]:
 
 def to_plain(intervention: Intervention) -> dict[str, Any]:
     """Return an intervention as dicts, lists, text and numbers."""
-    kept = [each.name for each in fields(intervention) if each.name != "control"]
+    kept = [each.name for each in fields(intervention) if each.compare]  # not what is code
     if not getattr(intervention, "settings", ()):
         kept = [name for name in kept if name != "settings"]
     values = {

@@ -8,7 +8,7 @@ import importlib.util
 import inspect
 import itertools
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -125,18 +125,19 @@ class Experiment:
             and self.scenario.addons == other.scenario.addons
         )
 
-    def redrawn(self, scenario: Scenario) -> Experiment:
+    def redrawn(self, scenario: Scenario, given: Collection[str | None] = ()) -> Experiment:
         """Return the experiment with another scenario; robots of the same names keep their laws.
 
-        Options that are set later change its fields and laws, but no parameters of a function.
+        given: the names of robots that get the laws of `scenario` instead. Options that are set
+        later change its fields and laws, but no parameters of a function.
         """
-        laws = {robot.name: robot.controller for robot in self.scenario.robots}
+        laws = {r.name: r.controller for r in self.scenario.robots if r.name not in given}
         robots = [r.replace(controller=laws.get(r.name, r.controller)) for r in scenario.robots]
 
         def opened(options: Mapping[str, Any]) -> Experiment:
             fields, of_laws = _split({k: v for k, v in options.items() if before.get(k) != v})
             again = self.with_options({**before, **of_laws}) if self.alone or of_laws else self
-            again = again.redrawn(scenario)
+            again = again.redrawn(scenario, given)
             set_too = _set(again.scenario, fields, None)
             return dataclasses.replace(
                 again, scenario=set_too, options=options, opened=opened, plain=again

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Collection
 from typing import Any
 
 from mars2d.bodies.props.base import Prop
@@ -83,10 +84,11 @@ def _body(before: Robot | Prop, after: Robot | Prop) -> Robot | Prop:
     )
 
 
-def carried(fresh: Scenario, kept: Scenario) -> Scenario:
+def carried(fresh: Scenario, kept: Scenario, given: Collection[str | None] = ()) -> Scenario:
     """Return a scenario read again, with everything that may change as in `kept`.
 
-    Its laws, and other parts with code, are those of `fresh`.
+    Its laws, and other parts with code, are those of `fresh`. given: the names of robots whose laws
+    are those of `kept`.
     """
     read = {addon.key: addon for addon in fresh.addons}
     return fresh.replace(
@@ -94,12 +96,18 @@ def carried(fresh: Scenario, kept: Scenario) -> Scenario:
         addons=[_recognised(read.get(a.key), a) if a.key in read else a for a in kept.addons],
         **{
             name: [
-                one.replace(**_different(one, other, one, free))
+                one.replace(**_different(one, other, one, free | _given(one, given)))
                 for one, other in zip(getattr(fresh, name), getattr(kept, name), strict=True)
             ]
             for name, free in PARTS.items()
         },
     )
+
+
+def _given(part: Any, given: Collection[str | None]) -> frozenset[str]:
+    """Return the field that a robot's law is in, if it was given one."""
+    named = isinstance(part, Robot) and part.name in given
+    return frozenset({"controller"} if named else ())
 
 
 def _different(before: Any, after: Any, of: Any, free: frozenset[str]) -> dict[str, Any]:

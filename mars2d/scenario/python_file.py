@@ -91,10 +91,10 @@ class _Lister:
         return self._plain(value)
 
     def _plain(self, value: Any) -> Node:
+        if callable(value) and not serialize.is_ready_made(type(value)):
+            return self.law(value)
         if isinstance(value, Description):
             return self.call(value)
-        if callable(value):
-            return self.law(value)
         if isinstance(value, str):
             return quoted(value)
         if value is None or isinstance(value, bool):

@@ -1,4 +1,4 @@
-"""Families of parts by name: drives, sensors, add-ons; MARS2D's own and those of other packages.
+"""Families of parts by name: drives, sensors, laws, add-ons; MARS2D's own and others'.
 
 A package ships a part by an entry point of the group ``mars2d.<family>``, such as
 ``mars2d.sensors``. Entry points are looked up when parts are asked for by name, never on import.
@@ -37,6 +37,7 @@ FAMILIES = {
     "props": "mars2d.bodies.props",
     "joints": "mars2d.bodies.joints",
     "sensors": "mars2d.sensors",
+    "controllers": "mars2d.scenario.controllers",
     "addons": "mars2d.addons",
 }
 """The families of parts, and the package that holds the parts of each."""
@@ -46,6 +47,7 @@ BASES = {
     "props": "Prop",
     "joints": "Joint",
     "sensors": "Sensor",
+    "controllers": "Controller",
     "addons": "Addon",
 }
 """The base class of each family."""

@@ -31,6 +31,7 @@ from mars2d.scenario.animation import Animation
 from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
 from mars2d.scenario.robot import Robot
+from mars2d.scenario.team_colors import team_colors
 
 __all__ = ["Obstacle", "Scenario"]
 
@@ -368,9 +369,8 @@ class Scenario(Description):
 
     @cached_property
     def colors(self) -> tuple[str, ...]:
-        """The robots' colours, each its own or the next of the animation's base colours."""
-        base = self.animation.base_colors
-        return tuple(robot.color or base[i % len(base)] for i, robot in enumerate(self.robots))
+        """The robots' colours, each its own or one of the animation's base colours."""
+        return team_colors(self.robots, self.animation.base_colors)
 
 
 def _index_of(field: str, kind: str, wanted: str | int, names: list[str]) -> int:

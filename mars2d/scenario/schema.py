@@ -10,7 +10,7 @@ from mars2d.scenario import serialize
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
-from mars2d.scenario.toml_file import FORMAT, NONE, takes_none
+from mars2d.scenario.toml_file import FORMAT, NONE, READY_MADE, takes_none
 
 __all__ = ["schema"]
 
@@ -24,7 +24,8 @@ def schema() -> Schema:
     `Scenario.save` writes, and refuses every number beyond the bounds of its field. Conditions
     between fields, such as robots that overlap, are beyond it.
     """
-    bases = {place.base for places in serialize.PARTS.values() for place in places.values()}
+    places = [place for fields in serialize.PARTS.values() for place in fields.values()]
+    bases = {place.base for place in (*places, READY_MADE)}
     kinds = {kind for base in bases for kind in serialize.kinds_of(base).values()}
     scenario = _table(Scenario)
     scenario["properties"] |= {"format": {"const": FORMAT}, "control": LAW}
@@ -78,7 +79,7 @@ def _values(kind: type[Description], field: dataclasses.Field[Any], place: Place
         if kind is Scenario and field.name == "robots":
             found = {"anyOf": [found, {"type": "integer", "minimum": 1}]}
     elif field.name == "controller" and issubclass(kind, Robot):
-        found = LAW
+        found = {"anyOf": [LAW, *_parts(READY_MADE)["anyOf"]]}
     else:
         found = schema_of(field)
     return {"anyOf": [found, {"const": NONE}]} if found and takes_none(field) else found

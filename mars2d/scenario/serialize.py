@@ -19,6 +19,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.materials import Coefficient
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
 from mars2d.scenario.animation import Animation
+from mars2d.scenario.controllers import Controller
 from mars2d.scenario.material_pair import MaterialPair
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.scenario.registry import FAMILIES, family_of, members, package_of, plugin
@@ -33,6 +34,7 @@ __all__ = [
     "Place",
     "changed",
     "from_description",
+    "is_ready_made",
     "kinds_of",
     "parts_of",
     "to_scenario",
@@ -92,6 +94,11 @@ def kind_of(plain: dict[str, Any]) -> type[Description] | None:
     if "from" in plain and own in _OWN:
         return plugin(_OWN[own].family, name, plain["from"])
     return _kinds().get(name)
+
+
+def is_ready_made(kind: type | None) -> bool:
+    """Return whether a class is one of the ready-made laws, which a file can name."""
+    return kind in kinds_of(Controller).values()
 
 
 def changed(part: Description, index: int = 0) -> dict[str, Any]:
@@ -194,6 +201,7 @@ _OWN = {
     "shape": _Own(Shape),
     "add-on": _Own(Addon, "addons"),
     "neighbourhood": _Own(Neighbourhood),
+    "controller": _Own(Controller, "controllers"),
     "sensor": _Own(Description, "sensors"),
 }
 """The kinds of parts of the user's own, by their names in files."""
@@ -208,8 +216,9 @@ MOVING = ("drive", "joint", "shape")
 def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
     """Return the scenario that `from_description` made plain, and the names of missing parts.
 
-    Laws do not come back, nor do parts that hold a function of the user's own. Of parts of the
-    user's own, sensors and joints are left out, and add-ons keep their obstacles only. A prop is
+    Laws do not come back, except the ready-made ones, nor do parts that hold a function of the
+    user's own. Of parts of the user's own, sensors and joints are left out, and add-ons keep their
+    obstacles only. A prop is
     replaced by a Solid of its shape, mass and surface, a shape by the parts that were drawn of it,
     a drive by a Unicycle, a neighbourhood by Everyone. All are named in the second value, such as
     ``sensor Eyes``. A part that a package ships by an entry point comes back if that package is
@@ -261,6 +270,8 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         missing.append(f"{value['type']}, with its function {functions[0]}")
         return _LEFT_OUT
     fields = {k: _to_description(v, missing) for k, v in value.items() if k not in unread}
+    if "controller" in value and is_ready_made(kind_of(value["controller"] or {})):
+        fields["controller"] = _to_description(value["controller"], missing)
     if "own" in value:
         package = f" (of the package {value['from']})" if "from" in value else ""
         missing.append(f"{value['own']} {value['type']}{package}")

@@ -21,6 +21,7 @@ from mars2d.core.materials import Coefficient
 from mars2d.core.picture import holds_pixels, image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
+from mars2d.scenario.controllers import Controller
 from mars2d.scenario.experiment import law_in
 from mars2d.scenario.law_reference import Reference, seen_from
 from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
@@ -28,7 +29,7 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
 
-__all__ = ["FORMAT", "NONE", "SUFFIX", "read", "save", "takes_none"]
+__all__ = ["FORMAT", "NONE", "READY_MADE", "SUFFIX", "read", "save", "takes_none"]
 
 SUFFIX = ".toml"
 
@@ -53,6 +54,8 @@ NONE = "none"
 """The text that stands for None."""
 
 Law = Callable[[Any], Any]
+
+READY_MADE = Place(Controller)
 
 
 # -- writing -----------------------------------------------------------------------------------
@@ -142,6 +145,8 @@ class _Writer:
         if isinstance(law, str):
             Reference.read(field, law)
             return f"{field} = {quoted(law)}"
+        if isinstance(law, Controller) and serialize.is_ready_made(type(law)):
+            return f"{field} = {laid_out(self._in_line(READY_MADE, law), width=MAX_BYTES)}"
         found = Reference.of(law)
         if found is None:
             self.missing.append(f"law {name_of(law)}")
@@ -358,7 +363,7 @@ class _Reader:
         if place is not None:
             return self._parts(place, value, at) if place.many else self._part(place, value, at)
         if field.name == "controller" and issubclass(kind, Robot):
-            return self._law(at, value, "the robot")
+            return self._controller(at, value)
         if check is image_file and isinstance(value, str) and not holds_pixels(value):
             return self._image(value)
         return self._plain(value, at)
@@ -392,6 +397,16 @@ class _Reader:
                 return self._part(Place(Description), value, at)
             return {name: self._plain(item, at) for name, item in value.items()}
         return value
+
+    def _controller(self, at: str, value: Any) -> Any:
+        """Return a robot's own law: a ready-made one, or one that stands in a file of Python."""
+        known = serialize.kinds_of(Controller)
+        if isinstance(value, dict) or (isinstance(value, str) and value in known):
+            return self._part(READY_MADE, value, at)
+        near = likely(value, known) if isinstance(value, str) else ""
+        if near:
+            raise _at(self._where(*_split(at)), f"controller = {shown(value)}: no such law{near}")
+        return self._law(at, value, "the robot")
 
     def _law(self, at: str, value: Any, subject: str) -> Law:
         try:

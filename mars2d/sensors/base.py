@@ -356,6 +356,13 @@ class Sensor(Stateful):
         """Return the value that a law finds under ``robot.sense``; by default the reading."""
         return reading
 
+    def sign(self, scene: Scene, color: str) -> str:  # noqa: ARG002
+        """Draw for a legend what a reading looks like; return its meaning, by default "": none.
+
+        The sign lies round (0, 0), within 12 points, in points.
+        """
+        return ""
+
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view and the reading for a robot at `pose` (3,); by default nothing."""
 

@@ -64,6 +64,13 @@ class Proximity(Sensor):
         edges = (theta - half, theta + half)
         return any(world.ray((x, y), edge, self.range, me) <= self.range for edge in edges)
 
+    def sign(self, scene: Scene, color: str) -> str:  # noqa: ARG002
+        """Draw the sector in which something is seen."""
+        scene.sector(
+            (-7.0, 0.0, 0.0), 14.0, 1.2, fill=faded("#d55e00", 0.22), stroke=faded("#d55e00", 0.8)
+        )
+        return "something is near"
+
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, filled while something is seen."""
         scene.sector(

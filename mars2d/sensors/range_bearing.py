@@ -76,6 +76,12 @@ class RangeBearing(Scanner):
             return tuple([Sighting(*row) for row, _ in near])
         return tuple(sorted([Sighting(apart, bearing, i) for (apart, bearing), i in near]))
 
+    def sign(self, scene: Scene, color: str) -> str:
+        """Draw a line to what is seen."""
+        scene.line([(-11.0, 0.0), (8.0, 0.0)], stroke=faded(color, 0.7))
+        scene.circle((8.0, 0.0), 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)
+        return "range and bearing"
+
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, and a line to each robot where it is measured to be."""
         here = self.placed(pose)

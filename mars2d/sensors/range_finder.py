@@ -59,6 +59,14 @@ class RangeFinder(Scanner):
         closed = self.field_of_view >= 2 * pi and self.beams > 2
         return Fan(self.angles, self.range, closed=closed)
 
+    def sign(self, scene: Scene, color: str) -> str:
+        """Draw a piece of the free area, and where it ends."""
+        scene.sector((-9.0, 0.0, 0.0), 16.0, 0.9, fill=faded(color, 0.15))
+        c, s = cosines_sines(np.array([-0.3, 0.0, 0.3]))
+        for place in np.column_stack([16 * c - 9, 16 * s]):
+            scene.circle(place, 0.0, fill=color, pixels=1.5)
+        return "a laser's hit"
+
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the area that the beams sweep, and a dot where one has hit something."""
         x, y, theta = self.placed(pose).tolist()

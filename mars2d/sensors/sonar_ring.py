@@ -80,6 +80,13 @@ class SonarRing(Scanner):
         """Its cones."""
         return Fan(self.angles, self.range, self.cone)
 
+    def sign(self, scene: Scene, color: str) -> str:
+        """Draw a cone that ends at an echo."""
+        scene.sector((-9.0, 0.0, 0.0), 16.0, 0.9, fill=faded(color, 0.15))
+        c, s = cosines_sines(np.linspace(-0.45, 0.45, 9))
+        scene.line(np.column_stack([16 * c - 9, 16 * s]), stroke=faded(color, 0.9), width=2.0)
+        return "a sonar's echo"
+
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw each cone as far as it is free, and an arc where it ends at something."""
         x, y, theta = self.placed(pose).tolist()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,12 +14,14 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.driver import Driver
-from mars2d.window.editor import Editor, Outcome
 from mars2d.window.notes import Notes
 from mars2d.window.player import Player
 from mars2d.window.saving import copied
 from mars2d.world.timeline import Progress, Timeline
 from mars2d.world.world import World
+
+if TYPE_CHECKING:
+    from mars2d.window.editor import Editor, Outcome
 
 __all__ = ["Director"]
 
@@ -257,6 +260,8 @@ class Director:
 
     def editor(self, painter: Painter) -> Editor | None:
         """Return an editor of the scenario as it is now."""
+        from mars2d.window.editor import Editor  # few runs need it, and it is slow to import
+
         timeline = self._live()
         if timeline is None:
             return None
@@ -268,8 +273,13 @@ class Director:
     def apply(self, outcome: Outcome) -> None:
         """Continue with the drawn scenario, from now or from the start."""
         assert self.timeline is not None
+        laws = {robot.name: robot.controller for robot in self._player.frame.scenario.robots}
+        robots = outcome.scenario.robots
+        given = frozenset(
+            r.name for r in robots if r.controller is not laws.get(r.name, r.controller)
+        )
         if outcome.when == "start":
-            drawn = self.timeline.experiment.redrawn(outcome.scenario)
+            drawn = self.timeline.experiment.redrawn(outcome.scenario, given)
             self._restart(drawn, "started anew with what was drawn; Space goes on")
             return
         before = self.scenario_now().bodies
@@ -279,7 +289,8 @@ class Director:
         def draw(world: World) -> None:
             check_alike(world.scenario, outcome.scenario)
             # In the past this is another world, whose own laws go on.
-            world.change(carried(world.scenario, outcome.scenario), world.control, moved)
+            drawn = carried(world.scenario, outcome.scenario, given)
+            world.operator.change(drawn, world.control, moved, given=given)
 
         if self.change(draw):
             self._notes.say("what was drawn holds from now on; Space goes on")

@@ -42,6 +42,9 @@ NOT_REAL = ("dummy", "offscreen", "evdev", "disk")
 ATTEMPTS = 3
 """How often to try to start the display."""
 
+_tried: list[bool] = []
+"""Whether the display was started only to see whether it can be."""
+
 PICTURES_A_SECOND = 60
 """How often a window is drawn."""
 REPEAT_DELAY, REPEAT_INTERVAL = 400, 60
@@ -75,7 +78,7 @@ def display_available() -> bool:
         open_display()
     except InputError:
         return False
-    pygame.display.quit()
+    _tried.append(True)  # the window that follows takes it over: to start it twice takes long
     return True
 
 
@@ -118,7 +121,8 @@ def started_display() -> Iterator[None]:
 
     from mars2d.window import display_loss
 
-    ours = not pygame.display.get_init()
+    ours = not pygame.display.get_init() or bool(_tried)
+    _tried.clear()
     open_display()
     try:
         yield

@@ -273,7 +273,7 @@ class Dock:
                 yield panel, pygame.Rect(lane.left, top, lane.width, height)
                 top += height + gap
 
-    def _aside(self, spot: Pixel | None) -> tuple[int, int]:
+    def _aside(self, spot: tuple[float, float] | None) -> tuple[int, int]:
         """Return by how much all panels are moved, so that they do not cover a spot, pixels."""
         if spot is None or self._place is None:
             self._mirrored = False
@@ -296,7 +296,7 @@ class Dock:
         self,
         surface: pygame.Surface,
         frame: Frame,
-        spot: Pixel | None = None,
+        spot: tuple[float, float] | None = None,
         pointer: Pixel | None = None,
         *,
         free: pygame.Rect | None = None,

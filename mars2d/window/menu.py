@@ -22,13 +22,14 @@ class Entry(NamedTuple):
     """An entry of a menu.
 
     act: its effect; None for a title. key: the key that has the same effect. on: whether its tick
-    box is ticked; None for none.
+    box is ticked; None for none. color: of a dot before the title, or "".
     """
 
     title: str
     act: Callable[[], None] | None = None
     key: str = ""
     on: bool | None = None
+    color: str = ""
 
 
 class Menu:
@@ -104,7 +105,8 @@ class Menu:
             fonts.width(entry.title, SIZE * ui, bold=entry.act is None) for entry in entries
         )
         keys = max(fonts.width(entry.key, SIZE * ui) for entry in entries)
-        boxes = any(entry.on is not None for entry in entries) * round((BOX + 9) * ui)
+        boxed = any(entry.on is not None or entry.color for entry in entries)
+        boxes = round((BOX + 9) * ui) if boxed else 0
         width = titles + boxes + (keys + round(24 * ui) if keys else 0) + 4 * pad
         self.plate = pygame.Rect(self._corner, (width, row * len(entries) + 2 * pad))
         self.plate.clamp_ip(bounds)
@@ -132,6 +134,12 @@ class Menu:
                     surface, theme.plate, closed=False, points=tick, width=max(2, round(2 * ui))
                 )
             left = box.right + round(9 * ui)
+        elif entry.color:
+            side = round(BOX * ui)
+            dot = pygame.Rect(left, 0, side, side)
+            dot.centery = place.centery
+            painter.panel(surface, dot, theme.shade(entry.color), side / 2)
+            left = dot.right + round(9 * ui)
         title = entry.act is None
         words = fonts.render(
             entry.title, SIZE * ui, theme.muted if title else theme.ink, bold=title

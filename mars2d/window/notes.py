@@ -73,21 +73,36 @@ class Notes:
         self._notes = []
 
     def draw(
-        self, surface: pygame.Surface, plot: pygame.Rect, painter: Painter, now: float
+        self,
+        surface: pygame.Surface,
+        plot: pygame.Rect,
+        painter: Painter,
+        now: float,
+        off: tuple[float, float] | None = None,
     ) -> None:
-        """Draw the notes that have not expired; now: a monotonic clock, seconds."""
+        """Draw the notes that have not expired; now: a monotonic clock, seconds.
+
+        off: a pixel that they do not cover, that of what is selected: they then go to the left.
+        """
         ui = painter.ui
         for note in self._notes:
             note.since = now if note.since is None else note.since
         self._notes = [note for note in self._notes if _opacity(note, now) > 0]
-        foot = plot.bottom - round(12 * ui)
-        for note in reversed(self._notes):
-            image = _drawn(note, plot, painter)
+        edge = round(12 * ui)
+        foot = plot.bottom - edge
+        images = [(note, _drawn(note, plot, painter)) for note in reversed(self._notes)]
+        whole = pygame.Rect(0, 0, 0, edge)
+        whole.width = max((image.get_width() for _, image in images), default=0) + 2 * edge
+        whole.height += sum(image.get_height() + edge for _, image in images)
+        whole.bottomright = plot.bottomright
+        aside = off is not None and whole.collidepoint(off)
+        for note, image in images:
             top = foot - image.get_height()
             if top < plot.top + round(8 * ui):
                 break
             image.set_alpha(round(255 * _opacity(note, now)))
-            surface.blit(image, (plot.right - round(12 * ui) - image.get_width(), top))
+            left = plot.left + edge if aside else plot.right - edge - image.get_width()
+            surface.blit(image, (left, top))
             foot = top - round(8 * ui)
 
 

@@ -10,6 +10,7 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.interrupt import noted_interrupts
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
+from mars2d.scenario.controllers import ByHand
 from mars2d.scenario.experiment import Experiment, examples
 from mars2d.window.display import Preferences
 from mars2d.window.source import Playback
@@ -20,6 +21,7 @@ from mars2d.world.world import Watcher
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
     from mars2d.window.memory import Memory
+    from mars2d.window.viewpoint import Viewpoint
     from mars2d.window.window import Window
 
 __all__ = ["show_experiment", "show_record"]
@@ -35,13 +37,15 @@ def show_experiment(
     log: Log | None = None,
     *,
     asks: bool = False,
+    viewpoint: Viewpoint | None = None,
 ) -> Record:
     """Run an experiment in a window until it is closed, and return the record.
 
     speed: simulated seconds per second, "max", or 0 for one step a key press. preferences: how the
     window looks. human: the robot to drive by hand; the run then waits for the person to start it.
     log: writes each control step to a file; it is closed at the end. asks: whether the
-    window asks before it closes if a run that hands have changed is to be saved. Raises InputError
+    window asks before it closes if a run that hands have changed is to be saved. viewpoint: where
+    the window looks, and where it has looked in the end. Raises InputError
     without a display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
@@ -56,8 +60,12 @@ def show_experiment(
         window = Window(source, speed, memory.size, preferences or memory.preferences())
         window.dock.open(memory.panels)
         window.asks = asks
-        if human is not None:
-            window.wait_for(human)
+        if viewpoint is not None:
+            window.viewpoint.look_as(viewpoint)
+        drivers = _to_be_driven(experiment) if human is None else [human]
+        if drivers:
+            window.wait_for(drivers[0])
+        window.say_who_stands_still()
         try:
             window.run()
         except Mars2dError as error:
@@ -69,6 +77,8 @@ def show_experiment(
             if log is not None:
                 log.close(source.record)
             memory.keep(**window.looks)
+            if viewpoint is not None:
+                viewpoint.look_as(window.viewpoint)
         _remember(memory, experiment, window)
     return source.record
 
@@ -88,6 +98,12 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
         window.run()
     finally:
         memory.keep(**window.looks)
+
+
+def _to_be_driven(experiment: Experiment) -> list[int]:
+    """Return the robots whose law is that a person drives them."""
+    robots = experiment.scenario.robots
+    return [i for i, robot in enumerate(robots) if isinstance(robot.controller, ByHand)]
 
 
 def _remember(memory: Memory, experiment: Experiment, window: Window) -> None:

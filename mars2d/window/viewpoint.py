@@ -86,6 +86,15 @@ class Viewpoint:
         self._fits, self.following = True, None
         self.camera = self._fitted()
 
+    def look_as(self, other: Viewpoint) -> None:
+        """Look at the same place as another viewpoint, at the same scale."""
+        if other._fits:
+            self.fit()
+            return
+        self.following = None
+        (x, y), (u, v) = other.layout.plot.center, self.layout.plot.center
+        self._fits, self.camera = False, other.camera.panned(u - x, v - y)
+
     def zoom(self, notches: float, pixel: tuple[int, int]) -> None:
         """Zoom about a pixel by notches of the mouse wheel."""
         fit = self._fitted().scale

@@ -6,10 +6,11 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from math import inf
+from typing import TYPE_CHECKING
 
 import pygame
 
-from mars2d.core.errors import Mars2dError
+from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.plane import Point
 from mars2d.core.watchdog import Watchdog
 from mars2d.output.layers.table import LAYERS, Layers
@@ -21,6 +22,7 @@ from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
+from mars2d.scenario.controllers import standing_still
 from mars2d.window import keys
 from mars2d.window.context import (
     entries_of_body,
@@ -40,7 +42,6 @@ from mars2d.window.display import (
     started_display,
 )
 from mars2d.window.dock import Dock
-from mars2d.window.editor import Editor
 from mars2d.window.ghosts import ghosts
 from mars2d.window.grab import CLICK, Grab
 from mars2d.window.help import Help
@@ -59,6 +60,9 @@ from mars2d.window.toolbar import Toolbar, layer_entries
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
+
+if TYPE_CHECKING:
+    from mars2d.window.editor import Editor
 
 __all__ = ["Window"]
 
@@ -375,16 +379,25 @@ class Window:
             beneath=others,
             marks=marks,
             hurried=self.viewpoint.hurried,
+            selected=self.selected,
         )
         self._draw_dock(surface, frame)
         if notes and not self.saver.filming:
-            self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
+            off = self._selected_pixel(frame)
+            self.notes.draw(surface, layout.plot, self._painter, time.monotonic(), off)
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
+
+    def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
+        """Return where the selected body is drawn, if one is selected."""
+        if self.selected is None:
+            return None
+        ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
+        return x, y
 
     def _draw_bars(self, surface: pygame.Surface, frame: Frame, banner: Banner | None) -> None:
         """Draw the bars round the picture."""
@@ -417,10 +430,7 @@ class Window:
 
     def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the panels, away from the selected body where the arena makes no room for them."""
-        spot = None
-        if self.selected is not None and not self.viewpoint.makes_room:
-            ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
-            spot = x, y
+        spot = None if self.viewpoint.makes_room else self._selected_pixel(frame)
         free = self._seen_arena(frame) if self._drives else None
         self.dock.draw(surface, frame, spot, self._pointer, free=free)
 
@@ -687,6 +697,23 @@ class Window:
             self.selected = self.selected or 0
             self.director.drive(self.selected)
 
+    def say_who_stands_still(self) -> None:
+        """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""
+        timeline = self.director.timeline
+        if timeline is None:
+            return
+        experiment = timeline.experiment
+        idle = standing_still(experiment.scenario, experiment.control)
+        drawn = experiment.path is not None and experiment.path.suffix == ".toml"
+        all_idle = len(idle) == len(experiment.scenario.robots) and not experiment.scenario.props
+        if not idle or not (drawn or all_idle):
+            return
+        first, want = next(iter(idle.items()))
+        name = experiment.scenario.robots[first].name
+        more = f", and {counted(len(idle) - 1, 'more robot')}" if len(idle) > 1 else ""
+        stands = "stand" if more else "stands"
+        self.notes.say(f"{name}{more} {stands} still: {name} lacks {want}", "warning")
+
     def wait_for(self, robot: int) -> None:
         """Let a person drive a robot, and wait for the person to start."""
         self.player.pause()
@@ -702,10 +729,12 @@ class Window:
         self.editor = self.director.editor(self._painter)
         if self.editor is not None:
             self.editor.text, self.editor.scale = self.text, self.scale
+            self.editor.viewpoint.look_as(self.viewpoint)
 
     def _close_editor(self, editor: Editor) -> None:
         """Close the editor, and apply its outcome."""
         self.editor, self.text = None, editor.text
+        self.viewpoint.look_as(editor.viewpoint)
         self._keyboard.clear()
         if editor.dialogs.outcome is not None:
             self.director.apply(editor.dialogs.outcome)

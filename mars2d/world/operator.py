@@ -145,8 +145,12 @@ class Operator:
         control: Callable[[Any], Any] | None = None,
         moved: Mapping[int, tuple[float, float, float]] | None = None,
         settings: Mapping[str, Any] | None = None,
+        given: frozenset[str | None] = frozenset(),
     ) -> None:
-        """Go on with another scenario, see `World.change`."""
+        """Go on with another scenario, see `World.change`.
+
+        given: the names of robots that get other laws by hand; these hold if the run is repeated.
+        """
         world, moved = self._world, dict(moved or {})
         check_same(world.scenario, scenario)
         if control is not None:
@@ -157,7 +161,8 @@ class Operator:
         moves_on = stays and moves_alike(world.scenario, scenario)
         changed = scenario if stays else with_poses(scenario, start.state[:, :3].T)
         made = tuple((settings or {}).items())
-        self.log.append(Change(world.iteration, scenario, tuple(moved.items()), control, made))
+        where = tuple(moved.items())
+        self.log.append(Change(world.iteration, scenario, where, control, made, given))
         world.go_on(changed, control, None if moves_on else start)
 
     def pull(

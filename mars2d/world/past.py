@@ -235,9 +235,9 @@ def _redo(track: Track, world: World) -> None:
         return
     for intervention in track.interventions(row):
         if isinstance(intervention, Change):
-            scenario = carried(world.scenario, intervention.scenario)
+            scenario = carried(world.scenario, intervention.scenario, intervention.given)
             moved, settings = dict(intervention.moved), dict(intervention.settings)
-            world.change(scenario, world.control, moved, settings)
+            world.operator.change(scenario, world.control, moved, settings, intervention.given)
         else:
             world.operator.redo(intervention)
 

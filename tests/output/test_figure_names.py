@@ -11,9 +11,8 @@ from mars2d.addons import Communication
 from mars2d.bodies import Box
 from mars2d.cli.command_line import main
 from mars2d.core.scene import Circle, Line, Text
-from mars2d.output.figures import names
 from mars2d.output.figures.figure import LEGEND_LIMIT, plot_paths, plot_snapshots
-from mars2d.output.layers import bodies
+from mars2d.output.layers import bodies, placement
 from mars2d.output.layers.ranges import range_of, ranges
 from mars2d.output.layers.table import Layers
 
@@ -51,17 +50,17 @@ def test_no_name_lies_over_another(n):
 
 def test_a_name_that_finds_room_is_above_its_body_and_has_no_line():
     frame = mars2d.run(Scenario(robots=[Robot(name="red")], stop_time=0.1)).frame(-1)
-    scene = names.placed_names(bodies.names(frame), frame, 0.01, names.Box(0, 0, 5, 5))
+    scene = placement.placed_names(bodies.names(frame), frame, 0.01, placement.Box(0, 0, 5, 5))
     (label,) = scene.shapes
     assert isinstance(label, Text)
     assert (label.text, label.position[0]) == ("red", pytest.approx(0.0))
-    assert label.position[1] > 0.15
+    assert (label.position[1], label.anchor) == (pytest.approx(0.15), "above")
 
 
 def test_a_name_stays_in_the_figure():
     frame = mars2d.run(Scenario(robots=[Robot(name="red")], stop_time=0.1)).frame(-1)
-    scene = names.placed_names(
-        bodies.names(frame), frame, 0.01, names.Box(0, -4.8, 5, 5)
+    scene = placement.placed_names(
+        bodies.names(frame), frame, 0.01, placement.Box(0, -4.8, 5, 5)
     )  # it ends just above
     (label,) = (shape for shape in scene.shapes if isinstance(shape, Text))
     assert label.position[1] < 0
@@ -219,7 +218,7 @@ def test_layers_are_for_drawings_of_the_plane(here, capsys):
 
 def test_a_line_is_a_line():
     frame = crowd(60).frame(-1)
-    scene = names.placed_names(bodies.names(frame), frame, 0.02, names.Box(1.5, 1.5, 4, 4))
+    scene = placement.placed_names(bodies.names(frame), frame, 0.02, placement.Box(1.5, 1.5, 4, 4))
     kinds = {type(shape) for shape in scene.shapes}
     assert kinds == {Line, Text}  # in a crowd some names have a line to their body
 
@@ -227,5 +226,5 @@ def test_a_line_is_a_line():
 def test_props_are_named_too():
     made = Scenario(robots=[Robot(pose=(0, 2, 0))], props=[Box(name="crate")], stop_time=0.1)
     frame = mars2d.run(made).frame(-1)
-    scene = names.placed_names(bodies.names(frame), frame, 0.01, names.Box(0, 0, 5, 5))
+    scene = placement.placed_names(bodies.names(frame), frame, 0.01, placement.Box(0, 0, 5, 5))
     assert [shape.text for shape in scene.shapes] == ["robot0", "crate"]

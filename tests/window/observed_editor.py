@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from mars2d.output.raster.painter import Painter
+from mars2d.scenario.controllers import Controller
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, EditorWindow
@@ -47,6 +48,17 @@ def state_of(editor):
         "typed": None if editor.dialogs.prompt is None else editor.dialogs.prompt.text,
         "error": None if editor.dialogs.prompt is None else editor.dialogs.prompt.error,
         "help": editor.help.is_open,
+        "laws": [law_of(robot) for robot in draft.robots],
+        "drives": [repr(robot.drive) for robot in draft.robots],
+        "members": [[b.mass, b.friction, b.color] for b in (*draft.robots, *draft.props)],
+        "sensors": [[repr(sensor) for sensor in robot.sensors] for robot in draft.robots],
+        "joints": [[type(j).__name__, j.a, j.b, j.anchor_b] for j in draft.joints],
+        "base": [draft.base.title, draft.base.stop_time, draft.base.on_exit],
+        "idle": editor.properties.idle(draft),
+        "panel": {title: place.center for title, place in editor.panel.places.items()},
+        "rows": [[row.title, row.value] for row in editor.properties.rows()],
+        "signs": {title: place.center for title, place in editor.panel.signs.items()},
+        "menu": {title: place.center for title, place in editor.menu.places.items()},
         "snaps": desk.snaps,
         "step": desk.step,
         "changed": desk.history.changed,
@@ -55,6 +67,11 @@ def state_of(editor):
         "scale": round(desk.camera.scale, 3),
         "origin": [round(desk.camera.x, 2), round(desk.camera.y, 2)],
     }
+
+
+def law_of(robot):
+    law = robot.controller
+    return law if law is None else repr(law) if isinstance(law, Controller) else law.__name__
 
 
 def _sizes(prop):

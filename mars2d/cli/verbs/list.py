@@ -12,6 +12,7 @@ FAMILIES = {
     "Props": "props",
     "Joints": "joints",
     "Sensors": "sensors",
+    "Ready-made laws": "controllers",
     "Add-ons": "addons",
 }
 
@@ -21,7 +22,7 @@ def add_arguments(_: argparse.ArgumentParser) -> None:
 
 
 def execute(_: argparse.Namespace) -> None:
-    """List examples, drives, props, joints, sensors and add-ons, one line each."""
+    """List examples, drives, props, joints, sensors, laws and add-ons, one line each."""
     print_examples()
     for title, family in FAMILIES.items():
         print_table(title, {name: _line(family, name) for name in members(family)})

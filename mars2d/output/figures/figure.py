@@ -21,10 +21,11 @@ from mars2d.core.plane import grid_step
 from mars2d.core.scene import Circle, Line, Polygon, Scene, Shape, Text, faded
 from mars2d.output.figures.artists import SHAPES, paint, points_per_metre
 from mars2d.output.figures.extent import View, rows_at
-from mars2d.output.figures.names import Box, placed_names
 from mars2d.output.figures.style import SCREEN, Style, style_of
 from mars2d.output.layers.forces import FORCE, LABEL_SIZE, force_scale, in_newtons, round_force
 from mars2d.output.layers.forces import forces as force_arrows
+from mars2d.output.layers.legend import SIGNED, legends, sign_rows
+from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails
 
@@ -380,6 +381,7 @@ def paint_row(
                 line.set_clip_path(ax.patches[before])
     if layers.forces:
         _paint_legend(ax, now, scales["bodies"], words)
+    _paint_signs(ax, now, layers, words)
 
 
 def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, *, forces: bool) -> Scene:
@@ -425,6 +427,7 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
         "addons": 0.75,
         "theory": 0.75,
         "props": min(robots, 0.6),
+        "rings": 0.6,
         "robots": robots,
         "bodies": max(0.4, robots),
     }
@@ -436,6 +439,19 @@ def _paint_legend(ax: Axes, now: Frame, scale: float, words: float) -> None:
     arrow, text = _force_legend(ax, now)
     paint(arrow, ax, scale=scale)
     paint(text, ax, scale=words)
+
+
+def _paint_signs(ax: Axes, now: Frame, layers: Layers, words: float) -> None:
+    """Paint what the signs of the layers mean, in a corner: above the scale of forces, if any."""
+    shown = [
+        legend
+        for legend in legends(now.scenario)
+        if legend.layer in SIGNED and getattr(layers, legend.layer)
+    ]
+    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
+    up = 0.13 if layers.forces else 0.05
+    corner = xmin + 0.02 * (xmax - xmin), ymin + up * (ymax - ymin)
+    paint(sign_rows(shown, corner, words / points_per_metre(ax)), ax, scale=words)
 
 
 def _force_legend(ax: Axes, now: Frame) -> tuple[Scene, Scene]:

@@ -2,20 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from mars2d.core.scene import Scene
+from mars2d.addons.base import Addon
+from mars2d.core.plane import Point
+from mars2d.core.scene import (
+    INK,
+    PALETTE,
+    THEORY,
+    Arrow,
+    Circle,
+    Line,
+    Polygon,
+    Scene,
+    Shape,
+    faded,
+)
+from mars2d.core.usercode import called
 from mars2d.output.layers.forces import FORCE, SLIP, SLIP_EDGE, force_scale, in_newtons, round_force
+from mars2d.output.layers.messages import LOST_LINK
 from mars2d.output.layers.velocities import VELOCITY, in_metres_a_second, speed_scale
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["MAX_ARROW", "Legend", "Ruler", "Sign", "legends"]
+__all__ = ["MAX_ARROW", "SIGNED", "Legend", "Ruler", "Sign", "legends", "sign_rows"]
 
 MAX_ARROW = 72.0
 """The greatest length of an arrow, points; it means 1, 2, 5, 10 ... newtons or metres a second."""
+
+
+SIGNED = ("messages", "theory", "sensors")
+"""The layers whose signs have a legend in pictures without plates, too."""
+ROW = 16.0
+"""The height of a row of signs without a plate, points."""
 
 
 class Ruler(NamedTuple):
@@ -58,10 +80,82 @@ def legends(scenario: Scenario) -> list[Legend]:
     force, speed = force_scale(scenario), speed_scale(scenario)
     newtons = Ruler(FORCE, force.width, force.newton, in_newtons)
     paces = Ruler(VELOCITY, speed.width, speed.meter_a_second, in_metres_a_second)
-    return [
+    found = [
         Legend("forces", (Sign(_slipping(), 18.0, "slips"),), newtons),
         Legend("velocities", (Sign(_turning(), 24.0, "turn in 1 s"),), paces),
     ]
+    if signs := _of_sensors(scenario):
+        found.append(Legend("sensors", signs))
+    if any(addon.carries_messages for addon in scenario.addons):
+        signs = Sign(_message(), 28.0, "message"), Sign(_lost(), 28.0, "message lost")
+        found.append(Legend("messages", signs))
+    if any(type(addon).theory is not Addon.theory for addon in scenario.addons):
+        found.append(Legend("theory", (Sign(_theory(), 28.0, "theory"),)))
+    return found
+
+
+def sign_rows(shown: Sequence[Legend], corner: Point, point: float) -> Scene:
+    """Return the signs of legends with their meanings, in rows above a corner (x, y) [m].
+
+    point: how long a point is, metres. For pictures without plates.
+    """
+    scene, (x, y) = Scene(), corner
+    for k, sign in enumerate(sign for legend in shown for sign in legend.signs):
+        middle = x + 14.0 * point, y + ROW * k * point
+        scene.extend(_moved(shape, middle, point) for shape in sign.scene.shapes)
+        place = middle[0] + 16.0 * point, middle[1]
+        scene.text(place, sign.meaning, color=INK, anchor="left", halo="#ffffff")
+    return scene
+
+
+def _moved(shape: Shape, to: Point, point: float) -> Shape:
+    """Return a shape of a sign, which is in points round (0, 0), in metres round a point."""
+    if isinstance(shape, Circle):
+        (x, y), radius = shape.center, point * shape.radius
+        return replace(shape, center=(to[0] + point * x, to[1] + point * y), radius=radius)
+    if isinstance(shape, Line | Polygon):
+        return replace(shape, points=np.array(to) + point * shape.points)
+    if isinstance(shape, Arrow):
+        (ax, ay), (bx, by) = shape.tail, shape.tip
+        tail = to[0] + point * ax, to[1] + point * ay
+        return replace(shape, tail=tail, tip=(to[0] + point * bx, to[1] + point * by))
+    return shape
+
+
+def _of_sensors(scenario: Scenario) -> tuple[Sign, ...]:
+    """Return a sign for each kind of sensors that has one."""
+    found: dict[str, Sign] = {}
+    for robot, color in zip(scenario.robots, scenario.colors, strict=True):
+        for sensor in robot.sensors:
+            scene = Scene()
+            with called(f"sensor {sensor.key!r}", sensor.sign):
+                meaning = sensor.sign(scene, color)
+            if meaning:
+                found.setdefault(meaning, Sign(scene, 28.0, meaning))
+    return tuple(found.values())
+
+
+def _message() -> Scene:
+    """Return the sign of a message on its way."""
+    scene = Scene()
+    scene.line([(-12, 0), (12, 0)], stroke=faded(PALETTE[0], 0.5), width=1.1)
+    scene.arrow((-6, 0), (6, 0), fill=faded(PALETTE[0], 0.9), width=2.2)
+    return scene
+
+
+def _lost() -> Scene:
+    """Return the sign of a link over which nothing gets through."""
+    scene = Scene()
+    scene.line([(-12, 0), (12, 0)], stroke=faded(LOST_LINK, 0.75), width=1.1, style="--")
+    scene.cross((0, 0), 4.0, stroke=LOST_LINK, width=2.2)
+    return scene
+
+
+def _theory() -> Scene:
+    """Return the sign of a prediction."""
+    scene = Scene()
+    scene.line([(-12, 0), (12, 0)], stroke=THEORY, width=2.0)
+    return scene
 
 
 def _slipping() -> Scene:

@@ -28,6 +28,7 @@ from mars2d.output.layers.ground import edge, obstacles, workspace
 from mars2d.output.layers.messages import messages
 from mars2d.output.layers.neighbours import neighbours
 from mars2d.output.layers.ranges import place_range, ranges
+from mars2d.output.layers.rings import place_ring, rings
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
 from mars2d.record.frame import Frame
@@ -106,6 +107,7 @@ LAYERS: list[Layer] = [
     Layer(name="theory", title="Theory", shapes=theory, key="y", at_first=attrgetter("theory")),
     Layer(name="messages", title="Messages", shapes=messages, key="m"),
     Layer(name="props", title="Props", shapes=props, switch=False, each=place_prop),
+    Layer(name="rings", title="Rings", shapes=rings, switch=False, each=place_ring),
     Layer(name="robots", title="Robots", shapes=robots, switch=False, each=place_robot),
     Layer(name="joints", title="Joints", shapes=joints, switch=False),
     Layer(name="velocities", title="Velocities", shapes=velocities, key="u", at_first=_never),

@@ -14,6 +14,9 @@ from mars2d.core.plane import grid_step
 from mars2d.core.scene import Anchor, Scene, Text
 from mars2d.output.figures.extent import View
 from mars2d.output.figures.style import SCREEN
+from mars2d.output.layers.forces import forces as force_arrows
+from mars2d.output.layers.legend import SIGNED, legends, sign_rows
+from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.pages.svg import ScaledScene, svg
 from mars2d.output.raster.theme import LIGHT
@@ -94,10 +97,32 @@ def _parts(
     for layer in layers.seen(frame.scenario.animation):
         try:
             scene = layer.shapes(frame) if layer.shapes else _grid(frame.scenario, view)
+            if layer.name == "names":
+                scene = _names_apart(scene, frame, view, scales["names"], layers)
             found.append((layer.name, (scene, scales.get(layer.name, scales["bodies"]))))
         except Exception as error:
             notes.append(f"Not drawn: {layer.title.lower()}. {described(error)}")
-    return found
+    return [*found, ("legend", (_signs(frame, view, layers), 0.85))]
+
+
+def _signs(frame: Frame, view: View, layers: Layers) -> Scene:
+    """Return what the signs of the layers mean, in the lower left corner."""
+    shown = [
+        legend
+        for legend in legends(frame.scenario)
+        if legend.layer in SIGNED and getattr(layers, legend.layer)
+    ]
+    corner = view.xmin + 8 / _ppm(view), view.ymin + 14 / _ppm(view)
+    return sign_rows(shown, corner, 0.85 / _ppm(view))
+
+
+def _names_apart(names: Scene, frame: Frame, view: View, scale: float, layers: Layers) -> Scene:
+    """Return the names of bodies, none over another or over a force that is drawn."""
+    whole = Box(
+        (view.xmin + view.xmax) / 2, (view.ymin + view.ymax) / 2, view.width / 2, view.height / 2
+    )
+    others = force_arrows(frame).shapes if layers.forces else ()
+    return placed_names(names, frame, scale / _ppm(view), whole, others)
 
 
 def _scales(scenario: Scenario, ppm: float) -> dict[str, float]:
@@ -121,6 +146,7 @@ def _scales(scenario: Scenario, ppm: float) -> dict[str, float]:
         "addons": 0.8,
         "theory": 0.8,
         "props": min(robots, 0.7),
+        "rings": 0.8,
         "robots": robots,
         "names": 0.85,
         "bodies": max(0.4, robots),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import pygame
 
@@ -27,42 +28,61 @@ def draw_legends(
     plot: pygame.Rect,
     legends: Sequence[Legend],
 ) -> None:
-    """Draw legends side by side, if the picture has room for them."""
+    """Draw legends side by side, in rows from the bottom up, if the picture has room for them."""
     if plot.height < MIN_HEIGHT * painter.ui or plot.width < 2 * MIN_HEIGHT * painter.ui:
         return
-    corner = plot.bottomleft
+    corner, top = plot.bottomleft, plot.bottom
     for legend in legends:
-        corner = _draw(surface, painter, legend, camera, corner).right, plot.bottom
+        plate = _measured(painter, legend, camera)
+        if corner[0] + plate.size[0] > plot.right and corner[0] > plot.left:
+            corner = plot.left, top
+        area = _draw(surface, painter, legend, plate, corner)
+        corner, top = (area.right, corner[1]), min(top, area.top)
 
 
-def _draw(
-    surface: pygame.Surface,
-    painter: Painter,
-    legend: Legend,
-    camera: Camera,
-    corner: tuple[int, int],
-) -> pygame.Rect:
-    """Draw a legend on a plate to the upper right of a corner; return the plate."""
-    ui, theme, fonts = painter.ui, painter.theme, painter.fonts
-    size, pad, row, gap = TEXT_SIZE * ui, PAD * ui, ROW_HEIGHT * ui, GAP * ui
-    words = [sign.meaning for sign in legend.signs]
+class _Plate(NamedTuple):
+    """A legend's words, the width of its column of signs, the length of its arrow, and its size."""
+
+    words: list[str]
+    column: float
+    length: float
+    size: tuple[int, int]
+
+
+def _measured(painter: Painter, legend: Legend, camera: Camera) -> _Plate:
+    """Return the measures of a legend, pixels."""
+    ui, words = painter.ui, [sign.meaning for sign in legend.signs]
     column = max((sign.room * ui for sign in legend.signs), default=0.0)
     length = 0.0
     if legend.ruler is not None:
         metres, said = legend.ruler.within(MAX_ARROW * ui / camera.scale)
         length = metres * camera.scale
         column, words = max(length, column), [said, *words]
-    width = pad + column + gap + max(fonts.width(word, size) for word in words) + pad
-    plate = pygame.Rect(0, 0, round(width), round(len(words) * row + gap))
+    text = max(painter.fonts.width(word, TEXT_SIZE * ui) for word in words)
+    width = round((2 * PAD + GAP) * ui + column + text)
+    return _Plate(words, column, length, (width, round((len(words) * ROW_HEIGHT + GAP) * ui)))
+
+
+def _draw(
+    surface: pygame.Surface,
+    painter: Painter,
+    legend: Legend,
+    measured: _Plate,
+    corner: tuple[int, int],
+) -> pygame.Rect:
+    """Draw a legend on a plate to the upper right of a corner; return the plate."""
+    ui, theme, fonts = painter.ui, painter.theme, painter.fonts
+    row, gap, column = ROW_HEIGHT * ui, GAP * ui, measured.column
+    plate = pygame.Rect((0, 0), measured.size)
     plate.bottomleft = (corner[0] + round(gap), corner[1] - round(gap))
     painter.panel(surface, plate, faded(theme.plate, 0.9), gap, theme.edge)
-    left, middle = plate.left + pad, plate.top + 4 * ui + row / 2
-    for k, word in enumerate(words):
-        image = fonts.render(word, size, theme.text)
+    left, middle = plate.left + PAD * ui, plate.top + 4 * ui + row / 2
+    for k, word in enumerate(measured.words):
+        image = fonts.render(word, TEXT_SIZE * ui, theme.text)
         place = image.get_rect(midleft=(round(left + column + gap), round(middle + k * row)))
         surface.blit(image, place)
     if legend.ruler is not None:
-        scene, ends = Scene(), ((left, -middle), (left + length, -middle))
+        scene, ends = Scene(), ((left, -middle), (left + measured.length, -middle))
         scene.arrow(*ends, fill=legend.ruler.color, width=legend.ruler.width)
         painter.paint(surface, scene.shapes, PIXELS)
         middle += row

@@ -10,8 +10,10 @@ from time import perf_counter
 
 import pygame
 
-from mars2d.core.scene import Shape
-from mars2d.output.layers.legend import legends
+from mars2d.core.scene import Scene, Shape
+from mars2d.output.layers.forces import forces as force_arrows
+from mars2d.output.layers.legend import Legend, legends
+from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
@@ -132,6 +134,9 @@ class Stage:
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
         self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
+        self._legends: list[Legend] = []
+        self._legends_of: Scenario | None = None
+        self._places: dict[int, int] = {}  # of the names in the last picture
         self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._numbers_of: tuple[Hashable, ...] = ()
 
@@ -146,12 +151,14 @@ class Stage:
         beneath: Sequence[Shape] = (),
         marks: Sequence[Shape] = (),
         hurried: bool = False,
+        selected: int | None = None,
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
-        beneath, marks: shapes to draw below and above the bodies. hurried: whether the camera is
-        moving. If the layers that stand still took long to draw, the last picture is then enlarged
-        or shifted until there is time to draw a new one.
+        beneath, marks: shapes to draw below and above the bodies. selected: a body whose name goes
+        before others, an index of `Scenario.bodies`. hurried: whether the camera is moving. If the
+        layers that stand still took long to draw, the last picture is then enlarged or shifted
+        until there is time to draw a new one.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -163,9 +170,11 @@ class Stage:
             self._enlarge(surface, canvas, camera, layers, plot)
             if layers.sensors:
                 self.painter.paint(surface, _sensors(frame), camera)
-        self._paint_above(surface, frame, camera, layers, beneath, marks)
+        self._paint_above(surface, frame, camera, layers, beneath, marks, selected)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
-        shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
+        if frame.scenario is not self._legends_of:
+            self._legends_of, self._legends = frame.scenario, legends(frame.scenario)
+        shown = [each for each in self._legends if getattr(layers, each.layer)]
         draw_legends(surface, self.painter, camera, plot, shown)
         surface.set_clip(before)
 
@@ -177,6 +186,7 @@ class Stage:
         layers: Layers,
         beneath: Sequence[Shape],
         marks: Sequence[Shape],
+        selected: int | None,
     ) -> None:
         """Draw the layers above the kept ones, with `beneath` and `marks` around the bodies."""
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
@@ -184,9 +194,32 @@ class Stage:
             if layer.name == FIRST_BODIES:
                 self.painter.paint(surface, beneath, camera)
             if layer.name in seen and layer.shapes is not None:
-                self.painter.paint(surface, layer.shapes(frame).shapes, camera)
+                scene = layer.shapes(frame)
+                if layer.name == "names":
+                    scene = self._names_apart(
+                        scene, frame, camera, surface, layers, marks, selected
+                    )
+                self.painter.paint(surface, scene.shapes, camera)
             if layer.name == LAST_BODIES:
                 self.painter.paint(surface, marks, camera)
+
+    def _names_apart(
+        self,
+        names: Scene,
+        frame: Frame,
+        camera: Camera,
+        surface: pygame.Surface,
+        layers: Layers,
+        marks: Sequence[Shape],
+        selected: int | None,
+    ) -> Scene:
+        """Return the names of bodies, none over another, over a mark, or over a force."""
+        area = surface.get_clip()
+        ((x, y),) = camera.to_world([area.center]).tolist()
+        view = Box(x, y, area.width / (2 * camera.scale), area.height / (2 * camera.scale))
+        others = [*marks, *(force_arrows(frame).shapes if layers.forces else ())]
+        point = self.painter.ui / camera.scale
+        return placed_names(names, frame, point, view, others, selected, self._places)
 
     # -- the kept layers ----------------------------------------------------------------------
 

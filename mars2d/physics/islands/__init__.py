@@ -7,7 +7,6 @@ same bits.
 
 from __future__ import annotations
 
-import importlib.metadata
 import os
 import re
 from collections.abc import Iterator
@@ -17,7 +16,7 @@ from typing import Any
 
 from mars2d.physics.islands.build import fingerprint, functions
 
-__all__ = ["difference", "islands", "reason_without"]
+__all__ = ["difference", "islands", "reason_without", "version"]
 
 
 def islands() -> Any:
@@ -52,6 +51,13 @@ def _loaded() -> tuple[Any, str]:
     return made, ""
 
 
+def version() -> str:
+    """Return the version of pymunk; to ask `importlib.metadata` takes a tenth of a start."""
+    import pymunk
+
+    return pymunk.version
+
+
 def difference() -> str:
     """Return how pymunk differs from what the islands can be compiled for; empty if it does not."""
     from pymunk._chipmunk_cffi import ffi, lib
@@ -61,8 +67,9 @@ def difference() -> str:
         impulses_are_where_thought,
     )
 
-    version = importlib.metadata.version("pymunk")
-    found = (f"pymunk {version} is not as it was written for: {what}" for what in changes(ffi, lib))
+    found = (
+        f"pymunk {version()} is not as it was written for: {what}" for what in changes(ffi, lib)
+    )
     known = {
         "its joints have their impulses elsewhere": impulses_are_where_thought,
         "its bodies have their poses elsewhere": bodies_are_as_thought,

@@ -200,13 +200,11 @@ def draw_plate(
     painter: Painter,
     lines: Sequence[str],
     bounds: pygame.Rect,
-    off: tuple[int, int] | None = None,
     **place: tuple[int, int],
 ) -> None:
     """Draw lines of text on a plate, the first line bold if there are several.
 
-    place: the plate's position, as for ``get_rect``; it stays within bounds. off: a pixel; a plate
-    that would be near it is drawn at the left end instead.
+    place: the plate's position, as for ``get_rect``; it stays within bounds.
     """
     theme, ui, fonts = painter.theme, painter.ui, painter.fonts
     images = [
@@ -218,8 +216,6 @@ def draw_plate(
     for name, value in place.items():
         setattr(plate, name, value)
     plate.clamp_ip(bounds)
-    if off is not None and plate.inflate(round(80 * ui), round(80 * ui)).collidepoint(off):
-        plate.left = bounds.left + bounds.right - plate.right
     painter.panel(surface, plate, theme.plate, 6 * ui, theme.key_edge)
     for i, image in enumerate(images):
         at = plate.left + round(11 * ui), plate.top + round(6 * ui) + step * i + step // 2

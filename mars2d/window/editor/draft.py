@@ -47,6 +47,7 @@ class Draft:
     base: Scenario
     robots: tuple[Robot, ...]
     props: tuple[Prop, ...]
+    joints: tuple[Joint, ...]
     outlines: tuple[Outline, ...]
     walls: tuple[Outline, ...]
     routes: tuple[Outline, ...]
@@ -62,6 +63,7 @@ class Draft:
             base=scenario,
             robots=tuple(scenario.robots),
             props=tuple(scenario.props),
+            joints=tuple(scenario.joints),
             outlines=() if chart is None else tuple(chart.outlines),
             walls=() if chart is None else tuple(chart.walls),
             routes=(*drawn, *[()] * (len(scenario.robots) - len(drawn))),
@@ -116,9 +118,9 @@ class Draft:
         return {robot.name for robot in self.robots} | {prop.name for prop in self.props}
 
     def _joints(self) -> tuple[Joint, ...]:
-        """Return the base's joints whose bodies still exist."""
+        """Return the joints whose bodies still exist."""
         names = self._names() | {None}
-        return tuple(joint for joint in self.base.joints if {joint.a, joint.b} <= names)
+        return tuple(joint for joint in self.joints if {joint.a, joint.b} <= names)
 
     def _addons(self, outlines: Sequence[Outline], addons: Sequence[Addon]) -> list[Addon]:
         """Return the base's add-ons, those that are drawn replaced by their present state."""
@@ -249,7 +251,7 @@ class Draft:
         corners = self.corners(item)
         if corners is not None:
             return tuple(motion.point(corner) for corner in corners)
-        body = self.robots[item.number] if item.kind == "robot" else self.props[item.number]
+        body = self.member(item)
         return body.replace(pose=motion.pose(body.pose))
 
     def with_corners(self, item: Item, corners: Outline) -> Self:
@@ -259,6 +261,32 @@ class Draft:
     def with_prop(self, index: int, prop: Prop) -> Self:
         """Return the draft with one prop replaced."""
         return self._with(Item("prop", index), prop)
+
+    def member(self, item: Item) -> Robot | Prop:
+        """Return a robot or prop."""
+        return self.robots[item.number] if item.kind == "robot" else self.props[item.number]
+
+    def with_members(self, items: Collection[Item], change: Callable[[Any], Robot | Prop]) -> Self:
+        """Return the draft with robots or props changed, each by a function of itself."""
+        draft = self
+        for item in items:
+            draft = draft._with(item, change(draft.member(item)))
+        return draft
+
+    def joints_of(self, item: Item) -> tuple[Joint, ...]:
+        """Return the joints that hold a robot or prop."""
+        name = self.member(item).name
+        return tuple(joint for joint in self._joints() if name in (joint.a, joint.b))
+
+    def with_joint(self, joint: Joint, instead: Joint | None = None) -> Self:
+        """Return the draft with one more joint, or with one in place of another."""
+        if instead is None:
+            return replace(self, joints=(*self.joints, joint))
+        return replace(self, joints=tuple(joint if j is instead else j for j in self.joints))
+
+    def without_joint(self, joint: Joint) -> Self:
+        """Return the draft without a joint."""
+        return replace(self, joints=tuple(each for each in self.joints if each is not joint))
 
     def _with(self, item: Item, value: Any) -> Self:
         if item.kind == "workspace":

@@ -12,10 +12,10 @@ from typing import Any
 
 import pygame
 
+from mars2d.bodies.joints.base import Joint
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
-from mars2d.output.layers.bodies import names
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.layout import Layout, next_text_size
 from mars2d.output.raster.painter import Painter
@@ -34,16 +34,21 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs, Outcome
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.item import Item
 from mars2d.window.editor.keys import action_of, chord, groups
 from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall, Workspace
+from mars2d.window.editor.panel import Panel
 from mars2d.window.editor.placing import PlaceBall, PlaceBeacon, PlaceBox, PlaceRobot, PlaceWaypoint
-from mars2d.window.editor.readout import described, minus
+from mars2d.window.editor.properties import Properties
+from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Select
-from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_selected
+from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_idle, draw_selected
 from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.toolbar import WIDTH, Toolbar
+from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
 from mars2d.window.help import Help
+from mars2d.window.menu import Menu
 from mars2d.window.viewpoint import Viewpoint, wheel_notches
 
 __all__ = ["Editor", "Outcome"]
@@ -101,6 +106,10 @@ class Editor:
             self.desk, self.document, self.judge, scenario,
             live=live, complete=self._complete,
         )  # fmt: skip
+        self.menu, self.panel = Menu(), Panel(painter)
+        self.properties = Properties(
+            self.desk, self.dialogs, self.document, self.menu, self._choose, self._tie
+        )
         self._stage, self._sketch = Stage(painter), Sketch()
         self._header, self._toolbar = Header(painter), Toolbar(painter)
         self._pointer = (-1, -1)
@@ -153,6 +162,8 @@ class Editor:
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
             self._let_go()
+        elif event.type == pygame.MOUSEWHEEL and self.panel.area.collidepoint(self._pointer):
+            self.panel.scroll(wheel_notches(event))
         elif event.type == pygame.MOUSEWHEEL:
             self._zoom(wheel_notches(event))
         elif event.type == pygame.MOUSEMOTION:
@@ -167,6 +178,10 @@ class Editor:
         if self.dialogs.prompt is not None:
             self.dialogs.press(self.dialogs.prompt, name, event.unicode)
             return
+        if self.menu.is_open:
+            self.menu.close()
+            if event.key == pygame.K_ESCAPE:
+                return
         if event.key == pygame.K_SPACE:
             self._space = True
             return
@@ -200,6 +215,16 @@ class Editor:
             self.help.close()
             return
         self._pointer = event.pos
+        try:
+            if self.menu.handle(event):
+                return
+            if self.panel.area.collidepoint(event.pos):
+                self.desk.say("")
+                self.panel.click(event.pos)
+                return
+        except InputError as error:  # a value that does not go with the others
+            self.desk.say(str(error), warns=True)
+            return
         if event.button == pygame.BUTTON_LEFT:
             self._press_left(event.pos)
         elif event.button == pygame.BUTTON_MIDDLE:
@@ -258,6 +283,12 @@ class Editor:
         if self.layout.plot.collidepoint(self._pointer):
             self.tool.pointer = self._world(self._pointer)
 
+    def _tie(self, kind: type[Joint], items: tuple[Item, ...]) -> None:
+        """Let the person choose what items are tied to by a joint of a kind."""
+        self.tool.cancel()
+        self.tool_name = "tie"
+        self.tool = Tie(self.desk, kind, items, lambda: self._choose("select"))
+
     def _select_all(self) -> None:
         self._choose("select")
         self.desk.select(self.desk.draft.items())
@@ -307,9 +338,9 @@ class Editor:
 
     def _laid_out(self, size: tuple[int, int]) -> Layout:
         layout = Layout.of(size, text=self.text, scale=self.scale)
-        left = round(WIDTH * layout.ui)
+        left, right = round(WIDTH * layout.ui), Panel.width(size, layout.ui)
         plot = layout.plot
-        room = pygame.Rect(left, plot.top, max(1, plot.width - left), plot.height)
+        room = pygame.Rect(left, plot.top, max(1, plot.width - left - right), plot.height)
         return replace(layout, plot=room)
 
     def _arrange(self, size: tuple[int, int]) -> None:
@@ -346,6 +377,8 @@ class Editor:
             surface, side, self.tool_name, self._pointer,
             snaps=self.desk.snaps, step=f"{self.desk.step:g} m",
         )  # fmt: skip
+        right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
+        self.panel.draw(surface, right, self.properties.rows(), self._pointer)
         self._header.draw(surface, bar, self.title, self._note(), self._buttons(), self._pointer)
         if self.dialogs.prompt is None:
             self._draw_foot(surface)
@@ -354,6 +387,7 @@ class Editor:
             draw_prompt(surface, self.layout, self.painter, self.dialogs.prompt, blink=blink)
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self._pointer, surface.get_rect())
+        self.menu.draw(surface, surface.get_rect(), self.painter, self._pointer)
         self.help.draw(surface, self.layout, self.painter, groups(live=self.live))
 
     def _draw_plot(self, surface: pygame.Surface) -> None:
@@ -364,28 +398,24 @@ class Editor:
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.desk.camera
         frame = self._sketch.frame(draft, bare=self._plain)
-        named = names(frame).shapes if self._names else []
-        marks, hurried = [*named, *scene.shapes], self.viewpoint.hurried
-        draw = partial(self._stage.draw, marks=marks, hurried=hurried)
+        if self._names:
+            draw_idle(draft, self.properties.idle(draft), scene)
+        layers, hurried = LAYERS.switched(names=self._names), self.viewpoint.hurried
+        draw = partial(self._stage.draw, marks=scene.shapes, hurried=hurried)
         try:
-            draw(surface, frame, camera, LAYERS, plot)
+            draw(surface, frame, camera, layers, plot)
         except Mars2dError as error:  # raised by another add-on's drawing
             if self._plain:
                 raise
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
             frame = self._sketch.frame(draft, bare=True)
-            draw(surface, frame, camera, LAYERS, plot)
+            draw(surface, frame, camera, layers, plot)
         remark = self.tool.remark
         if remark:
             x, y = self._pointer
             gap = round(16 * self.layout.ui)
             draw_plate(surface, self.painter, [remark], plot, topleft=(x + gap, y + gap))
-        lines = described(self.desk)
-        if lines:
-            gap = round(12 * self.layout.ui)
-            corner = plot.right - gap, plot.top + gap
-            draw_plate(surface, self.painter, lines, plot, off=self._pointer, topright=corner)
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         desk, bar = self.desk, self.layout.footer

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from mars2d.core.scene import Scene, faded
 from mars2d.output.raster.theme import LIGHT
@@ -13,8 +13,9 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, PAPER
 from mars2d.window.editor.item import Item
 
-__all__ = ["Sketch", "draw_culprits", "draw_selected"]
+__all__ = ["Sketch", "draw_culprits", "draw_idle", "draw_selected"]
 
+IDLE, IDLE_SIZE = LIGHT.waiting.ink, 12.0
 RED = LIGHT.error.ink
 
 
@@ -68,6 +69,14 @@ def draw_culprits(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
     for item in items:
         if draft.holds(item):
             _outline(draft, item, scene, RED, 3.0, faded(RED, 0.3))
+
+
+def draw_idle(draft: Draft, idle: Mapping[int, str], scene: Scene) -> None:
+    """Write below robots that nothing moves what each lacks."""
+    for i, want in idle.items():
+        (x, y), radius = draft.robots[i].rigid.bound
+        words = "no law" if want == "a law" else f"lacks {want}"
+        scene.text((x, y - radius), words, color=IDLE, size=IDLE_SIZE, anchor="below", halo=PAPER)
 
 
 def _outline(

@@ -93,7 +93,7 @@ class EditorWindow:
             experiment = open_experiment(path)
             speed = experiment.scenario.animation.playback_speed
             likes = Preferences(dark=editor.painter.theme.dark, text=editor.text)
-            show_experiment(experiment, speed, preferences=likes)
+            show_experiment(experiment, speed, preferences=likes, viewpoint=editor.viewpoint)
         except Mars2dError as error:
             editor.desk.say(str(error), warns=True)
         self.size = size

@@ -41,6 +41,7 @@ SCRIPTS = (
     "camera",
     "painter",
     "drawings",
+    "names",
     "picture",
     "clock",
     "panel",

@@ -23,6 +23,7 @@ from mars2d.output.layers.forces import (
     mean_forces,
 )
 from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
+from mars2d.output.layers.rings import RING, has_ring
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
 from mars2d.output.layers.trails import (
     PROP_TRAIL_WIDTH,
@@ -198,11 +199,12 @@ class _Content:
                 "robot": True,
                 "color": color,
                 "bound": [*robot.chassis.bound[0], robot.chassis.bound[1]],
+                "ring": RING if has_ring(scenario, i) else 0,
                 "trail": [trail, TRAIL_WIDTH, wake],
                 "commands": commands_of(robot),
             }
-            for robot, color, trail in zip(
-                scenario.robots, scenario.colors, trail_colors(scenario), strict=True
+            for i, (robot, color, trail) in enumerate(
+                zip(scenario.robots, scenario.colors, trail_colors(scenario), strict=True)
             )
         ]
         props = [

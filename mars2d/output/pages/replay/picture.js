@@ -23,6 +23,7 @@ class Picture {
     this.pathRow = 0;
     this.ends = [];
     this.leaps = record.bodies.map((_, i) => new Set(record.leaps.filter(([, body]) => body === i).map(([row]) => row)));
+    this.namePlaces = new Map(); // of the names in the last picture
     this.ui = 1; // pixels of the page for one of the picture
   }
 
@@ -119,6 +120,7 @@ class Picture {
       if (look[name] && !stands) {
         if (name === "trails") this.drawTrails(context, look);
         else if (name === "sensors") this.drawSensors(painter, look);
+        else if (name === "names") this.drawNames(painter, look);
         else this.paintLayer(painter, name);
       }
       if (name === this.record.lastBodies && look.picked >= 0) this.drawPicked(context, look);
@@ -136,6 +138,39 @@ class Picture {
   paintLayer(painter, name) {
     const layer = this.drawn[name];
     if (layer) for (const each of layer.drawings) this.paintDrawing(painter, layer, each);
+  }
+
+  drawNames(painter, look) {
+    const layer = this.drawn.names, { camera } = this;
+    if (!layer) return;
+    const boxOf = (i) => {
+      const [x, y, radius] = this.bound(i), ring = i === look.picked ? 11 : 0;
+      const far = Math.max(camera.scale * radius + ring, this.bodies[i].ring ?? 0);
+      return [camera.x + camera.scale * x, camera.y - camera.scale * y, far, far];
+    };
+    const orderOf = (each) => layer.orders[layer.order[layer.sceneAt(each, this.row)]];
+    const isName = (each) => each.body !== null && orderOf(each).length === 1;
+    const named = layer.drawings.filter(isName);
+    for (const each of layer.drawings) if (!isName(each)) this.paintDrawing(painter, layer, each);
+    const labels = named.map((each) => {
+      const [[style]] = orderOf(each), [, text, color, size, , halo] = layer.styles[style];
+      return { body: boxOf(each.body), text, color, size, halo, wide: 0.5 * LETTER * size * text.length, high: 0.6 * size };
+    });
+    const view = [camera.width / 2, camera.height / 2, camera.width / 2, camera.height / 2];
+    const picked = named.findIndex(({ body }) => body === look.picked);
+    const placed = placedNames(labels, this.bodies.map((_, i) => boxOf(i)), view, picked, this.namePlaces);
+    this.namePlaces = new Map(placed.map(({ place }, i) => [i, place]));
+    placed.forEach(({ box: [x, y], place }, i) => {
+      const { body, text, color, size, halo } = labels[i], { context } = painter;
+      if (NAME_PLACES[place][0] > 1) {
+        context.beginPath();
+        context.moveTo(body[0], body[1]);
+        context.lineTo(x, y);
+        painter.ink(null, color, 0.7);
+      }
+      if (place) painter.words(text, x, y, color, size, "center", halo);
+      else painter.words(text, body[0], body[1] - body[2], color, size, "above", halo);
+    });
   }
 
   drawStill(look) {

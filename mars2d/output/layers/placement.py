@@ -1,0 +1,187 @@
+"""The names of bodies, placed so that they cover neither each other nor bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import cos, sin
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.scene import INK, Arrow, Scene, Shape, Text
+from mars2d.output.layers.rings import RING, has_ring
+from mars2d.record.frame import Frame
+
+__all__ = ["Box", "placed_names"]
+
+Float = NDArray[np.float64]
+
+LETTER = 0.6
+"""The approximate width of a letter, in text heights."""
+
+RINGS = 6
+"""How many text heights a name may be away from its body."""
+
+WAYS = [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0),
+        (0.7, 0.7), (-0.7, 0.7), (0.7, -0.7), (-0.7, -0.7)]  # fmt: skip
+"""Where a name may stand, as seen from its body: above at best."""
+
+PLACES = np.array([(ring, *way) for ring in range(RINGS) for way in WAYS])
+"""All places (48, 3), the best first: the ring, and the way to it."""
+
+SELECTED = 11.0
+"""How far the ring of a selected body lies outside of it, points."""
+
+CLEAR, STAYS = 1e-9, 0.05
+"""The shared area that counts as none, and by how much of its own area another place must be
+better than the last one, in shares of the name's area."""
+
+
+class Box(NamedTuple):
+    """An upright rectangle by its centre and its half width and height, metres."""
+
+    x: float
+    y: float
+    wide: float
+    high: float
+
+
+def placed_names(
+    names: Scene,
+    frame: Frame,
+    metres_per_point: float,
+    view: Box,
+    others: Sequence[Shape] = (),
+    first: int | None = None,
+    last: dict[int, int] | None = None,
+) -> Scene:
+    """Return the names of all bodies, each beside its body and away from the others.
+
+    names: a text for each body; anything else stays where it is. A name that has room above its
+    body stands there; one that finds no room beside it has a thin line to it. metres_per_point: how
+    long a point of a text's height is. view: what is shown; names of bodies beyond stay as they
+    are. others: arrows and texts that are there already. first: the selected body, which has a
+    ring: its name is placed before all others. last: the places by body in the picture before,
+    which are kept where they are as good as others; it is updated.
+    """
+    bodies = [_bound(frame, i, metres_per_point) for i in range(len(frame.scenario.bodies))]
+    ringed = [has_ring(frame.scenario, i) or i == first for i in range(len(bodies))]
+    if first is not None:
+        x, y, radius, _ = bodies[first]
+        bodies[first] = Box(x, y, *[radius + SELECTED * metres_per_point] * 2)
+    labels = [shape for shape in names.shapes if isinstance(shape, Text)]
+    if len(labels) != len(bodies):
+        return names
+    half = [_half(label, metres_per_point) for label in labels]
+    above = _boxes(bodies, half, PLACES[:1])[:, 0]
+    fixed = [_box_of(each, metres_per_point) for each in others if isinstance(each, (Arrow, Text))]
+    discs, frame_of = np.array(bodies), np.array([view])
+    chosen = np.zeros(len(bodies), dtype=int)
+    seen = (abs(discs[:, 0] - view.x) <= view.wide) & (abs(discs[:, 1] - view.y) <= view.high)
+    free = _is_free(above, discs, fixed, view)
+    if first is not None:
+        free[first] = True
+    crowded = [i for i in np.flatnonzero(seen & ~free).tolist() if i != first]
+    taken = [Box(*box) for box in above[seen & free].tolist()] + fixed
+    for i in crowded:
+        boxes = _boxes([bodies[i]], [half[i]], PLACES)[0]
+        cost = _cost(boxes, np.array(taken).reshape(-1, 4), discs, frame_of)
+        wide, high = half[i]
+        kept = None if last is None else last.get(i)
+        if kept is not None:
+            cost[kept] -= STAYS * 4 * wide * high
+        chosen[i] = int(np.argmin(cost))
+        taken.append(Box(*boxes[chosen[i]].tolist()))
+    if last is not None:
+        last.clear()
+        last.update({i: int(chosen[i]) for i in crowded})
+    return _drawn(names, labels, bodies, half, chosen, ringed)
+
+
+def _drawn(
+    names: Scene,
+    labels: Sequence[Text],
+    bodies: Sequence[Box],
+    half: Sequence[tuple[float, float]],
+    chosen: NDArray[np.int64],
+    ringed: Sequence[bool],
+) -> Scene:
+    """Return the labels at their places, by index, with a line where one is far from its body."""
+    scene = Scene([shape for shape in names.shapes if not isinstance(shape, Text)])
+    each = zip(labels, bodies, half, chosen, ringed, strict=True)
+    for label, body, (wide, high), place, above_ring in each:
+        if not (place or above_ring):
+            scene.shapes.append(label)
+            continue
+        at = Box(*_boxes([body], [(wide, high)], PLACES[place][None])[0, 0].tolist())
+        if PLACES[place][0] > 1:
+            scene.line([(body.x, body.y), (at.x, at.y)], stroke=INK, width=0.7)
+        scene.shapes.append(
+            Text((at.x, at.y), label.text, label.color, label.size, "center", label.halo)
+        )
+    return scene
+
+
+def _half(label: Text, metres_per_point: float) -> tuple[float, float]:
+    """Return half the width and height of a text, metres."""
+    height = label.size * metres_per_point
+    return 0.5 * LETTER * height * len(label.text), 0.6 * height
+
+
+def _box_of(shape: Arrow | Text, metres_per_point: float) -> Box:
+    """Return the box that an arrow or a text covers."""
+    if isinstance(shape, Text):
+        (x, y), (wide, high) = shape.position, _half(shape, metres_per_point)
+        up = {"above": high, "below": -high}.get(shape.anchor, 0.0)
+        return Box(x + wide * (shape.anchor == "left"), y + up, wide, high)
+    (x0, y0), (x1, y1) = shape.tail, shape.tip
+    thick = 2 * shape.width * metres_per_point
+    return Box((x0 + x1) / 2, (y0 + y1) / 2, abs(x1 - x0) / 2 + thick, abs(y1 - y0) / 2 + thick)
+
+
+def _bound(frame: Frame, body: int, metres_per_point: float) -> Box:
+    """Return the box of the circle round a body, or of its ring if that is larger."""
+    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
+    (ahead, left), radius = frame.scenario.bodies[body].shape.bound
+    c, s = cos(theta), sin(theta)
+    if has_ring(frame.scenario, body):
+        radius = max(radius, RING * metres_per_point)
+    return Box(x + ahead * c - left * s, y + ahead * s + left * c, radius, radius)
+
+
+def _boxes(bodies: Iterable[Box], half: Iterable[tuple[float, float]], places: Float) -> Float:
+    """Return the boxes (n, k, 4) of names at k places beside their bodies."""
+    x, y, far, _ = np.array(list(bodies)).T[:, :, None]
+    wide, high = np.array(list(half)).T[:, :, None]
+    ring, across, up = places.T[:, None]
+    gap = (2 * ring + 0.3) * high
+    made = (x + across * (far + gap + wide), y + up * (far + gap + high), wide, high)
+    return np.stack(np.broadcast_arrays(*made), axis=-1)
+
+
+def _overlaps(boxes: Float, others: Float) -> Float:
+    """Return the areas (n, m) that boxes (n, 4) share with others (m, 4), square metres."""
+    (x, y, wide, high), (u, v, w, h) = boxes.T[:, :, None], others.T[:, None]
+    across = np.minimum(x + wide, u + w) - np.maximum(x - wide, u - w)
+    along = np.minimum(y + high, v + h) - np.maximum(y - high, v - h)
+    return np.asarray(np.clip(across, 0, None) * np.clip(along, 0, None))
+
+
+def _is_free(boxes: Float, bodies: Float, fixed: Sequence[Box], view: Box) -> NDArray[np.bool_]:
+    """Return which boxes (n, 4) share nothing with each other, bodies or others, and are seen."""
+    mutual = _overlaps(boxes, boxes)
+    np.fill_diagonal(mutual, 0.0)
+    shared = mutual.sum(axis=1) + _overlaps(boxes, bodies).sum(axis=1)
+    if fixed:
+        shared += _overlaps(boxes, np.array(fixed)).sum(axis=1)
+    area = 4 * boxes[:, 2] * boxes[:, 3]
+    outside = area - _overlaps(boxes, np.array([view]))[:, 0]
+    return np.asarray(shared + outside <= CLEAR * area)
+
+
+def _cost(boxes: Float, taken: Float, bodies: Float, view: Float) -> Float:
+    """Return how much of each box is not free; what covers another name counts most."""
+    covered = 10 * _overlaps(boxes, taken).sum(axis=1) + _overlaps(boxes, bodies).sum(axis=1)
+    outside = 4 * boxes[:, 2] * boxes[:, 3] - _overlaps(boxes, view)[:, 0]
+    return np.asarray(np.round(covered + 10 * outside, 12))

@@ -1,0 +1,54 @@
+"""After another robot."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from mars2d.core.arithmetic import angle_of, norm
+from mars2d.core.description import number, text
+from mars2d.core.interfaces import ScenarioLike
+from mars2d.scenario.controllers.base import Command, Paced, steered
+
+__all__ = ["FollowRobot"]
+
+
+class FollowRobot(Paced):
+    """Follows another robot at a distance, and waits where it is nearer.
+
+    With d the distance of the centres, its speed is min(gain (d - distance), speed). So behind a
+    leader that goes straight at v it stays v / gain farther back than `distance`. It needs to see
+    the other as a neighbour.
+    """
+
+    title: ClassVar[str] = "after another robot"
+
+    leader: str | None = text(
+        default=None, optional=True, doc="the name of the other robot; None: its nearest neighbour"
+    )
+    distance: float = number(
+        default=0.6, above=0, high=1e3, unit="m", doc="how far from its centre it stops"
+    )
+    gain: float = number(
+        default=2.0, above=0, high=100, unit="1/s", doc="speed for each metre that it is farther"
+    )
+
+    def __call__(self, robot: Any) -> Command:
+        """Return the command that goes to the leader."""
+        x, y, theta = robot.pose.tolist()
+        seen = [
+            each.position - (x, y)
+            for each in robot.neighbours
+            if self.leader is None or each.name == self.leader
+        ]
+        if not seen:
+            return 0.0, 0.0
+        dx, dy = min((place.tolist() for place in seen), key=lambda place: norm(*place))
+        speed = min(self.gain * (norm(dx, dy) - self.distance), self.speed)
+        return steered(robot.drive, theta, angle_of(dy, dx), speed) if speed > 0 else (0.0, 0.0)
+
+    def want(self, scenario: ScenarioLike, index: int) -> str:
+        """Return what a robot lacks to be moved by this law: one that it follows."""
+        others = [robot.name for i, robot in enumerate(scenario.robots) if i != index]
+        if self.leader is None:
+            return "" if others else "another robot"
+        return "" if self.leader in others else f"a robot called {self.leader}"

@@ -1,0 +1,61 @@
+"""At random, away from obstacles."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from math import pi
+from typing import Any, ClassVar
+
+import numpy as np
+
+from mars2d.core.arithmetic import cosine_sine
+from mars2d.core.description import number, text
+from mars2d.scenario.controllers.base import Command, Paced
+from mars2d.sensors.base import Sensor
+from mars2d.sensors.proximity import Proximity
+
+__all__ = ["Wander"]
+
+HALF = pi / 3
+"""A drive that moves in any direction turns round, and up to this much to either side, radians."""
+
+
+class Wander(Paced):
+    """Goes straight on until something is near, backs off in a bend at random, and goes on.
+
+    It backs for a time that is even in (turn / 2, 3 turn / 2), to a side at random. A drive that
+    moves in any direction turns round instead, off by an angle that is even in +-60 degrees.
+    """
+
+    title: ClassVar[str] = "at random"
+
+    needs: ClassVar[tuple[Sensor, ...]] = (Proximity(range=0.4, field_of_view=2.0),)
+
+    turn: float = number(
+        default=1.5, above=0, high=1e3, unit="s", doc="how long it backs off, in the mean"
+    )
+    sensor: str = text(default="proximity", doc="the name of its sensor, a Proximity or a Bumper")
+
+    @property
+    def reads(self) -> Sequence[str]:
+        """The name of its sensor."""
+        return (self.sensor,)
+
+    def __call__(self, robot: Any) -> Generator[Command]:
+        """Yield the commands."""
+        drive, rng, way = robot.drive, robot.rng, 0.0
+        share = min(self.speed / drive.max_linear_speed, 1.0)
+        world = drive.frame == "world"
+        while True:
+            c, s = cosine_sine(way)
+            ahead = (share * c, share * s) if world else (0.0, share)
+            while not np.any(getattr(robot.sense, self.sensor)):
+                yield drive.steered(*ahead)
+            if world:
+                way += pi + rng.uniform(-HALF, HALF)
+                c, s = cosine_sine(way)
+                back = share * c, share * s
+            else:
+                back = rng.choice((-1.0, 1.0)), -share
+            for _ in range(max(round(rng.uniform(0.5, 1.5) * self.turn / robot.sampling_time), 1)):
+                yield drive.steered(*back)

@@ -1,0 +1,270 @@
+"""The panel of the editor: laws, drives, masses, colours, sensors and joints, by a real mouse."""
+
+import pytest
+
+import mars2d
+from mars2d.addons import Map
+from mars2d.bodies.joints import Rope
+from mars2d.bodies.props import Box
+from mars2d.scenario.controllers import ByHand, FollowWaypoints, Wander
+from mars2d.scenario.registry import members
+from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
+from tests.window.drawing import team
+from tests.window.person import needs_screen
+
+
+def chosen(open_editor, scenario, x=0, y=0, **options):
+    """Open an editor, and select what lies at a point."""
+    hands = open_editor(scenario, **options)
+    hands.click(x, y)
+    hands.until(lambda s: len(s["selection"]) == 1)
+    return hands
+
+
+# -- laws ------------------------------------------------------------------------------------------
+
+
+@needs_screen
+@pytest.mark.parametrize("name", ["ByHand", "Wander", "FollowWall"])
+def test_a_law_is_chosen_from_the_list_with_the_sensors_that_it_needs(open_editor, name):
+    hands, kind = chosen(open_editor, team((0, 0))), members("controllers")[name]
+    assert hands.state["idle"] == {"0": "a law"}
+    hands.row("Law")
+    hands.entry(kind.title)
+    hands.until(lambda s: s["laws"] == [f"{name}()"] and s["idle"] == {})
+    assert hands.state["sensors"] == [[repr(sensor) for sensor in kind.needs]]
+    hands.press("ctrl+z")
+    hands.until(lambda s: s["laws"] == [None] and s["sensors"] == [[]])
+
+
+@needs_screen
+def test_a_robot_along_its_waypoints_gets_them_by_the_next_clicks_and_then_it_runs(
+    open_editor, tmp_path
+):
+    hands = chosen(open_editor, team((0, 0), stop_time=60))
+    hands.row("Law")
+    hands.entry(FollowWaypoints.title)
+    hands.until(lambda s: s["tool"] == "waypoint" and s["idle"] == {"0": "a waypoint"})
+    hands.click(2, 0)
+    hands.click(2, 2)
+    hands.until(lambda s: s["routes"] == [[[2, 0], [2, 2]]] and s["idle"] == {})
+    hands.press("ctrl+s")
+    hands.until(lambda s: not s["changed"])
+    record = mars2d.run(tmp_path / "given.toml")
+    assert record.scenario.addons[0].passed(record.pose[:, :2].swapaxes(1, 2)) == (2,)
+
+
+@needs_screen
+def test_the_robot_to_follow_is_chosen_by_its_name(open_editor):
+    hands = chosen(open_editor, team((0, 0), (3, 0), (-3, 0)))
+    hands.row("Law")
+    hands.entry("after another robot")
+    hands.until(lambda s: set(s["menu"]) == {"none", "robot1", "robot2"})
+    hands.entry("robot2")
+    hands.until(lambda s: s["laws"][0] == "FollowRobot(leader='robot2')")
+
+
+@needs_screen
+def test_a_law_comes_from_a_file_and_is_saved_by_its_name(open_editor, tmp_path):
+    (tmp_path / "walk.py").write_text("def walk(robot):\n    return 0.1, 0.0\n")
+    hands = chosen(open_editor, team((0, 0)))
+    hands.row("Law")
+    hands.entry("from a file …")
+    hands.fill("walk.py:wolk")
+    assert "has no law 'wolk'; did you mean 'walk'?" in hands.state["error"]
+    hands.fill("walk.py:walk")
+    hands.until(lambda s: s["laws"] == ["walk"])
+    hands.press("ctrl+s")
+    hands.until(lambda s: not s["changed"])
+    assert 'controller = "walk.py:walk"' in (tmp_path / "given.toml").read_text()
+
+
+@needs_screen
+def test_a_law_is_taken_away_again(open_editor):
+    robot = Robot(diameter=0.6, controller=ByHand())
+    hands = chosen(open_editor, Scenario(robots=[robot]))
+    hands.row("Law")
+    hands.entry("none: it stands still")
+    hands.until(lambda s: s["laws"] == [None] and s["idle"] == {"0": "a law"})
+
+
+@needs_screen
+def test_the_fields_of_a_law_are_stepped_typed_and_chosen(open_editor):
+    robot = Robot(diameter=0.6, controller=Wander(), sensors=Wander.needs)
+    hands = chosen(open_editor, Scenario(robots=[robot]))
+    hands.until(lambda s: "+ speed" in s["signs"])
+    hands.sign("+", "speed")
+    hands.until(lambda s: s["laws"] == ["Wander(speed=0.35)"])
+    hands.sign("-", "speed")
+    hands.until(lambda s: s["laws"] == ["Wander()"])
+    hands.row("turn")
+    hands.fill("-1")
+    assert "Wander.turn = -1: expected a number > 0" in hands.state["error"]
+    hands.fill("2.5")
+    hands.until(lambda s: s["laws"] == ["Wander(turn=2.5)"])
+    hands.row("sensor")
+    hands.entry("proximity")
+    hands.until(lambda s: s["menu"] == {})
+
+
+# -- bodies ----------------------------------------------------------------------------------------
+
+
+@needs_screen
+def test_mass_friction_and_colour_of_several_bodies_are_set_at_once(open_editor):
+    scenario = team((-1, 0), (1, 0)).replace(props=[Box(pose=(0, 3))])
+    hands = open_editor(scenario)
+    hands.press("ctrl+a")
+    hands.until(lambda s: len(s["selection"]) == 3 and ["Mass", "several"] in s["rows"])
+    hands.row("Mass")
+    hands.fill("2.5")
+    hands.until(lambda s: [m for m, _, _ in s["members"]] == [2.5] * 3)
+    hands.sign("-", "Mass")
+    hands.until(lambda s: [m for m, _, _ in s["members"]] == [2.0] * 3)
+    hands.row("Friction")
+    hands.fill("rubber")
+    hands.until(lambda s: ["Friction", "rubber"] in s["rows"])
+    hands.row("Colour")
+    hands.entry("green")
+    hands.until(lambda s: [c for _, _, c in s["members"]] == ["#009e73"] * 3)
+    hands.row("Colour")
+    hands.entry("another …")
+    hands.fill("#123456")
+    hands.until(lambda s: [c for _, _, c in s["members"]] == ["#123456"] * 3)
+    hands.row("Colour")
+    hands.entry("automatic")
+    hands.until(lambda s: [c for _, _, c in s["members"]] == [None] * 3)
+
+
+@needs_screen
+def test_a_drive_is_chosen_and_keeps_what_both_have(open_editor):
+    hands = chosen(open_editor, team((0, 0)))
+    hands.row("max linear speed")
+    hands.fill("0.8")
+    hands.row("Drive")
+    hands.entry("Car")
+    hands.until(lambda s: s["drives"] == ["Car(max_linear_speed=0.8)"])
+    hands.row("Drive")
+    hands.entry("Wheelbase")
+    hands.fill("0.3")
+    hands.until(lambda s: s["drives"] == ["Car(max_linear_speed=0.8, wheelbase=0.3)"])
+    hands.row("Drive")
+    hands.entry("Force limited")
+    hands.until(lambda s: "force_limited=True" in s["drives"][0])
+
+
+@needs_screen
+def test_sensors_are_added_changed_and_removed(open_editor):
+    hands = chosen(open_editor, team((0, 0)))
+    hands.row("Sensors")
+    hands.entry("RangeFinder")
+    hands.until(lambda s: s["sensors"] == [["RangeFinder()"]])
+    hands.row("Sensors")
+    hands.entry("Proximity")
+    hands.row("Sensors")
+    hands.entry("Proximity")
+    hands.until(lambda s: len(s["sensors"][0]) == 3 and "proximity2" in s["panel"])
+    hands.row("range_finder")
+    hands.entry("Beams")
+    hands.fill("36")
+    hands.until(lambda s: s["sensors"][0][0] == "RangeFinder(beams=36)")
+    hands.row("proximity2")
+    hands.entry("Remove it")
+    hands.until(lambda s: len(s["sensors"][0]) == 2)
+
+
+@needs_screen
+@pytest.mark.parametrize("name", list(members("joints")))
+def test_joints_tie_a_body_to_another_or_to_the_floor(open_editor, name):
+    hands = chosen(open_editor, team((0, 0), (2, 0)))
+    for place in ((2, 0), (0, 2)):
+        hands.row("Joints")
+        hands.entry(name)
+        hands.until(lambda s: s["tool"] == "tie")
+        hands.click(*place)
+        hands.until(lambda s: s["tool"] == "select")
+    tied = [[name, "robot0", "robot1", [0, 0]], [name, "robot0", None, [0, 2]]]
+    hands.until(lambda s: s["joints"] == tied)
+    hands.row(f"{name} to the floor")
+    hands.entry("Remove it")
+    hands.until(lambda s: s["joints"] == tied[:1])
+
+
+@needs_screen
+def test_escape_lets_the_tie_go_and_a_joint_is_changed_in_its_menu(open_editor):
+    scenario = team((0, 0), (2, 0)).replace(joints=[Rope(a="robot0", b="robot1")])
+    hands = chosen(open_editor, scenario)
+    hands.row("Joints")
+    hands.entry("Spring")
+    hands.until(lambda s: s["tool"] == "tie")
+    hands.press("Escape")
+    hands.until(lambda s: s["tool"] == "select" and len(s["joints"]) == 1)
+    hands.click(0, 0)
+    hands.row("Rope to robot1")
+    hands.entry("Length")
+    hands.fill("3")
+    hands.press("ctrl+s")
+    hands.until(lambda s: not s["changed"])
+
+
+# -- the scenario, and what stands still -----------------------------------------------------------
+
+
+@needs_screen
+def test_without_a_selection_the_panel_shows_the_scenario_and_who_stands_still(open_editor):
+    hands = open_editor(team((0, 0), (2, 0)))
+    hands.row("Stop time")
+    hands.fill("30")
+    hands.row("On exit")
+    hands.entry("wall")
+    hands.row("Title")
+    hands.fill("Two of them")
+    hands.until(lambda s: s["base"] == ["Two of them", 30, "wall"])
+    hands.row("robot1 lacks a law")
+    hands.until(lambda s: s["selection"] == [["robot", 1, 0]])
+
+
+@needs_screen
+def test_a_value_that_is_refused_is_said_and_changes_nothing(open_editor):
+    hands = chosen(open_editor, team((0, 0)))
+    hands.row("Mass")
+    hands.fill("heavy")
+    assert "Robot.mass = 'heavy': expected a number" in hands.state["error"]
+    hands.press("Escape")
+    hands.until(lambda s: s["prompt"] is None and s["members"][0][0] == 1.0)
+
+
+@needs_screen
+def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):
+    hands = chosen(open_editor, team((0, 0)))
+    for close in (lambda: hands.press("Escape"), lambda: hands.click(-3, -3)):
+        hands.row("Law")
+        hands.until(lambda s: s["menu"])
+        close()
+        hands.until(lambda s: not s["menu"])
+        hands.click(0, 0)
+        hands.until(lambda s: len(s["selection"]) == 1)
+
+
+@needs_screen
+def test_the_wheel_scrolls_the_panel_where_it_is_too_long(open_editor):
+    robot = Robot(diameter=0.6, sensors=[mars2d.sensors.Imu(name=f"imu{k}") for k in range(20)])
+    hands = chosen(open_editor, Scenario(robots=[robot]))
+    assert "Joints" not in hands.state["panel"]
+    hands.do("mousemove", *hands.state["panel"]["Law"], "click", "--repeat", 30, 5)
+    hands.until(lambda s: "Joints" in s["panel"] and "Law" not in s["panel"])
+    hands.do("click", "--repeat", 30, 4)
+    hands.until(lambda s: "Law" in s["panel"])
+
+
+@needs_screen
+def test_a_law_given_in_a_paused_run_is_in_the_outcome(open_editor):
+    scenario = team((0, 0)).replace(addons=[Map([[(3, 3), (4, 4)]])])
+    hands = chosen(open_editor, scenario, live=True)
+    hands.row("Law")
+    hands.entry("driven by hand")
+    hands.until(lambda s: s["laws"] == ["ByHand()"])
+    hands.press("Return")
+    hands.until(lambda s: s.get("left"))
+    assert hands.state["when"] == "now"
