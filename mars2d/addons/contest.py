@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -15,7 +16,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike
 from mars2d.core.scene import Scene
 
-__all__ = ["Capture", "Contest", "Outcome", "Teams"]
+__all__ = ["Capture", "Contest", "Outcome", "Teams", "listed"]
 
 Role = tuple[str, tuple[str | int, ...]]
 Teams = tuple[tuple[int, ...], tuple[int, ...]]
@@ -93,6 +94,18 @@ class Contest(Addon):
     def outcome(self, record: Any) -> Outcome:
         """Return captures, score and winner of a record, loaded or just made."""
 
+    def aim(self, role: str, scenario: Any) -> str:  # noqa: ARG002
+        """Return how a role wins, in a few words for people, such as ``"catch blue"``.
+
+        scenario: of the game. By default empty: then only `counts` explains the game.
+        """
+        return ""
+
+    @property
+    def counts(self) -> str:
+        """What decides, in a few sentences for people; by default the docstring of its class."""
+        return inspect.cleandoc(type(self).__doc__ or "").partition("\n\n")[0].replace("\n", " ")
+
     def teams(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the first role's robots in a scenario, and of the second role's.
 
@@ -113,6 +126,14 @@ class Contest(Addon):
                 team.append(index)
             teams.append(tuple(team))
         return teams[0], teams[1]
+
+
+def listed(scenario: ScenarioLike, team: tuple[int, ...]) -> str:
+    """Return the names of a team, by its indices, or how many they are if they are many."""
+    names = [str(scenario.robots[robot].name) for robot in team]
+    if len(names) > 3:
+        return f"all {len(names)}"
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def mark(scene: Scene, frame: FrameLike, robot: int, label: str, above: bool) -> None:

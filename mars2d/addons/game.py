@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.contest import Capture, Contest, Outcome, Teams, mark
+from mars2d.addons.contest import Capture, Contest, Outcome, Teams, listed, mark
 from mars2d.core.arithmetic import norms
 from mars2d.core.description import entry, real, wrong
 from mars2d.core.errors import likely
-from mars2d.core.interfaces import FrameLike, RecordLike, WorldLike
+from mars2d.core.interfaces import FrameLike, RecordLike, ScenarioLike, WorldLike
 from mars2d.core.scene import Scene, faded
 
 __all__ = ["Capture", "Game", "Outcome"]
@@ -149,6 +149,33 @@ class Game(Contest):
         for touch in touches:
             first.setdefault(touch.evader, touch)
         return tuple(first.values())
+
+    # -- how it is explained -----------------------------------------------------------------------
+
+    def aim(self, role: str, scenario: ScenarioLike) -> str:
+        """Return how hunters or evaders win, in a few words."""
+        (hunting, _), _ = self.roles
+        if role == hunting:
+            return f"catch {listed(scenario, self.teams(scenario)[1])}"
+        return f"do not be caught for {scenario.last_iteration * scenario.sampling_time:g} s"
+
+    @property
+    def counts(self) -> str:
+        """What is a capture, and who has won, in a few sentences."""
+        (hunting, hunters), (evading, evaders) = self.roles
+        near = (
+            f"touches the {evading}"
+            if self.capture == CONTACT
+            else f"comes within {self.capture:g} m of the {evading}, from middle to middle"
+        )
+        whole = f"the {hunting} wins with the capture, and the {evading} if time is over before"
+        if len(evaders) > 1:
+            whole = (
+                f"who is caught stands still. With all {len(evaders)} caught, the {hunting} wins; "
+                f"with one of them free when time is over, the {evading}"
+            )
+        who = f"the {hunting}" if len(hunters) == 1 else f"one of {len(hunters)} as {hunting}"
+        return f"A capture is when {who} {near}: {whole}."
 
     # -- how it looks ------------------------------------------------------------------------------
 

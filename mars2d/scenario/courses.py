@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from mars2d.scenario.experiment import examples
 
-__all__ = ["COURSES", "GAMES", "Game", "courses", "title_of"]
+__all__ = ["COURSES", "GAMES", "courses", "title_of"]
 
 COURSES: Mapping[str, tuple[str, ...]] = {
     "Experiments of the MARS paper": (
@@ -31,21 +30,8 @@ COURSES: Mapping[str, tuple[str, ...]] = {
 """The names of all examples, by course."""
 
 
-class Game(NamedTuple):
-    """An example that a person plays: the robot to drive, and what to do."""
-
-    example: str
-    human: str
-    task: str
-
-
-GAMES = (
-    Game("corner_game", "evader", "Get away"),
-    Game("pursuit_voronoi", "red", "Catch the evader"),
-    Game("sumo", "red", "Push blue out"),
-    Game("herding", "dog", "Pen the flock"),
-)
-"""The games, easiest to understand first."""
+GAMES = ("corner_game", "sumo", "pursuit_voronoi")
+"""The names of the games among them, easiest to understand first. Their contests have the rest."""
 
 
 def courses() -> dict[str, list[str]]:

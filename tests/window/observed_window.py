@@ -74,7 +74,7 @@ def state_of(window):
         "pulls": 0 if timeline is None else len(timeline.world.hands.pulls),
         "over_body": window.grab.over,
         "busy": window.grab.busy,
-        "driving": director.driver.robot,
+        "driving": next(iter(director.driven), None),
         "selected": window.selected,
         "following": window.viewpoint.following is not None,
         "scale": round(window.camera.scale, 3),

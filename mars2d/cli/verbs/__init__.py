@@ -11,6 +11,7 @@ __all__ = ["VERBS"]
 NAMES = (
     "demo",
     "run",
+    "play",
     "edit",
     "compare",
     "replay",

@@ -10,7 +10,7 @@ from mars2d.cli.arguments import (
     add_preferences,
     add_run_arguments,
     add_theory,
-    human_of,
+    humans_of,
     preferences_of,
     theory_of,
 )
@@ -56,10 +56,10 @@ def execute(arguments: argparse.Namespace) -> None:
     if name not in known:
         raise InputError(f"{name}: there is no such example{likely(name, known) or LISTED}")
     experiment = open_experiment(known[name], theory_of(arguments), seed=check_seed(arguments.seed))
-    human, look = human_of(arguments, experiment), preferences_of(arguments)
+    people, look = humans_of(arguments, experiment), preferences_of(arguments)
     try:
         if not arguments.headless and has_display():
-            record = show(experiment, None, arguments.seed, look, human)
+            record = show(experiment, None, arguments.seed, look, people)
         else:
             record = _make_pictures(experiment, name, arguments.seed)
     except Interrupted:

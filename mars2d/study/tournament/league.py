@@ -6,7 +6,7 @@ import csv
 import html
 import io
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 from pathlib import Path
 from statistics import fmean
@@ -17,6 +17,7 @@ from mars2d.core.files import atomic_write
 from mars2d.study.statistics import Interval, proportion
 from mars2d.study.table import cell, word_cell
 from mars2d.study.tournament.match import Played
+from mars2d.study.tournament.rules import Rules
 from mars2d.study.tournament.schedule import Schedule
 
 if TYPE_CHECKING:
@@ -51,7 +52,8 @@ class Standing:
     result. forfeits: matches lost because the law failed. points: 1 for a win, 1/2 for a draw.
     share: of all points that it could have won, with Wilson's confidence interval. capture_time:
     the mean over matches in which the evaders were caught, seconds; if laws play all roles, only
-    over those in which it was the hunter. None if there are none.
+    over those in which it was the hunter. None if there are none. place: in its table, from 1;
+    laws with equal points per match share a place, and the next ones come after all of them.
     """
 
     law: str
@@ -64,6 +66,7 @@ class Standing:
     points: float
     share: Interval
     capture_time: float | None
+    place: int = 0
 
 
 def one_table(played: Iterable[Played], roles: Sequence[str]) -> bool:
@@ -79,7 +82,8 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     """Return the standings, best first: the laws of the first role, then those of the second.
 
     If a law plays more than one role, there is one table for all laws. Laws are ordered by points
-    per match, then by mean capture time (short for hunters, long for evaders), then by name.
+    per match, then by mean capture time (short for hunters, long for evaders), then by name; their
+    place is that of their points.
     """
     if one_table(played, roles):
         tables = [("", tuple(roles))]
@@ -89,8 +93,21 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     for title, within in tables:
         laws = dict.fromkeys(each.match.laws[role] for each in played for role in within)
         table = [_standing(law, title, within, roles, played) for law in laws]
-        standings += sorted(table, key=lambda standing: _order(standing, roles))
+        standings += _placed(sorted(table, key=lambda standing: _order(standing, roles)))
     return standings
+
+
+def _placed(table: Sequence[Standing]) -> list[Standing]:
+    """Return sorted standings with their places; equal points per match give equal places."""
+    rates = [_rate(standing) for standing in table]
+    return [
+        replace(standing, place=rates.index(rate) + 1)
+        for standing, rate in zip(table, rates, strict=True)
+    ]
+
+
+def _rate(standing: Standing) -> float:
+    return standing.points / max(standing.played, 1)
 
 
 def _standing(
@@ -136,7 +153,7 @@ def is_draw(played: Played) -> bool:
 def _order(standing: Standing, roles: Sequence[str]) -> tuple[float, float, str]:
     time = inf if standing.capture_time is None else standing.capture_time
     evades = standing.role in roles[1:]
-    return -standing.points / max(standing.played, 1), -time if evades else time, standing.law
+    return -_rate(standing), -time if evades else time, standing.law
 
 
 def head_to_head(played: Iterable[Played], roles: Sequence[str]) -> Mapping[tuple[str, str], float]:
@@ -159,7 +176,7 @@ class Tournament:
 
     title, experiment: those of the scenario. roles: those of its contest. matches: their results,
     in order. standings: best first, role by role if each law plays only one. settings: the options
-    in which rounds differ.
+    in which rounds differ. rules: of the game, for people.
     """
 
     title: str
@@ -168,6 +185,7 @@ class Tournament:
     matches: tuple[Played, ...] = field(repr=False)
     standings: tuple[Standing, ...]
     settings: tuple[str, ...] = ()
+    rules: Rules | None = field(default=None, repr=False)
 
     @classmethod
     def of(cls, schedule: Schedule, matches: Iterable[Played]) -> Tournament:
@@ -180,6 +198,7 @@ class Tournament:
             matches=done,
             standings=tuple(league(done, schedule.roles)),
             settings=schedule.settings,
+            rules=schedule.rules,
         )
 
     def rows(self) -> tuple[dict[str, Any], ...]:
@@ -209,14 +228,12 @@ class Tournament:
 
     def standing_rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each law: its place in its table, and its results."""
-        places: dict[str, int] = {}
         rows = []
         for standing in self.standings:
-            places[standing.role] = places.get(standing.role, 0) + 1
             rows.append(
                 {
                     "role": standing.role,
-                    "place": places[standing.role],
+                    "place": standing.place,
                     "law": standing.law,
                     "played": standing.played,
                     "won": standing.won,

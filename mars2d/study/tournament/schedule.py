@@ -13,8 +13,10 @@ from typing import Any
 
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.roles import contest_of
 from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
-from mars2d.study.tournament.match import Match, contest_of
+from mars2d.study.tournament.match import Match
+from mars2d.study.tournament.rules import Rules
 
 __all__ = ["Files", "Schedule", "entrants", "law_code", "law_files", "names_of", "schedule"]
 
@@ -31,7 +33,8 @@ class Schedule:
     """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
 
     title, experiment: those of the scenario. roles: those of its contest, in order. settings: the
-    options in which rounds differ. files: those that were read for the experiment itself.
+    options in which rounds differ. files: those that were read for the experiment itself. rules: of
+    the game, in the first round.
     """
 
     title: str
@@ -40,6 +43,7 @@ class Schedule:
     settings: tuple[str, ...]
     matches: tuple[Match, ...]
     files: frozenset[Path] = frozenset()
+    rules: Rules | None = None
 
 
 def schedule(
@@ -65,13 +69,14 @@ def schedule(
     always = {} if stop_time is None else {"stop_time": stop_time}
     rounds = [{**point, **always} for point in plan.points()]
     opened = open_experiment(experiment, rounds[0], seed=plan.seeds[0])
-    parts = contest_of(opened.scenario, str(experiment)).roles
+    contest = contest_of(opened.scenario, str(experiment))
+    parts = contest.roles
     names = tuple(role for role, _ in parts)
     for options in (probe | always for probe in plan.probes()):  # before any match, not after many
         scenario = open_experiment(experiment, options, seed=plan.seeds[0]).scenario
-        contest = contest_of(scenario, str(experiment))
-        contest.teams(scenario)
-        if tuple(role for role, _ in contest.roles) != names:
+        other = contest_of(scenario, str(experiment))
+        other.teams(scenario)
+        if tuple(role for role, _ in other.roles) != names:
             raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
     _check_names(plan.settings, names)
     beside = None if opened.path is None else opened.path.parent
@@ -104,6 +109,7 @@ def schedule(
         settings=tuple(plan.settings),
         matches=matches,
         files=opened.files,
+        rules=Rules.of(opened, contest),
     )
 
 
