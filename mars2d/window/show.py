@@ -59,6 +59,7 @@ def show_experiment(
         source = Timeline(experiment, seed, watchers, log)
         memory = Memory()
         window = Window(source, speed, memory.size, preferences or memory.preferences())
+        window.dock.open(memory.panels)
         window.asks = asks
         if humans or play:
             window.play(memory, game_of(experiment, {**(settings or {}), **_seeded(seed)}), humans)
@@ -87,6 +88,7 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
 
     memory = Memory()
     window = Window(Playback(record), speed, memory.size, preferences or memory.preferences())
+    window.dock.open(memory.panels)
     try:
         window.run()
     finally:
