@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -89,6 +89,9 @@ class Contest(Addon):
         check=_roles, kw_only=False,
         doc="the robots of both roles by name or index, hunters first if there are any",
     )  # fmt: skip
+
+    scored: ClassVar[tuple[str, str]] = ("", "")
+    """What the score of each role counts, in a word for people."""
 
     @abstractmethod
     def outcome(self, record: Any) -> Outcome:

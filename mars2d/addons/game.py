@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -151,6 +153,8 @@ class Game(Contest):
         return tuple(first.values())
 
     # -- how it is explained -----------------------------------------------------------------------
+
+    scored: ClassVar[tuple[str, str]] = ("caught", "free")
 
     def aim(self, role: str, scenario: ScenarioLike) -> str:
         """Return how hunters or evaders win, in a few words."""

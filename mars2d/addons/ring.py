@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,6 +116,8 @@ class Ring(Contest):
         return dict(sorted(left.items(), key=lambda robot_time: robot_time[1]))
 
     # -- how it is explained -----------------------------------------------------------------------
+
+    scored: ClassVar[tuple[str, str]] = ("in the ring", "in the ring")
 
     def aim(self, role: str, scenario: ScenarioLike) -> str:
         """Return how a role wins, in a few words."""

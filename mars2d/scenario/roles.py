@@ -8,7 +8,7 @@ from mars2d.addons.contest import Contest
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["contest_of", "contests_of", "role_of", "roles_of", "robots_of"]
+__all__ = ["contest_of", "contests_of", "robots_of", "role_of", "roles_of"]
 
 REFEREE = "Game({'pursuer': ['red'], 'evader': ['blue']})"
 """An add-on that makes a game, as messages show it."""
@@ -38,8 +38,8 @@ def contest_of(scenario: Scenario, name: str) -> Contest:
     if type(contest).outcome is Contest.outcome:
         meant = likely("outcome", vars(type(contest)))
         raise InputError(
-            f"{name}: {type(contest).__name__} has no outcome(record), which returns an Outcome and "
-            f"so says who has won{meant}"
+            f"{name}: {type(contest).__name__} has no outcome(record), which says who has won"
+            f"{meant}"
         )
     return contest
 
@@ -70,8 +70,8 @@ def robots_of(
     people = () if named is None else (named,) if isinstance(named, (str, int)) else tuple(named)
     if len(people) > MOST_PEOPLE:
         raise InputError(
-            f"{field} {', '.join(map(str, people))}: two people at most, one by the arrow keys, the "
-            "other by W, A, S and D"
+            f"{field} {', '.join(map(str, people))}: two people at most, one by the arrow keys, "
+            "the other by W, A, S and D"
         )
     taken: list[int] = []
     for who in people:

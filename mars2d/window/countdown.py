@@ -10,7 +10,7 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.window.help import cap_width, draw_cap
-from mars2d.window.play import Play
+from mars2d.window.play import Choice, Play
 from mars2d.window.score_panel import draw_dot, draw_keys
 
 __all__ = ["Countdown"]
@@ -43,14 +43,15 @@ class Countdown:
         self,
         surface: pygame.Surface,
         room: pygame.Rect,
+        area: pygame.Rect,
         camera: Camera,
         frame: Frame,
         pointer: tuple[int, int] | None,
     ) -> None:
-        """Draw what there is to say now in the room of the arena."""
+        """Draw what there is to say now over the arena; area: of the picture, room: of the arena."""
         self.places = {}
         if not self.play.seats:
-            self._draw_choices(surface, room, frame, pointer)
+            self._draw_choices(surface, room, area, frame, pointer)
         elif self.play.counting:
             self._draw_number(surface, room)
             self._draw_people(surface, camera, frame)
@@ -85,16 +86,20 @@ class Countdown:
         self,
         surface: pygame.Surface,
         room: pygame.Rect,
+        area: pygame.Rect,
         frame: Frame,
         pointer: tuple[int, int] | None,
     ) -> None:
         """Draw the roles to choose from, each as a button."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        scenario, contest, choices = frame.scenario, self.play.contest, self.play.choices
+        scenario, choices = frame.scenario, self.play.choices
         pad, row = round(PAD * ui), round((ROW + AIM) * ui)
-        width = min(round(WIDTH * ui), room.width - 2 * pad)
+        aims = [self._aim(choice, frame) for choice in choices]
+        needed = max(fonts.width(aim, 13.5 * ui) for aim in aims) + round(130 * ui)
+        width = min(max(round(WIDTH * ui), needed), area.width - 2 * pad)
         plate = pygame.Rect(0, 0, width, round(TITLE * ui) + row * len(choices) + 2 * pad)
         plate.center = room.center
+        plate.clamp_ip(area)
         self.painter.panel(surface, plate, theme.plate, 10 * ui, theme.edge)
         title = fonts.render("Who do you play?", 20 * ui, theme.ink, bold=True)
         surface.blit(title, (plate.left + pad, plate.top + pad))
@@ -116,9 +121,13 @@ class Countdown:
                 x += round(18 * ui)
             words = fonts.render(choice.title, 17 * ui, theme.ink, bold=True)
             surface.blit(words, words.get_rect(midleft=(x + round(8 * ui), middle)))
-            aim = "arrow keys against W, A, S and D"
-            if len(choice.robots) == 1 and contest is not None:
-                aim = contest.aim(choice.title, scenario)
-            text = fonts.shorten(aim, 13.5 * ui, place.right - x - round(8 * ui))
+            text = fonts.shorten(aims[k], 13.5 * ui, place.right - x - round(8 * ui))
             image = fonts.render(text, 13.5 * ui, theme.muted)
             surface.blit(image, (x + round(8 * ui), place.top + round((ROW - 8) * ui)))
+
+    def _aim(self, choice: Choice, frame: Frame) -> str:
+        """Return how a role wins; for two people, who has which keys."""
+        contest = self.play.contest
+        if len(choice.robots) > 1 or contest is None:
+            return "arrow keys against W, A, S and D"
+        return contest.aim(choice.title, frame.scenario)

@@ -39,7 +39,7 @@ class Director:
     def __init__(self, player: Player, notes: Notes, show_way_back: Progress) -> None:
         self._player, self._notes, self._show_way_back = player, notes, show_way_back
         self.timeline = player.source if isinstance(player.source, Timeline) else None
-        self.drivers = (Driver(),)  # one for each person
+        self.drivers: Sequence[Driver] = (Driver(),)  # one for each person
         if self.timeline is not None:
             player.error = self.timeline.error
 
@@ -179,7 +179,8 @@ class Director:
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle an event; return whether it is for those who drive alone."""
-        return any([driver.handle(event) for driver in self.drivers])
+        taken = [driver.handle(event) for driver in self.drivers]
+        return any(taken)
 
     def drive(self, robot: int) -> None:
         """Start to drive a robot by hand."""

@@ -71,7 +71,7 @@ class Memory:
     @property
     def panels(self) -> list[str]:
         """The names of the panels that were open in the last window."""
-        known = self._read().get("panels", [])
+        known = self.read(WINDOWS).get("panels", [])
         return [name for name in known if isinstance(name, str)] if isinstance(known, list) else []
 
     def keep(self, **looks: Any) -> None:

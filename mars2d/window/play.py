@@ -51,12 +51,12 @@ class Choice:
 class Result:
     """How a game has ended: for the people, in a few words, and the robots that have won.
 
-    record: what is new about it, such as a best time, or why it does not count; or "".
+    news: what is new about it, such as a best time, or why it does not count; or "".
     """
 
     words: str
     winners: tuple[int, ...]
-    record: str = ""
+    news: str = ""
 
 
 class Play:
@@ -120,8 +120,11 @@ class Play:
 
     # -- time ---------------------------------------------------------------------------------
 
-    def pass_time(self, seconds: float) -> None:
-        """Count down for seconds of the clock, then let the game go on; notice its end."""
+    def pass_time(self, seconds: float) -> bool:
+        """Count down for seconds of the clock, then let the game go on; notice its end.
+
+        Return whether it has just ended.
+        """
         player = self._player
         if self.counting:
             started = player.playing  # somebody could not wait
@@ -131,8 +134,10 @@ class Play:
             player.paused = self.counting > 0
         elif self.result is None and self.seats and player.over and not player.failed:
             self.result = self._ended()
+            return True
         elif self.result is not None and not (player.over or player.past):
             self.result = None  # somebody went back, and something else has happened
+        return False
 
     def _ended(self) -> Result | None:
         """Return how the game has ended, and note it in the scores."""
@@ -176,14 +181,20 @@ class Play:
 
     # -- how it stands ------------------------------------------------------------------------
 
-    def score(self) -> Mapping[str, float]:
-        """Return the score of each role at the newest instant, as far as its referee says it."""
+    def score(self) -> Mapping[str, str]:
+        """Return the score of each role at the newest instant, in words.
+
+        Where nobody plays with more than one robot, it says nothing before the end. It is empty,
+        too, of a referee that does not tell its `score` while a world runs.
+        """
         timeline, contest = self._director.timeline, self.contest
-        if timeline is None or contest is None:
+        if timeline is None or contest is None or all(len(team) < 2 for _, team in contest.roles):
             return {}
-        live = getattr(timeline.world.addons, contest.key, None)
-        score = getattr(live, "score", None)
-        return score if isinstance(score, dict) else {}
+        score = getattr(getattr(timeline.world.addons, contest.key, None), "score", None)
+        if not isinstance(score, dict):
+            return {}
+        pairs = zip(score.items(), contest.scored, strict=False)
+        return {role: f"{points:g} {what}".strip() for (role, points), what in pairs}
 
     def distance(self, frame: Frame) -> float | None:
         """Return the distance [m] of the nearest two robots of different roles, middle to middle.
@@ -194,9 +205,9 @@ class Play:
         if timeline is None or contest is None:
             return None
         held = timeline.world.operator.held
-        one, other = ([r for r in team if r not in held] for team in contest.teams(frame.scenario))
-        if not one or not other:
-            one, other = contest.teams(frame.scenario)
+        teams = contest.teams(frame.scenario)
+        free = [[robot for robot in team if robot not in held] for team in teams]
+        one, other = free if all(free) else map(list, teams)
         apart = frame.pose[:2, one, None] - frame.pose[:2, None, other]
         return float(np.hypot(*apart).min())
 

@@ -8,12 +8,11 @@ from typing import NamedTuple
 
 import pygame
 
-from mars2d.output.raster.bars import decimals
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
 from mars2d.window.dock import Panel
-from mars2d.window.help import cap_width, draw_cap
+from mars2d.window.help import draw_cap
 from mars2d.window.play import Play, Result, Seat
 
 __all__ = ["ScorePanel", "draw_dot", "draw_keys"]
@@ -35,6 +34,9 @@ class Part(NamedTuple):
     draw: Callable[[pygame.Surface, pygame.Rect], None]
 
 
+GAP_PART = Part(GAP / 2, lambda _surface, _rect: None)
+
+
 class ScorePanel(Panel):
     """Shows how a game stands, the keys of those who play, and in the end who has won and why."""
 
@@ -46,31 +48,32 @@ class ScorePanel(Panel):
         self.is_open = True
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
-        """Return the height of all parts, with room for the end of the game."""
-        height = sum(part.height for part in self._parts(frame, width))
-        if self.play.result is None:
-            height += GAP + WORDS + LINE * (MAX_LINES + 1) + ROW
-        return height, height
+        """Return the height of how it stands, and that with how it has ended."""
+        standing = sum(part.height for part in self._standing(frame, width))
+        end = sum(part.height for part in self._ending(frame, width))
+        return standing, standing + end
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
-        """Draw the parts one below the other."""
-        ui, top = self.painter.ui, float(rect.top)
-        for height, draw in self._parts(frame, rect.width / ui):
+        """Draw the parts one below the other, as many as there is room for."""
+        ui, top, width = self.painter.ui, float(rect.top), rect.width / self.painter.ui
+        for height, draw in [*self._ending(frame, width), *self._standing(frame, width)]:
+            if top + height * ui > rect.bottom + 1:
+                break
             draw(surface, pygame.Rect(rect.left, round(top), rect.width, round(height * ui)))
             top += height * ui
 
-    def _parts(self, frame: Frame, width: float) -> Iterator[Part]:
-        play, scenario, fonts = self.play, frame.scenario, self.painter.fonts
-        digits = decimals(scenario)
+    def _standing(self, frame: Frame, width: float) -> Iterator[Part]:
+        """Yield the parts that are seen during a game."""
+        play, scenario = self.play, frame.scenario
         left = max(scenario.stop_time - frame.time, 0.0)
-        yield Part(TIME, partial(self._row, "time left", f"{left:.{digits}f} s", large=True))
+        yield Part(TIME, partial(self._row, "time left", f"{left:.1f} s", large=True))
         distance = play.distance(frame)
         if distance is not None:
             yield Part(ROW, partial(self._row, "distance", f"{distance:.2f} m"))
         yield Part(GAP, self._line)
         score = play.score()
         for role, team in roles_of(scenario).items():
-            points = f"{score[role]:g}" if role in score else ""
+            points = score.get(role, "")
             color = self.painter.theme.shade(scenario.colors[team[0]])
             yield Part(ROW, partial(self._role, color, role, play.played_by(role), points))
             for seat in play.seats:
@@ -78,45 +81,48 @@ class ScorePanel(Panel):
                     yield from self._of_seat(seat, frame, width)
         for seat in play.seats:
             if not seat.role:
-                yield Part(ROW, partial(self._text, f"you: {scenario.robots[seat.robot].name}"))
+                color = self.painter.theme.shade(scenario.colors[seat.robot])
+                name = str(scenario.robots[seat.robot].name)
+                yield Part(ROW, partial(self._role, color, name, "you", ""))
                 yield from self._of_seat(seat, frame, width)
-        if play.result is not None:
-            yield from self._of_result(play.result, frame.over_message, width)
-        elif play.seats and (words := self._tally(fonts.width, width)):
+        if words := self._tally():
             yield Part(GAP, self._line)
-            yield Part(LINE, partial(self._text, words))
+            yield from self._wrapped(words, width, 2)
 
     def _of_seat(self, seat: Seat, frame: Frame, width: float) -> Iterator[Part]:
         """Yield a person's keys, and how the role wins."""
         yield Part(KEYS, partial(self._keys, seat))
-        contest, ui = self.play.contest, self.painter.ui
-        aim = contest.aim(seat.role, frame.scenario) if contest is not None and seat.role else ""
-        lines = self.painter.fonts.wrap(aim, SMALL * ui, width * ui, 2) if aim else []
-        for line in lines:
-            yield Part(LINE, partial(self._text, line))
-        yield Part(GAP / 2, lambda *_: None)
+        contest = self.play.contest
+        if contest is not None and seat.role:
+            yield from self._wrapped(contest.aim(seat.role, frame.scenario), width, 2)
+        yield GAP_PART
 
-    def _of_result(self, result: Result, why: str, width: float) -> Iterator[Part]:
-        fonts, ui, play = self.painter.fonts, self.painter.ui, self.play
-        yield Part(GAP, self._line)
+    def _ending(self, frame: Frame, width: float) -> Iterator[Part]:
+        """Yield how a game has ended, why, and the keys to go on with; nothing before."""
+        result = self.play.result
+        if result is None:
+            return
         yield Part(WORDS, partial(self._words, result))
-        for text, most in ((why, MAX_LINES), (result.record, 2)):
-            for line in fonts.wrap(text, SMALL * ui, width * ui, most) if text else ():
-                yield Part(LINE, partial(self._text, line))
-        if words := self._tally(fonts.width, width):
-            yield Part(LINE, partial(self._text, words))
-        yield Part(GAP / 2, lambda *_: None)
-        yield Part(KEYS, partial(self._key, "R", "play again"))
-        for choice in play.choices:
-            yield Part(KEYS, partial(self._key, str(choice.number), f"as {choice.title}"))
+        yield from self._wrapped(frame.over_message, width, MAX_LINES)
+        yield from self._wrapped(result.news, width, 2)
+        yield Part(KEYS, partial(self._key, ("R",), "play again"))
+        numbers = tuple(str(choice.number) for choice in self.play.choices)
+        if numbers:
+            yield Part(KEYS, partial(self._key, numbers, "other roles"))
+        yield Part(GAP, self._line)
 
-    def _tally(self, measure: Callable[[str, float], int], width: float) -> str:
-        """Return what was won so far, as far as it has room."""
+    def _wrapped(self, text: str, width: float, most: int) -> Iterator[Part]:
+        """Yield lines of text."""
+        ui = self.painter.ui
+        for line in self.painter.fonts.wrap(text, SMALL * ui, width * ui, most) if text else ():
+            yield Part(LINE, partial(self._text, line))
+
+    def _tally(self) -> str:
+        """Return what was won so far, of one person or of the first role of two."""
         seats = [seat for seat in self.play.seats if seat.role]
         words = self.play.tally(seats[0].role).in_words if seats else ""
-        who = "" if len(seats) == 1 else f" as {seats[0].role}" if seats else ""
-        whole = f"so far{who}: {words}" if words else ""
-        return whole
+        who = f" as {seats[0].role}" if seats else ""
+        return f"so far{who}: {words}" if words else ""
 
     # -- drawing ------------------------------------------------------------------------------
 
@@ -161,9 +167,11 @@ class ScorePanel(Panel):
     def _keys(self, seat: Seat, surface: pygame.Surface, rect: pygame.Rect) -> None:
         draw_keys(surface, self.painter, seat.keys, rect.midleft)
 
-    def _key(self, key: str, does: str, surface: pygame.Surface, rect: pygame.Rect) -> None:
+    def _key(
+        self, keys: tuple[str, ...], does: str, surface: pygame.Surface, rect: pygame.Rect
+    ) -> None:
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        x = draw_cap(surface, self.painter, key, rect.left, rect.centery, ui)
+        x = draw_keys(surface, self.painter, keys, rect.midleft)
         words = fonts.render(does, SIZE * ui, theme.text)
         surface.blit(words, words.get_rect(midleft=(x + round(4 * ui), rect.centery)))
 
@@ -194,8 +202,9 @@ def draw_dot(
 
 def draw_keys(
     surface: pygame.Surface, painter: Painter, keys: tuple[str, ...], left: tuple[int, int]
-) -> None:
-    """Draw the caps of keys in a row from its left end, pixels."""
+) -> int:
+    """Draw the caps of keys in a row from its left end, pixels; return where it ends."""
     x, y = left
     for key in keys:
         x = draw_cap(surface, painter, key, x, y, painter.ui)
+    return x

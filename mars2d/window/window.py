@@ -56,6 +56,7 @@ from mars2d.window.player import Player
 from mars2d.window.reload import Reload
 from mars2d.window.rest import Rest
 from mars2d.window.saving import Saver
+from mars2d.window.score_panel import ScorePanel
 from mars2d.window.source import Source
 from mars2d.window.toolbar import Toolbar, layer_entries
 from mars2d.window.viewpoint import Viewpoint
@@ -111,6 +112,7 @@ class Window:
         self.editor: Editor | None = None
         self.game: Play | None = None  # where people play
         self._before: Countdown | None = None
+        self._score: ScorePanel | None = None
         timeline = self.director.timeline
         self._controls = Controls(self.player)
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
@@ -278,7 +280,7 @@ class Window:
         """Whether the next picture may differ from this one though nobody does anything."""
         player, followed = self.player, self.viewpoint.following is not None
         acts = self.grab.busy or self._drives or self.saver.filming or self.editor is not None
-        acts = acts or self.game is not None
+        acts = acts or (self.game is not None and self.game.counting > 0)
         return acts or followed or player.playing or player.busy or len(self.notes) > 0
 
     def _show_picture(self, screen: pygame.Surface) -> None:
@@ -304,8 +306,8 @@ class Window:
         if self.editor is not None:
             return
         self._read_again()
-        if self.game is not None:
-            self.game.pass_time(seconds)
+        if self.game is not None and self.game.pass_time(seconds):
+            self._rest.stir()
         self.director.steer(seconds)
         self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.player.pass_time(seconds)
@@ -381,8 +383,9 @@ class Window:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
         if self._before is not None and notes:
-            room = layout.plot
-            self._before.draw(surface, room, self.camera, frame, self._pointer)
+            self._before.draw(
+                surface, self.viewpoint.room, layout.plot, self.camera, frame, self._pointer
+            )
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
@@ -423,6 +426,10 @@ class Window:
         if self._keyboard.number:
             return Status(f"{self._keyboard.number} ...", "waiting")
         text, kind = self.player.status()
+        if self.game is not None and self.game.counting:
+            return Status("get ready", "waiting")
+        if self.game is not None and self.player.playing and kind == "running":
+            return Status(text, "hand")
         if self._drives and kind in ("running", "waiting") and not self.player.over:
             return Status(f"{text}  {self.director.status}", "hand")
         return Status(text, kind)
@@ -529,7 +536,8 @@ class Window:
         self.notes.clear()
         self.player.restart()
         self._meet()
-        if self.game is not None:
+        if self.game is not None and self._score is not None:
+            self._score.is_open = True
             self.game.begin()
 
     def _loop_or_not(self) -> None:
@@ -671,7 +679,9 @@ class Window:
     def _drive_or_not(self) -> None:
         """Drive the selected robot by hand, or the first one; or stop driving."""
         scenario = self.player.source.scenario
-        if self._drives:
+        if self.game is not None:
+            self.notes.say("people drive until the end of the game; R begins again, Esc leaves")
+        elif self._drives:
             self.director.let_go()
         elif self.selected is not None and self.selected >= len(scenario.robots):
             self.notes.say(f"{scenario.bodies[self.selected].name} has no drive", "warning")
@@ -686,6 +696,8 @@ class Window:
         """
         self.game = Play(self.player, self.director, memory, game)
         self._before = Countdown(self._painter, self.game)
+        self._score = ScorePanel(self._painter, self.game)
+        self.dock.panels = [*self.dock.panels, self._score]
         self.game.begin(robots)
 
     def _open_editor(self) -> None:

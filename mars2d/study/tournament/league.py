@@ -228,26 +228,24 @@ class Tournament:
 
     def standing_rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each law: its place in its table, and its results."""
-        rows = []
-        for standing in self.standings:
-            rows.append(
-                {
-                    "role": standing.role,
-                    "place": standing.place,
-                    "law": standing.law,
-                    "played": standing.played,
-                    "won": standing.won,
-                    "drawn": standing.drawn,
-                    "lost": standing.lost,
-                    "forfeits": standing.forfeits,
-                    "points": standing.points,
-                    "share": standing.share.mean,
-                    "share_low": standing.share.low,
-                    "share_high": standing.share.high,
-                    "capture_time": standing.capture_time,
-                }
-            )
-        return tuple(rows)
+        return tuple(
+            {
+                "role": standing.role,
+                "place": standing.place,
+                "law": standing.law,
+                "played": standing.played,
+                "won": standing.won,
+                "drawn": standing.drawn,
+                "lost": standing.lost,
+                "forfeits": standing.forfeits,
+                "points": standing.points,
+                "share": standing.share.mean,
+                "share_low": standing.share.low,
+                "share_high": standing.share.high,
+                "capture_time": standing.capture_time,
+            }
+            for standing in self.standings
+        )
 
     def to_frame(self, table: str = "matches") -> DataFrame:
         """Return a table of pandas: "matches", one row a match, or "league", one row a law."""

@@ -9,11 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mars2d.addons.contest import Contest, Outcome
-from mars2d.core.errors import InputError, LawError
+from mars2d.core.errors import LawError
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.roles import contest_of
-from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.world.loop import simulate
 

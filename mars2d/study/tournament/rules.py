@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from mars2d.addons.contest import Contest
@@ -89,7 +89,7 @@ class Rules:
     arena: str
     time: str
     start: str
-    limits: Limits = Limits()
+    limits: Limits = field(default_factory=Limits)
 
     @classmethod
     def of(cls, experiment: Experiment, contest: Contest) -> Rules:

@@ -88,7 +88,7 @@ def _role(rules: Rules, number: int) -> str:
 
 
 def _story(text: str) -> str:
-    """Return a docstring as paragraphs; tables, whose columns are set by blanks, stay as they are."""
+    """Return a docstring as paragraphs; tables, set by blanks, stay as they are."""
     return "\n".join(
         f"<pre>{escaped(part)}</pre>" if _is_table(part) else f"<p>{escaped(part)}</p>"
         for part in _parts(text)

@@ -208,7 +208,8 @@ def match_table(tournament: Tournament, kept: int) -> str:
             f'data-start="{escaped(start)}" data-without="{_without(played, at < kept)}"'
             f"{' data-forfeit' if played.verdicts else ''}>"
             f'<th scope="row">{WATCH}{played.match.number}</button></th>'
-            f'<td data-value="{which}">{escaped(rounds[which])}</td>{_cells(played, tournament.rules, roles)}</tr>'
+            f'<td data-value="{which}">{escaped(rounds[which])}</td>'
+            f"{_cells(played, tournament.rules, roles)}</tr>"
         )
     names = [role[:1].upper() + role[1:] for role in roles]
     columns = ("Match", "Round", "Seed", *names, "Winner", "Capture time", "How it ended")
