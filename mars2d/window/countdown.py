@@ -48,7 +48,7 @@ class Countdown:
         frame: Frame,
         pointer: tuple[int, int] | None,
     ) -> None:
-        """Draw what there is to say now over the arena; area: of the picture, room: of the arena."""
+        """Draw what there is to say now; area: of the picture, room: of the arena in it."""
         self.places = {}
         if not self.play.seats:
             self._draw_choices(surface, room, area, frame, pointer)

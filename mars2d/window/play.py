@@ -126,7 +126,9 @@ class Play:
         Return whether it has just ended.
         """
         player = self._player
-        if self.counting:
+        if not self.seats and player.playing:
+            player.pause()  # nobody has chosen yet
+        elif self.counting:
             started = player.playing  # somebody could not wait
             self.counting = (
                 0.0 if started else max(0.0, self.counting - min(seconds, LONGEST_PICTURE))

@@ -25,6 +25,9 @@ IMPORT = re.compile(rb"(?:^|[;:])\s*(?:from|import)\s+([a-zA-Z0-9_., \t]+)", re.
 Files = str | Path | Sequence[str | Path]
 """One or several files of laws, folders or patterns."""
 
+TRIALS = 3
+"""How many matches try a single law."""
+
 EXPECTED = "expected files of laws (.py), a folder of them, or a pattern as laws/*.py"
 
 
@@ -111,6 +114,39 @@ def schedule(
         files=opened.files,
         rules=Rules.of(opened, contest),
     )
+
+
+def trial_matches(
+    experiment: str, role: str, laws: Files, options: Mapping[str, Any]
+) -> tuple[Match, ...]:
+    """Return a few matches of each law in a role, whose rivals are the experiment's own laws.
+
+    Raises InputError for a role or a file that is not there, and for a law of another role.
+    """
+    opened = open_experiment(experiment, options)
+    names = tuple(name for name, _ in contest_of(opened.scenario, experiment).roles)
+    if role not in names:
+        raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
+    beside = None if opened.path is None else opened.path.parent
+    files = _all_files(laws, beside)
+    check_meant(role, files, names)
+    each = itertools.product(files, range(TRIALS))
+    return tuple(
+        Match(number, experiment, options, seed, {role: file.stem}, {role: str(file)})
+        for number, (file, seed) in enumerate(each, 1)
+    )
+
+
+def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
+    """Refuse laws in a folder that is named for another role, as `corner_evaders` is."""
+    for file in files:
+        words = {word.removesuffix("s") for word in re.split(r"[^a-z]+", file.parent.name.lower())}
+        meant = [each for each in roles if each.lower().removesuffix("s") in words]
+        if meant and role not in meant:
+            raise InputError(
+                f"{file.parent.name}/{file.name}: by its folder it plays {meant[0]}, not {role}; "
+                f"if it is to play {role}, copy it to another folder"
+            )
 
 
 def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
@@ -211,7 +247,9 @@ def entrants(
     every = _all_files(players, beside)
     found = {}
     for role in roles:
-        laws = tuple(dict.fromkeys((*_all_files(given.get(role, ()), beside), *every)))
+        own = _all_files(given.get(role, ()), beside)
+        check_meant(role, own, roles)
+        laws = tuple(dict.fromkeys((*own, *every)))
         if not laws:
             raise InputError(
                 f"no laws for the role {role!r}: name them by --role {role}=FILES, "
