@@ -14,7 +14,7 @@ from mars2d.core.streams import check_seed
 from mars2d.record.record import Record
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import robots_of
+from mars2d.scenario.roles import robots_named
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import Interrupted, simulate
 from mars2d.world.world import Watcher, World
@@ -59,7 +59,7 @@ def run(
         options = {**(options or {}), "stop_time": stop_time}
     speed, seed = playback_speed("speed", speed), check_seed(seed)
     opened = open_experiment(experiment, options, control, seed)
-    driven = robots_of(opened.scenario, human, "human =")
+    driven = robots_named(opened.scenario, human, "human =")
     target, log = (None, None) if record is None else _output(record)
     with held_back():  # Ctrl-C ends a run, and not that it is saved
         try:

@@ -16,7 +16,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike
 from mars2d.core.scene import Scene
 
-__all__ = ["Capture", "Contest", "Outcome", "Teams", "listed"]
+__all__ = ["Capture", "Contest", "Outcome", "Teams", "listed", "mark", "robots_of"]
 
 Role = tuple[str, tuple[str | int, ...]]
 Teams = tuple[tuple[int, ...], tuple[int, ...]]
@@ -63,10 +63,11 @@ def _roles(name: str, value: object) -> tuple[Role, ...]:
             raise wrong(name, value, ROLES)
     if pairs[0][0] == pairs[1][0]:
         raise InputError(f"{name}: two roles are called {pairs[0][0]!r}")
-    return tuple((role, _robots(f"{name}[{role!r}]", robots)) for role, robots in pairs)
+    return tuple((role, robots_of(f"{name}[{role!r}]", robots)) for role, robots in pairs)
 
 
-def _robots(name: str, value: object) -> tuple[str | int, ...]:
+def robots_of(name: str, value: object) -> tuple[str | int, ...]:
+    """Check a list of robots, by their names or indices."""
     expected = "a list of robots, by their names or indices, as ['red', 'blue']"
     if not isinstance(value, (list, tuple, range)):
         raise wrong(name, value, expected)
@@ -139,11 +140,17 @@ def listed(scenario: ScenarioLike, team: tuple[int, ...]) -> str:
     return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
-def mark(scene: Scene, frame: FrameLike, robot: int, label: str, above: bool) -> None:
-    """Cross out a robot, by its index, that is out of the game; write a label above or below it."""
+def mark(
+    scene: Scene, frame: FrameLike, robot: int, label: str, above: bool, *, cross: bool = True
+) -> None:
+    """Ring a robot, by its index, that is out of the game; write a label above or below it.
+
+    cross: whether it has lost, and is crossed out.
+    """
     arm = 1.25 * frame.scenario.robots[robot].radius
     x, y = frame.pose[:2, robot].tolist()
     scene.circle((x, y), arm, stroke=MARK, width=1.2)
-    scene.cross((x, y), arm, stroke=MARK, width=1.2)
+    if cross:
+        scene.cross((x, y), arm, stroke=MARK, width=1.2)
     place, lines = (y + arm, f"{label}\n") if above else (y - arm, f"\n{label}")
     scene.text((x, place), lines, color=MARK, size=10.0, halo="#ffffff")

@@ -16,7 +16,7 @@ from mars2d.output.raster import has_pygame, require_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.options import parse_setting
-from mars2d.scenario.roles import robots_of
+from mars2d.scenario.roles import robots_named
 from mars2d.study.work import cluster, worker_count
 from mars2d.window.display import Preferences
 
@@ -98,7 +98,7 @@ def add_human(parser: argparse.ArgumentParser) -> None:
 
 def humans_of(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
     """Return the indices of the robots that `add_human` asks for."""
-    robots = robots_of(experiment.scenario, arguments.human, "--human")
+    robots = robots_named(experiment.scenario, arguments.human, "--human")
     if robots and (arguments.headless or not has_display()):
         require_pygame("a window")
         why = "not --headless" if arguments.headless else "and there is no display"

@@ -8,7 +8,7 @@ from mars2d.addons.contest import Contest
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["contest_of", "contests_of", "robots_of", "role_of", "roles_of"]
+__all__ = ["contest_of", "contests_of", "robots_named", "role_of", "roles_of"]
 
 REFEREE = "Game({'pursuer': ['red'], 'evader': ['blue']})"
 """An add-on that makes a game, as messages show it."""
@@ -58,7 +58,7 @@ def role_of(scenario: Scenario, robot: int) -> str:
     return next((role for role, team in roles_of(scenario).items() if robot in team), "")
 
 
-def robots_of(
+def robots_named(
     scenario: Scenario, named: str | int | Sequence[str | int] | None, field: str
 ) -> tuple[int, ...]:
     """Return the robots, by index, that people drive: each by a name, an index, or a role.

@@ -20,7 +20,7 @@ from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.courses import GAMES, title_of
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
-from mars2d.scenario.roles import contest_of, robots_of
+from mars2d.scenario.roles import contest_of, robots_named
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -78,4 +78,4 @@ def _people(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int,
             raise InputError(
                 f"--role {role}: {arguments.game} has no such role{nearest(role, roles)}"
             )
-    return robots_of(experiment.scenario, wanted, "--role")
+    return robots_named(experiment.scenario, wanted, "--role")
