@@ -304,7 +304,7 @@ class Game(Contest):
             parts.append(f"If time is over before, the {evading} wins.")
         else:
             safe = count - needed + 1
-            who = "it is" if safe == 1 and count == 1 else f"{safe} of {count} are"
+            who = f"{safe} of {count} {'is' if safe == 1 else 'are'}" if count > 1 else "it is"
             parts.append(f"The {evading} wins when {who} in the goal uncaught.")
             parts.append(f"If time is over before, the {hunting} wins.")
         return " ".join(parts)

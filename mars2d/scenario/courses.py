@@ -30,8 +30,9 @@ COURSES: Mapping[str, tuple[str, ...]] = {
 """The names of all examples, by course."""
 
 
-GAMES = ("corner_game", "sumo", "pursuit_voronoi")
-"""The names of the games among them, easiest to understand first. Their contests have the rest."""
+GAMES: Mapping[str, str] = {"corner_game": "", "sumo": "", "pursuit_voronoi": "", "herding": "dog"}
+"""The games among them, easiest to understand first, and the robot that a person drives where no
+contest has roles to choose from."""
 
 
 def courses() -> dict[str, list[str]]:

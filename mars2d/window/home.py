@@ -83,15 +83,19 @@ class Home:
     def _all_shelves(self) -> list[Shelf]:
         own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]
         new = Card("New drawing", "Draw a scenario with the mouse.", ("edit",), sign="+")
-        games = [self._example_card(name, "play") for name in GAMES if name in examples()]
+        games = [
+            self._example_card(name, "play", *(("--role", role) if role else ()))
+            for name, role in GAMES.items()
+            if name in examples()
+        ]
         of_courses = [
             Shelf(course, [self._example_card(name) for name in names])
             for course, names in courses().items()
         ]
         return [Shelf("Your own", [new, *own]), Shelf("Play", games), *of_courses]
 
-    def _example_card(self, name: str, verb: str = "demo") -> Card:
-        return Card(*title_of(name), (verb, name), self._thumbnail(name))
+    def _example_card(self, name: str, verb: str = "demo", *more: str) -> Card:
+        return Card(*title_of(name), (verb, name, *more), self._thumbnail(name))
 
     def _thumbnail(self, name: str) -> Path:
         looks = "dark" if self.painter.theme.dark else "light"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 
 from mars2d.cli.arguments import (
     add_options,
@@ -20,7 +21,11 @@ from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.courses import GAMES, title_of
 from mars2d.scenario.experiment import Experiment, examples, open_experiment
-from mars2d.scenario.roles import contest_of, robots_named
+from mars2d.scenario.roles import contest_of, contests_of, robots_named
+from mars2d.scenario.scenario import Scenario
+
+MOST_NAMES = 5
+"""How many robots a message names."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,21 +66,35 @@ def execute(arguments: argparse.Namespace) -> None:
 def _list() -> None:
     known = examples()
     print_table("Games", {name: title_of(name)[1] for name in GAMES if name in known})
-    tell(f"\nPlay one:  mars2d play {GAMES[0]}")
+    tell(f"\nPlay one:  mars2d play {next(iter(GAMES))}")
 
 
 def _people(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
-    """Return the robots, by index, that people play. Raises InputError for roles that are none."""
-    try:
-        contest = contest_of(experiment.scenario, arguments.game)
-    except InputError as error:
-        by_hand = f"mars2d run {arguments.game} --human ROBOT"
-        raise InputError(f"{error}. Without a winner, {by_hand} lets you drive") from error
-    roles = [role for role, _ in contest.roles]
+    """Return the robots, by index, that people play.
+
+    Where nobody wins, a robot may stand for a role. Raises InputError for roles that are none.
+    """
+    scenario = experiment.scenario
     wanted = [part.strip() for text in arguments.role for part in text.split(",")]
+    if not contests_of(scenario):
+        return _driven(arguments.game, scenario, wanted)
+    contest = contest_of(scenario, arguments.game)
+    roles = [role for role, _ in contest.roles]
     for role in wanted:
         if role not in roles:
             raise InputError(
                 f"--role {role}: {arguments.game} has no such role{nearest(role, roles)}"
             )
-    return robots_named(experiment.scenario, wanted, "--role")
+    return robots_named(scenario, wanted, "--role")
+
+
+def _driven(game: str, scenario: Scenario, wanted: Sequence[str]) -> tuple[int, ...]:
+    """Return the robots that people drive where nobody wins."""
+    if wanted:
+        return robots_named(scenario, wanted, "--role")
+    names = [str(robot.name) for robot in scenario.robots]
+    shown = ", ".join(names[:MOST_NAMES]) + (", ..." if len(names) > MOST_NAMES else "")
+    raise InputError(
+        f"{game}: it has no roles, as no add-on says who has won: name the robot to drive, "
+        f"--role ROBOT; there are {shown}"
+    )

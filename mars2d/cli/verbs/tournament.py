@@ -11,6 +11,7 @@ from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError, counted, one_line
 from mars2d.core.files import atomic_write
+from mars2d.core.scene import color_word
 from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
@@ -200,7 +201,7 @@ def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     if not 1 <= arguments.match <= count:
         raise InputError(f"--match {arguments.match}: expected a number from 1 to {count}")
     match = planned.matches[arguments.match - 1]
-    tell(_described(match))
+    tell(f"match {match.number}: {_described(match, planned.rules)}")
     played, record = replayed(match, limits)
     steps = counted(played.steps, "step")
     tell(f"{one_line(played.message)}. {steps}, digest {played.digest[:16]}")
@@ -210,13 +211,22 @@ def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     if arguments.record is not None:
         record.save(arguments.record)
     if arguments.view:
-        _view(arguments, record)
+        _view(arguments, record, _who(match, planned.rules, " against "))
 
 
-def _described(match: Match) -> str:
-    laws = ", ".join(f"{role} {law}" for role, law in match.laws.items())
+def _described(match: Match, rules: Rules | None) -> str:
     options = "".join(f", {name} = {value}" for name, value in match.options.items())
-    return f"match {match.number}: {laws}, seed {match.seed}{options}"
+    return f"{_who(match, rules, ', ')}, seed {match.seed}{options}"
+
+
+def _who(match: Match, rules: Rules | None, between: str) -> str:
+    """Return which law plays which role, and the colours of its robots."""
+    colors = {} if rules is None else rules.colors
+    words = {role: ", ".join(dict.fromkeys(map(color_word, of))) for role, of in colors.items()}
+    return between.join(
+        f"{role} {law}" + (f" ({words[role]})" if words.get(role, role) != role else "")
+        for role, law in match.laws.items()
+    )
 
 
 def _compared(played: Played, planned: Schedule, path: Path, limits: Limits) -> str:
@@ -230,8 +240,9 @@ def _compared(played: Played, planned: Schedule, path: Path, limits: Limits) -> 
     return f"not as before: {before.message}. Digest {before.digest[:16]}"
 
 
-def _view(arguments: argparse.Namespace, record: Record) -> None:
+def _view(arguments: argparse.Namespace, record: Record, title: str) -> None:
     from mars2d.window.show import show_record
 
     speed = record.scenario.animation.playback_speed
-    show_record(record, speed, preferences_of(arguments))
+    titled = replace(record, scenario=record.scenario.replace(title=title))
+    show_record(titled, speed, preferences_of(arguments))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import re
 from collections.abc import Iterator
 
@@ -60,10 +61,16 @@ def rules_part(rules: Rules) -> str:
     commands = "\n".join(f"<pre>{escaped(line)}</pre>" for line in lines)
     return (
         f'<div class="story">{_story(rules.story)}</div>\n'
-        f'<figure class="start">{rules.start}<figcaption>The start</figcaption></figure>\n'
+        f'<figure class="start">{_start(rules)}</figure>\n'
         f'<div class="roles">\n{roles}\n</div>\n<dl class="rules">\n{listed}\n</dl>\n'
         f'<p class="note">To play it by hand, and to try a law in it:</p>\n{commands}'
     )
+
+
+def _start(rules: Rules) -> str:
+    """Return the picture of the start, which brings its own line of text."""
+    data = base64.b64encode(rules.start.encode()).decode()
+    return f'<img alt="The start of the game" src="data:image/svg+xml;base64,{data}">'
 
 
 def _role(rules: Rules, number: int) -> str:
