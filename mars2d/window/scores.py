@@ -79,7 +79,10 @@ class Scores:
     def add(self, role: str, won: bool | None, time: float | None) -> Tally:
         """Note a game that has ended, as `Tally.after` does; return the tally before it."""
         before, known = self.of(role), self._memory.read(FILE)
-        tallies = {**self._tallies(known), role: asdict(before.after(won, time))}
+        tallies = {
+            **self._tallies(known),
+            role: asdict(before.after(won, None if time is None else float(time))),
+        }
         self._memory.write(FILE, {**known, self._game: tallies})
         return before
 

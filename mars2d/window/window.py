@@ -420,6 +420,9 @@ class Window:
         if game.counting:
             return ("Space", "start at once"), ("F1", "help")
         pause = "go on" if self.player.paused else "pause"
+        if "score" not in self.dock.plates:  # there is no room for the panel with the keys
+            keys = [(" ".join(seat.keys), seat.role or "drive") for seat in game.seats]
+            return (*keys, ("Space", pause), ("R", "begin again"))
         return ("Space", pause), ("R", "begin again"), ("Shift", "slowly"), ("F1", "help")
 
     def _status(self) -> Status:
