@@ -319,7 +319,7 @@ def test_a_match_can_be_played_again_alone(evening, command):
     digest = evening.result.matches[10].digest
     assert code == 0
     first, how, same, *output = printed.splitlines()
-    assert first == "match 11: pursuer quick, evader still, seed 0"
+    assert first == "match 11: pursuer quick (blue), evader still (orange), seed 0"
     assert how.startswith("red catches blue after")
     assert how.endswith(f"digest {digest[:16]}")
     assert same == "the same as before, to the last bit"
