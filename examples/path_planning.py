@@ -36,7 +36,7 @@ def follow(force, theta):
     return (min(SPEED, speed) * max(0, cos(turn)), TURN * turn) if speed > STILL else (0, 0)
 
 
-def scenario(detour=None, map="maps/department.dxf", layers="WALLS, FURNITURE"):  # noqa: A002
+def scenario(detour=None, map="maps/department.geojson", layers="WALLS, FURNITURE"):  # noqa: A002
     last = WAYS[2] if detour is None else [*WAYS[2][:-1], detour, WAYS[2][-1]]
     return Scenario(
         title="Path planning",

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -53,6 +54,25 @@ def bare_environment(**more: str) -> dict[str, str]:
     return {key: value for key, value in os.environ.items() if key not in HIDDEN} | more
 
 
+@contextmanager
+def started(command: list[str], **options: Any) -> Iterator[subprocess.Popen[str]]:
+    """Start a process; kill it at the end if it still runs, or after PATIENCE.
+
+    So a test that reads its output never waits for ever.
+    """
+    process = subprocess.Popen(command, text=True, **options)
+    bound = threading.Timer(PATIENCE, process.kill)
+    bound.start()
+    try:
+        yield process
+        process.wait(PATIENCE)
+    finally:
+        bound.cancel()
+        process.kill()
+        with process:  # closes its pipes
+            pass
+
+
 @functools.cache
 def _nursery() -> Nursery:
     """Start the process that command lines are forked from."""
@@ -73,13 +93,19 @@ def mars(
 
 
 @contextmanager
-def x_server(width: int = 1000, height: int = 700) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
-    """Start an X server on a free display; yield the display's name and the server's process."""
+def x_server(
+    width: int = 1000, height: int = 700, *, repeats: bool = False
+) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
+    """Start an X server on a free display; yield the display's name and the server's process.
+
+    repeats: repeat the keys that are held. Else a key counts once, however late it is released.
+    """
     if shutil.which("Xvfb") is None:
         pytest.skip("needs an X server: apt-get install xvfb")
     read, write = os.pipe()
+    options = ["-screen", "0", f"{width}x{height}x24", "-noreset", *([] if repeats else ["-r"])]
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-noreset"],
+        ["Xvfb", "-displayfd", str(write), *options],
         pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
     os.close(write)

@@ -6,13 +6,19 @@ Walls (layer WALLS) are filled rectangles, a polyline with a bulge for the hall'
 line for a screen, and an arc for a cabin. Furniture is blocks (FURNITURE), door leaves are lines
 with their swing as arcs (DOORS), and room names and dimensions have layers of their own. The
 building is invented.
+
+department.geojson holds the same outlines in metres, by layer; to read it needs no other package.
 """
 
+import json
 from math import pi, tan
 from pathlib import Path
 
 import ezdxf
 from ezdxf.enums import TextEntityAlignment
+from shapely.geometry import mapping
+
+from mars2d.addons import maps
 
 MM = 1000.0  # of a metre: below, all lengths are metres
 OUTER = 0.3  # m, how thick the outer walls are; the inner ones are half of it
@@ -127,6 +133,18 @@ def department():
     return drawing
 
 
+def outlines(path):
+    """Return the outlines of a drawing as GeoJSON: a feature a line."""
+    features = [
+        {"type": "Feature", "properties": {"layer": p.layer}, "geometry": mapping(p.geometry)}
+        for p in maps.read(path).pieces
+    ]
+    lines = ",\n".join(json.dumps(feature, separators=(",", ":")) for feature in features)
+    return f'{{"type":"FeatureCollection","features":[\n{lines}\n]}}\n'
+
+
 if __name__ == "__main__":
     ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates in the file
-    department().saveas(Path(__file__).with_name("department.dxf"))
+    file = Path(__file__).with_name("department.dxf")
+    department().saveas(file)
+    file.with_suffix(".geojson").write_text(outlines(file), encoding="utf-8")

@@ -40,7 +40,7 @@ BLOCK = 256
 class _Team:
     """Robots with equal drives."""
 
-    def __init__(self, drive: Drive, columns: Index | None, noise: Iterator[Float] | None) -> None:
+    def __init__(self, drive: Drive, columns: Index | None, noise: _White | None) -> None:
         """Take the drive, the robots' columns, None for all, and their random numbers."""
         self.drive, self.noise = drive, noise
         self._everybody = columns is None
@@ -78,7 +78,7 @@ class Drives:
         for drive, names in _grouped(drives):
             columns = np.array([column[name] for name in names])
             streams = [stream(f"drive {name}") for name in names] if drive.noise else []
-            noise = _white(streams, sampling_time) if streams else None
+            noise = _White(streams, sampling_time) if streams else None
             everybody = len(names) == len(drives)
             self._teams.append(_Team(drive, None if everybody else columns, noise))
         self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
@@ -109,7 +109,7 @@ class Drives:
         """Draw the noise of the control step that begins."""
         for team in self._noisy:
             assert team.noise is not None
-            team.normal = next(team.noise)
+            team.normal = team.noise.draw()
 
     def drive(self, command: Float, duration: float) -> Iterator[tuple[float, Float]]:
         """Yield twists (3, n) that lead to commands (2, n), each with the seconds that it holds.
@@ -210,11 +210,22 @@ def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:
     return groups
 
 
-def _white(streams: list[np.random.Generator], duration: float) -> Iterator[Float]:
-    """Yield the means (2, n) of white noise of density 1 over `duration` seconds, in turn.
+class _White:
+    """The means (2, n) of white noise of density 1 over `duration` seconds, in turn.
 
     They are normal numbers with variance 1 / duration; each robot has a random stream of its own.
     """
-    while True:
-        blocks = [stream.standard_normal((BLOCK, 2)) for stream in streams]
-        yield from np.stack(blocks, axis=-1) / sqrt(duration)
+
+    def __init__(self, streams: list[np.random.Generator], duration: float) -> None:
+        self._streams, self._duration = streams, duration
+        self._block: Float = np.empty((0, 2, len(streams)))
+        self._next = 0
+
+    def draw(self) -> Float:
+        """Return the next mean."""
+        if self._next == len(self._block):
+            blocks = [stream.standard_normal((BLOCK, 2)) for stream in self._streams]
+            self._block = np.stack(blocks, axis=-1) / sqrt(self._duration)
+            self._next = 0
+        self._next += 1
+        return np.asarray(self._block[self._next - 1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from math import pi, sqrt
 from typing import Any
 
@@ -276,6 +277,7 @@ def _quadrature(count: int) -> tuple[Float, Float]:
     return t * t * t, 1.5 * weight * (t * t)
 
 
+@lru_cache
 def _gauss(count: int) -> tuple[Float, Float]:
     """Return the nodes and weights of Gauss and Legendre from -1 to 1.
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.description import whole
-from mars2d.core.errors import LawError, shown
+from mars2d.core.errors import InputError, LawError, shown
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
 from mars2d.record.columns import Column, DiskError, Storage, Texts, blocks
@@ -21,7 +21,7 @@ from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.error_model import as_numbers
 
-__all__ = ["History", "Recorder"]
+__all__ = ["History", "Recorder", "Unrecorded"]
 
 Float = NDArray[np.float64]
 
@@ -276,6 +276,25 @@ class Recorder:
             copied.write_block(count, as_of(block, now))
             count += len(block)
         return copied.upto(count)
+
+
+class Unrecorded(Recorder):
+    """Writes nothing, for worlds that keep no record, such as those of learners and forks."""
+
+    def write(
+        self, readings: Mapping[str, Sequence[Any] | NDArray[Any]], **columns: Float | float
+    ) -> None:
+        """Write no row."""
+
+    def write_contacts(self, contacts: NDArray[np.void]) -> None:
+        """Write no contacts."""
+
+    def write_messages(self, text: str, rows: NDArray[np.void]) -> None:
+        """Write no messages."""
+
+    def record(self, *_: Any, **__: Any) -> NoReturn:
+        """Raise InputError."""
+        raise InputError("this world keeps no record: make it without record=False")
 
 
 def _as_reading(name: str, values: Sequence[Any] | NDArray[Any]) -> NDArray[Any]:

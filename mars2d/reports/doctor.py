@@ -12,11 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mars2d.core.extras import pip_line
+
 __all__ = ["Finding", "examine"]
 
 LIBRARIES = (
-    "pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow", "ezdxf",
-    "svgelements", "pyyaml",
+    "pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow",
 )  # fmt: skip
 
 
@@ -33,6 +34,13 @@ class Extra(NamedTuple):
 EXTRAS = (
     Extra("video", "films", ".gif", ".mp4", ("av",)),
     Extra("data", "records", ".npz, .mat, .csv", ".nc, pandas, xarray", ("pandas", "xarray")),
+    Extra(
+        "maps",
+        "maps",
+        "GeoJSON, WKT, images",
+        "DXF, SVG, grids of ROS",
+        ("ezdxf", "svgelements", "pyyaml"),
+    ),
     Extra("log", "logs", "", ".mcap", ("mcap", "foxglove-schemas-protobuf")),
     Extra("cluster", "workers", "all cores of this machine", "Dask clusters", ("distributed",)),
 )
@@ -85,7 +93,7 @@ def _extra(extra: Extra) -> Finding:
         try:
             found.append(f"{package} {importlib.metadata.version(package)}")
         except importlib.metadata.PackageNotFoundError:
-            line = f'for {extra.more}: pip install "mars2d[{extra.extra}]"'
+            line = f"for {extra.more}: {pip_line(extra.extra)}"
             return Finding(extra.name, "; ".join(filter(None, [extra.always, line])), ok=None)
     offered = ", ".join(filter(None, [extra.always, extra.more]))
     return Finding(extra.name, f"{offered} ({', '.join(found)})")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
+from copy import deepcopy
+from functools import partial
 from types import SimpleNamespace
 from typing import Any, NoReturn
 
@@ -34,6 +36,13 @@ class Sense(SimpleNamespace):
         """Let a reading be measured when it is asked for."""
         vars(self).pop(name, None)
         self._due[name] = measure
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Sense:
+        copied = memo[id(self)] = Sense(self._robot)
+        memo[id(vars(self))] = vars(copied)  # in which devices write
+        copied._names, copied._due = [*self._names], deepcopy(self._due, memo)
+        vars(copied).update({name: deepcopy(value, memo) for name, value in vars(self).items()})
+        return copied
 
     def __getattr__(self, name: str) -> Any:
         if name not in self._due:
@@ -110,7 +119,7 @@ class Device:
         """Measure, if it is time, and show the latest reading that has arrived."""
         if self.when_asked:
             self.reading = None
-            self._sense._expect(self.key, lambda: self._measured_when_asked(iteration))
+            self._sense._expect(self.key, partial(self._measured_when_asked, iteration))
             return
         if iteration % self.period == 0:
             self.send(self._measured(self.rng), iteration)

@@ -11,7 +11,8 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any
 
-from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.errors import InputError
+from mars2d.core.extras import extra
 from mars2d.core.terminal import warn
 from mars2d.study.workers import reason
 
@@ -38,12 +39,8 @@ def cluster(address: str) -> Iterator[Executor]:
     or if a worker has another version of Python or of a package in `SAME_VERSION`. Warns if there
     is no worker yet: tasks wait for one.
     """
-    try:
+    with extra("cluster", f"{address}: a cluster needs Dask"):
         from distributed import Client
-    except ImportError:
-        raise MissingExtraError(
-            f'{address}: a cluster needs Dask: pip install "mars2d[cluster]"'
-        ) from None
     with _without_log():
         _check_scheduler(address)
         client = Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False)

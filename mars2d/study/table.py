@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, MissingExtraError, counted, one_line, shown
+from mars2d.core.errors import InputError, counted, one_line, shown
+from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.scenario.options import parse_setting
 from mars2d.study.measures import UNITS
@@ -136,10 +137,8 @@ class Table:
 
         Raises MissingExtraError without pandas.
         """
-        try:
+        with extra("data", "tables need pandas"):
             import pandas as pd
-        except ImportError:
-            raise MissingExtraError('tables need pandas: pip install "mars2d[data]"') from None
         rows = [
             {
                 "row": result.row,

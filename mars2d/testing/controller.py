@@ -165,7 +165,7 @@ class _Subject:
                 for i, column in enumerate(command.T):
                     self._asked[i] = column.copy()
             else:
-                self._asked[subject.index] = np.array(robot_command(law, value))
+                self._asked[subject.index] = np.array(robot_command(value, law.refuse))
         except LawError as error:
             self.report.wrong(said(error, subject.time))
             return self.still(subject)

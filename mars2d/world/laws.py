@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from types import GeneratorType
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from types import GeneratorType, MappingProxyType
 from typing import Any, NoReturn
 
 import numpy as np
@@ -20,6 +20,9 @@ Float = NDArray[np.float64]
 
 LARGEST = 1e300
 """The largest entry of a command, in any unit, so that the drives' results stay floats."""
+
+NONE: Mapping[int, tuple[float, float]] = MappingProxyType({})
+"""No commands."""
 
 BOUNDED = "a command must be finite"
 
@@ -46,6 +49,11 @@ class Law:
         self._robot = str(getattr(subject, "name", ""))
         self._calling = called(self.name, function, self._robot)
 
+    @property
+    def started(self) -> bool:
+        """Whether it is a generator that runs."""
+        return self._running is not None
+
     def command(self) -> Any:
         """Return the law's command now, unchecked. Raises LawError where the law raises."""
         self.calls += 1
@@ -71,21 +79,21 @@ class Law:
         raise error
 
 
-def robot_command(law: Law, value: Any) -> tuple[float, float]:
-    """Check the command of one robot: two finite numbers."""
+def robot_command(value: Any, refuse: Callable[[str], NoReturn]) -> tuple[float, float]:
+    """Check the command of one robot: two finite numbers. refuse: raises the error."""
     if value is None:
-        law.refuse("returned nothing: a law returns its command, as `return v, omega`")
+        refuse("returned nothing: a law returns its command, as `return v, omega`")
     if type(value) is tuple and len(value) == 2:
         first, second = value
         plain = type(first) in PLAIN and type(second) in PLAIN
         if plain and abs(first) <= LARGEST and abs(second) <= LARGEST:
             return first, second
-    command = _numbers(value, law.refuse)
+    command = _numbers(value, refuse)
     if command is None or command.shape not in ((2,), (2, 1)):
-        law.refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
+        refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
     first, second = command.ravel().tolist()
     if not (abs(first) <= LARGEST and abs(second) <= LARGEST):  # neither for NaN
-        law.refuse(f"returned {shown((first, second))}: {BOUNDED}")
+        refuse(f"returned {shown((first, second))}: {BOUNDED}")
     return first, second
 
 
@@ -150,6 +158,9 @@ class Laws:
         """The team's law as the user gave it, or None."""
         return None if self._central is None else self._central.function
 
+    def __iter__(self) -> Iterator[Law]:
+        return iter([*filter(None, [self._central]), *(law for _, law in self._own)])
+
     @property
     def calls(self) -> int:
         """How often laws were asked."""
@@ -183,8 +194,12 @@ class Laws:
                     law = Law(controller, robot_view(i))
                 self._own.append((i, law))
 
-    def commands(self) -> Float:
-        """Ask all laws for their commands and return them as one array (2, n)."""
+    def commands(self, given: Mapping[int, tuple[float, float]] = NONE) -> Float:
+        """Ask the laws for their commands and return them as one array (2, n).
+
+        given: commands of robots, by index, in place of those of the laws. Their own laws are not
+        asked.
+        """
         central, robots = self._central, self._still.shape[1]
         if central is None:
             command = self._still.copy()
@@ -196,10 +211,14 @@ class Laws:
                 central.blame(error)
                 raise
         for i, law in self._own:
+            if i in given:
+                continue
             asked = law.command()
             try:
-                command[0, i], command[1, i] = robot_command(law, asked)
+                command[0, i], command[1, i] = robot_command(asked, law.refuse)
             except BaseException as error:
                 law.blame(error)
                 raise
+        for i, pair in given.items():
+            command[:, i] = pair
         return command

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cached_property
+from collections.abc import Callable, Mapping
+from functools import cached_property, partial
 from time import perf_counter
 from typing import Any, NoReturn, TypeVar
 
@@ -25,7 +25,7 @@ from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
 from mars2d.world.channel import Channel
-from mars2d.world.laws import Laws, team_command
+from mars2d.world.laws import Laws, robot_command, team_command
 from mars2d.world.operator import Operator
 from mars2d.world.room import Room
 from mars2d.world.state import Addons, Hooks, State
@@ -50,7 +50,9 @@ class Simulation(State):
     taken by now.
     """
 
-    def __init__(self, scenario: Scenario, seed: int, filename: str, storage: Storage) -> None:
+    def __init__(
+        self, scenario: Scenario, seed: int, filename: str, storage: Storage | None
+    ) -> None:
         """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
         super().__init__(scenario, seed, storage)
         self.filename = whole(filename)
@@ -136,6 +138,16 @@ class Simulation(State):
         return self.iteration, self._laws.calls
 
     @property
+    def laws(self) -> Laws:
+        """The laws of the team and of single robots."""
+        return self._laws
+
+    @property
+    def world(self) -> WorldLike:
+        """The World that add-ons and watchers are called with."""
+        return self._world
+
+    @property
     def control(self) -> Control | None:
         """The law of the team."""
         return self._laws.function
@@ -207,10 +219,7 @@ class Simulation(State):
 
     def _alone(self, act: Callable[..., T], *arguments: Any, **options: Any) -> T:
         """Act on the world. Refuse to from within such an act; an error ends the experiment."""
-        if self._stepping:
-            raise InputError(
-                "world.step() was called from within a step: by a law, sensor or add-on"
-            )
+        self.refuse_within_step("step")
         self._stepping = True
         try:
             return act(*arguments, **options)
@@ -219,7 +228,7 @@ class Simulation(State):
                 error.where = error.where or self.filename or None
                 error.time = self.time if error.time is None else error.time
             self.break_off(f"Error: {error}")
-            error.record = self.record
+            error.record = None if self.storage is None else self.record
             raise
         except InputError:  # of what was given to step(): it may be called again
             raise
@@ -232,6 +241,13 @@ class Simulation(State):
         finally:
             self._stepping = False
 
+    def refuse_within_step(self, call: str) -> None:
+        """Raise InputError within a step, where a call would change what is going on."""
+        if self._stepping:
+            raise InputError(
+                f"world.{call}() was called from within a step: by a law, sensor or add-on"
+            )
+
     def _close(self) -> None:
         """Do the control step that ends the experiment."""
         self._alone(self._control_step, None)
@@ -241,10 +257,11 @@ class Simulation(State):
         self._observe()
         if self.watch is not None:
             self.watch(self._world)
-        wanted = asked = self._still if command is None else self._given(command)
-        if ask or command is None:
-            asked = self._laws.commands()
-            wanted = asked if command is None else wanted
+        if command is None or isinstance(command, Mapping):
+            wanted = asked = self._laws.commands(self._named(command or {}))
+        else:
+            wanted = self._given(command)
+            asked = self._laws.commands() if ask else wanted
         if ask:
             asked = self._saturate(self.operator.command(asked))
         self.command = locked(self._saturate(self.operator.command(wanted)))
@@ -272,10 +289,16 @@ class Simulation(State):
             self._hooks.call("on_sensed", self._world)
 
     def _given(self, command: Any) -> Float:
-        def refuse(message: str) -> NoReturn:
-            raise InputError(f"World.step(command) {message.replace('returned', 'was given', 1)}")
+        return team_command(command, len(self.robots), partial(_refuse, "World.step(command)"))
 
-        return team_command(command, len(self.robots), refuse)
+    def _named(self, commands: Mapping[Any, Any]) -> dict[int, tuple[float, float]]:
+        """Return the commands that are given for some robots, by index."""
+        return {
+            self.scenario.index_of("World.step", robot): robot_command(
+                command, partial(_refuse, f"World.step: the command of {robot}")
+            )
+            for robot, command in commands.items()
+        }
 
     def _saturate(self, command: Float) -> Float:
         """Limit the commands (2, n) to those that each drive can follow after the last ones."""
@@ -342,7 +365,18 @@ class Simulation(State):
         else:
             self.rebuild(start)
 
+    def resume(self, worked: Float) -> None:
+        """Go on with an engine that was put here, also from within a step of the one before."""
+        super().resume(worked)
+        self.surroundings.renew()
+        self._stepping = False
+
     def rebuild(self, start: Start) -> None:
         """Go on with everything moving like this."""
         self.restart_engine(start)
         self.surroundings.renew()
+
+
+def _refuse(given: str, message: str) -> NoReturn:
+    """Raise the error that a command given to `World.step` can't be used."""
+    raise InputError(f"{given} {message.replace('returned', 'was given', 1)}")

@@ -22,7 +22,7 @@ from mars2d.physics.settings import versions
 from mars2d.record.columns import Storage
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
-from mars2d.record.recorder import History, Recorder
+from mars2d.record.recorder import History, Recorder, Unrecorded
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.uncopied import Uncopied
 
@@ -92,15 +92,21 @@ class State(Uncopied):
     recorder: writes the rows. addons: by name.
     """
 
-    def __init__(self, scenario: Scenario, seed: int, storage: Storage) -> None:
-        """Put the bodies where they start. storage: makes the columns of the record."""
+    def __init__(self, scenario: Scenario, seed: int, storage: Storage | None) -> None:
+        """Put the bodies where they start.
+
+        storage: makes the columns of the record; None: nothing is recorded.
+        """
         self.scenario = scenario
         self.seed = seed
         self.iteration = 0
         self.over = False
         self.over_message = ""
         self.broken_off = False
-        self.recorder = Recorder(scenario, storage, versions)
+        self.storage = storage
+        self.recorder = (
+            Unrecorded(scenario) if storage is None else Recorder(scenario, storage, versions)
+        )
         self.history = History(self.recorder)
         self.addons = Addons()
         n = len(scenario.robots)
@@ -123,6 +129,12 @@ class State(Uncopied):
         self.engine = ENGINES[self.scenario.physics](self.scenario, start)
         self._take_engine()
         self._worked[WORK.index("hands")] += self.energy.total - before
+
+    def resume(self, worked: Float) -> None:
+        """Go on with an engine that was put here; worked: the work before it (6,), J."""
+        self._worked = worked
+        self.command = locked(self.command)
+        self._take_engine()
 
     def _take_engine(self) -> None:
         self.take_poses()

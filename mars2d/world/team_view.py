@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import Any, NoReturn
+from typing import Any, NoReturn, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from mars2d.record.interventions import leaps_of
 from mars2d.record.record import Record
 from mars2d.record.recorder import History
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.fork import forked
 from mars2d.world.simulation import Simulation
 from mars2d.world.state import Addons
 from mars2d.world.surroundings import Around
@@ -248,11 +249,30 @@ class WorldView(Uncopied):
     def step(self, command: Any = None) -> None:
         """Do one control step.
 
-        command: (2, n) to use in place of what the laws would command. Raises LawError when a law,
-        sensor or add-on fails, and InputError within a step, as a law would call it, and when the
-        experiment is over already.
+        command: (2, n) to use in place of what the laws would command; or a dict of commands (2,)
+        for some robots, by name or index, while the laws command the others: ``{"red": (1, 0)}``.
+        Raises LawError when a law, sensor or add-on fails, and InputError for a command of another
+        shape, within a step, as a law would call it, and when the experiment is over already.
+
+        Add-ons and sensors see the instant before the step. `observe` shows them the one after it,
+        such as a capture that the step has brought.
         """
         self._simulation.step(command)
+
+    def fork(self, *, laws: bool = True) -> WorldView:
+        """Return an independent world that goes on from this instant, to try out what would happen.
+
+        It records nothing and calls no watcher; whatever is done there changes nothing here. All
+        that remembers is copied: laws that are objects, the robots' memories, add-ons, sensors,
+        random streams. Functions are shared, with the variables around them. laws: False leaves the
+        laws out, so robots stand still but for what `step` commands. The engine starts anew from
+        how everything moves: without contact the motion is the same to rounding, in contact nearly
+        the same. A law may call this, for a plan.
+
+        Raises InputError, which names the law, add-on or sensor that can't be copied, such as a
+        generator that runs.
+        """
+        return cast(WorldView, forked(self._simulation, laws=laws).world)
 
     def observe(self) -> None:
         """Call the add-ons and read the sensors for the present instant, as the next step would.
@@ -283,7 +303,8 @@ class TeamPositionsView:
         )
 
     def __getattr__(self, name: str) -> NoReturn:
-        if hasattr(type(vars(self).get("_world")), name):  # None in a copy that is not yet filled
+        whole = type(vars(self).get("_world"))  # NoneType in a copy that is not yet filled
+        if hasattr(whole, name) and not name.startswith("__"):
             raise LawError(
                 f"this law sees positions only: world.{name} is not available; "
                 "there is world.position"

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import NoReturn
+from copy import deepcopy
+from typing import Any, NoReturn, Self
 
 from mars2d.core.errors import InputError
 
-__all__ = ["Uncopied"]
+__all__ = ["FORKING", "Uncopied"]
+
+FORKING = "a fork of a world"
+"""The key of a memo of `deepcopy` with which a whole world is copied."""
 
 
 class Uncopied:
@@ -14,6 +18,15 @@ class Uncopied:
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:
         raise InputError(
-            "a world can't be copied, pickled or sent to another process: make one more by "
-            "World(world.scenario, control, world.seed), or use world.record"
+            "a world can't be copied, pickled or sent to another process: world.fork() goes on "
+            "from here, World(world.scenario, control, world.seed) starts again, and world.record "
+            "is data"
         )
+
+    def __deepcopy__(self, memo: dict[Any, Any]) -> Self:
+        """Copy this as a part of a whole world, or raise InputError."""
+        if FORKING not in memo:
+            self.__reduce_ex__(4)
+        copied = memo[id(self)] = object.__new__(type(self))
+        vars(copied).update({name: deepcopy(value, memo) for name, value in vars(self).items()})
+        return copied

@@ -62,6 +62,8 @@ def unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
 
     kind: the view in words. more: names that it has besides those of its class.
     """
+    if name.startswith("__"):  # asked for by Python, for example by copy
+        raise AttributeError(name)
     kind_of_view = type(view)
     known = [
         item
@@ -98,12 +100,12 @@ class Mind:
     def __init__(self, name: str, stream: Callable[[str], np.random.Generator]) -> None:
         self.sense = Sense(name)
         self.memory = Memory()
-        self._name, self._stream = name, stream
+        self.name, self._stream = name, stream
 
     @cached_property
     def rng(self) -> np.random.Generator:
         """The robot's own random stream."""
-        return self._stream(f"robot {self._name}")
+        return self._stream(f"robot {self.name}")
 
 
 class _Body:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, cast
 
 from mars2d.core.description import wrong
 from mars2d.core.streams import check_seed
@@ -34,7 +34,8 @@ class World(WorldView):
     world; a robot's own controller overrides its column. seed: of all random streams. filename:
     the experiment's file, for the record. watch: called with the world once a control step, between
     sensing and control: to draw, to wait, to count. storage: what keeps the columns of the record,
-    in memory or, with `mars2d.record.columns.Scratch`, in files.
+    in memory or, with `mars2d.record.columns.Scratch`, in files. record: False keeps no record, as
+    learners want; `world.history` is empty then.
 
     Laws are given a `WorldView`, which has no more than that class; add-ons and watchers are given
     the World.
@@ -49,14 +50,37 @@ class World(WorldView):
         filename: str = "",
         watch: Watcher | None = None,
         storage: Storage = Column,
+        record: bool = True,
     ) -> None:
-        if not isinstance(scenario, Scenario):
-            raise wrong("World.scenario", scenario, "a Scenario")
-        super().__init__(Simulation(scenario, check_seed(seed), filename, storage))
+        kept = storage if record else None
+        super().__init__(Simulation(_checked(scenario), check_seed(seed), filename, kept))
         self.watch = watch
-        view = WorldView(self.simulation)
-        team_view = TeamPositionsView(self) if scenario.sees == "positions" else view
-        self.simulation.begin(self, view, team_view, control)
+        self._begin(control)
+
+    def _begin(self, control: Callable[[World], Any] | None) -> None:
+        simulation = self._simulation
+        view = WorldView(simulation)
+        positions = simulation.scenario.sees == "positions"
+        team_view = TeamPositionsView(self) if positions else view
+        simulation.begin(self, view, team_view, control)
+
+    def reset(self, seed: int | None = None, scenario: Scenario | None = None) -> None:
+        """Start again, as a new World would: the run after it is the same to the bit.
+
+        seed, scenario: those from now on; None: those of the present run. The law of the team, the
+        watcher and the storage stay. What was kept of the run before, such as its robots, record
+        and add-ons, does not change any more. Raises InputError within a step.
+        """
+        before = self._simulation
+        before.refuse_within_step("reset")
+        self._simulation = Simulation(
+            before.scenario if scenario is None else _checked(scenario),
+            before.seed if seed is None else check_seed(seed),
+            before.filename,
+            before.storage,
+        )
+        self.watch = before.watch
+        self._begin(before.control)
 
     @property
     def simulation(self) -> Simulation:
@@ -118,6 +142,10 @@ class World(WorldView):
         """
         self._simulation.operator.change(scenario, control, moved)
 
+    def fork(self, *, laws: bool = True) -> World:
+        """Return an independent world that goes on from this instant; see `WorldView.fork`."""
+        return cast(World, super().fork(laws=laws))
+
     def break_off(self, why: str) -> None:
         """End the experiment at once, without a last control step, as after an error."""
         self._simulation.break_off(why)
@@ -127,3 +155,9 @@ class World(WorldView):
         from mars2d.output.pages.notebook import world_svg
 
         return world_svg(self)
+
+
+def _checked(scenario: Scenario) -> Scenario:
+    if not isinstance(scenario, Scenario):
+        raise wrong("World.scenario", scenario, "a Scenario")
+    return scenario

@@ -53,6 +53,14 @@ def test_the_drawing_is_the_one_that_its_script_makes(tmp_path):
     assert kept.units == made.units == ezdxf.units.MM
 
 
+def test_the_outlines_are_those_of_the_drawing():
+    script = open_module(FLOOR.with_name("make_department.py"))
+    outlines = FLOOR.with_suffix(".geojson")
+    assert outlines.read_text(encoding="utf-8") == script.outlines(FLOOR)
+    chosen = {"layers": ["WALLS", "FURNITURE"]}
+    assert Map.from_file(outlines, **chosen) == Map.from_file(FLOOR, **chosen)
+
+
 def test_the_drawing_has_what_drawings_have():
     drawing = ezdxf.readfile(FLOOR)
     kinds = {(e.dxftype(), e.dxf.layer) for e in drawing.modelspace()}

@@ -64,6 +64,13 @@ def screen():
         yield name
 
 
+@pytest.fixture(scope="session")
+def repeating_screen():
+    """Start an X server that repeats keys that are held, and return its name."""
+    with x_server(repeats=True) as (name, _):
+        yield name
+
+
 class ClientMessage(ctypes.Structure):
     """An event that one program on a screen sends another."""
 
@@ -231,8 +238,8 @@ def open_window(screen):
     """Return a function that opens a window; all are closed at the end."""
     opened = []
 
-    def start(speed, **options):
-        opened.append(Driver(screen, speed, **options))
+    def start(speed, on=screen, **options):
+        opened.append(Driver(on, speed, **options))
         return opened[-1]
 
     yield start

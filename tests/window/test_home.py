@@ -18,7 +18,7 @@ from mars2d.scenario.roles import contests_of
 from mars2d.window.display import Preferences
 from mars2d.window.home import Home
 from mars2d.window.memory import SIZE, Memory
-from tests.processes import PATIENCE, bare_environment, mars, wait_until
+from tests.processes import PATIENCE, bare_environment, mars, started, wait_until
 from tests.window.person import needs_screen
 
 SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
@@ -236,7 +236,7 @@ def test_from_the_home_to_an_own_file_and_back(screen, tmp_path):
     (folder / "windows.json").write_text(json.dumps({"recent": [str(file)], "size": [900, 600]}))
     environment = bare_environment(DISPLAY=screen, MARS2D_MEMORY=str(folder))
     command = [sys.executable, "-m", "mars2d"]
-    with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True) as home:
+    with started(command, env=environment, stderr=subprocess.PIPE) as home:
         do = Hands(screen, home)
         do.wait_for("MARS2D")
         do.key("Right", "Return")

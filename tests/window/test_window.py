@@ -275,8 +275,8 @@ def test_l_follows_what_is_selected_until_the_picture_is_dragged(open_window):
 
 
 @needs_screen
-def test_manual_mode_is_one_step_a_key(open_window):
-    window = open_window(0)
+def test_manual_mode_is_one_step_a_key(open_window, repeating_screen):
+    window = open_window(0, on=repeating_screen)
     before = window.still()
     for count, key in enumerate(["space", "Return", "Right", "q", "Down"], 1):
         window.press(key)

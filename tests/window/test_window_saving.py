@@ -23,8 +23,8 @@ def folder(tmp_path):
     return path
 
 
-def test_p_saves_what_is_seen_and_never_over_another_picture(open_window, folder):
-    window = open_window(0, folder=folder)
+def test_p_saves_what_is_seen_and_never_over_another_picture(open_window, repeating_screen, folder):
+    window = open_window(0, on=repeating_screen, folder=folder)
     before = window.still()
     window.press("p")
     window.says(f"picture: {folder / 'circling_1.png'}")

@@ -23,7 +23,7 @@ def test_space_pauses_and_resumes(open_window):
     assert window.shows(lambda seen: differing(before, seen) > 50)
 
 
-def test_arrows_step_on_and_back_and_repeat_when_held(open_window):
+def test_arrows_step_on_and_back(open_window):
     window = open_window(1)
     window.press("Right")
     first = window.until(lambda s: s["status"] == "paused")
@@ -36,6 +36,12 @@ def test_arrows_step_on_and_back_and_repeat_when_held(open_window):
     window.until(lambda s: s["row"] == first["row"] and s["past"])
     # Paths that are drawn back differ by a shade here and there from paths that have grown.
     assert window.shows(lambda seen: differing(before, seen, by=80) < 10)
+
+
+def test_arrows_repeat_when_held(open_window, repeating_screen):
+    window = open_window(1, on=repeating_screen)
+    window.press("Right")
+    first = window.until(lambda s: s["status"] == "paused")
     window.do("keydown", "Right")
     window.until(lambda s: s["row"] > first["row"] + 4)
     window.do("keyup", "Right")
@@ -282,8 +288,8 @@ def test_a_recording_can_be_looked_at_and_says_what_can_not_be_done(open_window,
     assert window.look()[PLOT].mean() > 200
 
 
-def test_a_digit_that_is_held_is_typed_once(open_window):
-    window = open_window(0)
+def test_a_digit_that_is_held_is_typed_once(open_window, repeating_screen):
+    window = open_window(0, on=repeating_screen)
     window.do("keydown", "2", "sleep", "1", "keyup", "2")  # an arrow would repeat
     window.press("5")
     window.until(lambda s: s["chip"] == "25 ...")

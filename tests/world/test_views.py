@@ -47,7 +47,7 @@ OF_POSITIONS = {
 """What of `world` a law may touch that sees positions only."""
 
 MORE = {
-    "contacts", "filename", "finished", "frame", "geometric_center", "history", "hold",
+    "contacts", "filename", "finished", "fork", "frame", "geometric_center", "history", "hold",
     "neighbour_indices", "observe", "over", "over_message", "pose", "prop_pose", "prop_velocity",
     "props", "record", "scenario", "seed", "step", "stream", "surroundings", "velocity",
 }  # fmt: skip
@@ -55,7 +55,7 @@ MORE = {
 
 OF_WHO_RUNS_IT = {
     "break_off", "change", "control", "energy", "hands", "momentum", "operator", "recorder",
-    "simulation", "watch",
+    "reset", "simulation", "watch",
 }  # fmt: skip
 """What a World has and no law."""
 

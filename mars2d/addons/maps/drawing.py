@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import shapely
 
 __all__ = [
+    "ALWAYS",
     "MAX_PIECES",
     "MAX_POINTS",
     "METRES",
@@ -33,6 +34,9 @@ __all__ = [
 ]
 
 Float = NDArray[np.float64]
+
+ALWAYS = "GeoJSON, WKT, .png, .jpg and .pgm need nothing"
+"""The maps that are read without the extra `maps`."""
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 """The units that a drawing can be in, by name, in metres."""

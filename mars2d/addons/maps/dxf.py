@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.maps.drawing import (
+    ALWAYS,
     Drawing,
     Piece,
     Tally,
@@ -26,6 +27,7 @@ from mars2d.addons.maps.drawing import (
 )
 from mars2d.addons.maps.regions import region
 from mars2d.core.errors import InputError, shown
+from mars2d.core.extras import extra
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -76,9 +78,9 @@ def read_dxf(path: Path, unit: Unit | None) -> Drawing:
     out. Layers that are off, frozen or not plotted are hidden. Raises InputError.
     """
     name = path.name
-    with broken(name, "a DXF drawing"):
+    with extra("maps", f"{name}: a DXF drawing needs ezdxf", ALWAYS):
         import ezdxf
-
+    with broken(name, "a DXF drawing"):
         _quiet()
         data = path.read_bytes()
         if sum(1 for _ in ENTITY.finditer(data)) > MAX_ENTITIES:

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.maps.drawing import Drawing, Piece, Unit, broken, check_bytes
+from mars2d.addons.maps.drawing import ALWAYS, Drawing, Piece, Unit, broken, check_bytes
 from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.extras import extra
 from mars2d.core.picture import opened_image
 
 if TYPE_CHECKING:
@@ -136,8 +137,8 @@ def _origin(name: str, value: Any) -> Pose:
 
 def _fields(name: str, path: Path) -> dict[str, Any]:
     """Return the fields of a YAML file, plain values only."""
-    import yaml
-
+    with extra("maps", f"{name}: an occupancy grid needs PyYAML", ALWAYS):
+        import yaml
     with broken(name, "YAML"):
         text = path.read_text(encoding="utf-8")
         if max(text.count("["), text.count("{")) > MAX_BRACKETS:

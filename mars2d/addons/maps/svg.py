@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.maps.drawing import (
+    ALWAYS,
     MAX_POINTS,
     METRES,
     NO_LAYER,
@@ -28,6 +29,7 @@ from mars2d.addons.maps.drawing import (
 )
 from mars2d.addons.maps.regions import region
 from mars2d.core.errors import InputError, shown
+from mars2d.core.extras import extra
 
 __all__ = ["read_svg"]
 
@@ -71,9 +73,9 @@ def read_svg(path: Path, unit: Unit | None) -> Drawing:
     else what has a stroke is a wall without thickness. A layer is the innermost group with a
     label, or with an id. Raises InputError.
     """
-    import svgelements
-
     name = path.name
+    with extra("maps", f"{name}: an SVG drawing needs svgelements", ALWAYS):
+        import svgelements
     with broken(name, "an SVG drawing"):
         root = _parsed(name, path.read_bytes())
         unit, height = unit or _unit(root), _height(root)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import MissingExtraError
+from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 
 if TYPE_CHECKING:
@@ -27,6 +27,9 @@ ENCODERS = ("libx264", "libopenh264", "mpeg4")
 """Encoders that a build of FFmpeg may have, the best first."""
 
 IN_PIECES = "frag_keyframe+empty_moov+default_base_moof"
+
+GIF = "a .gif needs nothing"
+"""What is there without PyAV."""
 
 MIN_AV = 17
 """The first version of PyAV that has everything needed here."""
@@ -43,15 +46,11 @@ PIECE_SECONDS = 1.0
 
 def require_av(target: Path) -> None:
     """Raise MissingExtraError where PyAV isn't installed, or an old one."""
-    install = 'pip install "mars2d[video]"; a .gif needs nothing'
-    try:
+    with extra("video", f"{target}: films in MP4 need PyAV {MIN_AV} or newer", GIF):
         import av
-    except ImportError:
-        raise MissingExtraError(f"{target}: films in MP4 need PyAV: {install}") from None
-    if int(av.__version__.partition(".")[0]) < MIN_AV:
-        raise MissingExtraError(
-            f"{target}: films in MP4 need PyAV {MIN_AV} or newer, not {av.__version__}: {install}"
-        )
+
+        if int(av.__version__.partition(".")[0]) < MIN_AV:
+            raise ImportError(av.__version__)
 
 
 def write_mp4(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mars2d.core.errors import MissingExtraError
+from mars2d.core.extras import extra
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import (
     COLUMN_UNITS,
@@ -69,10 +69,8 @@ def to_xarray(record: Record) -> Dataset:
 
 def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
     """Return the dataset of `to_xarray`, with other names for sensors."""
-    try:
+    with extra("data", "datasets need xarray"):
         import xarray as xr
-    except ImportError:
-        raise MissingExtraError('datasets need xarray: pip install "mars2d[data]"') from None
     scenario = record.scenario
     names = [str(robot.name) for robot in scenario.robots]
     places: dict[str, Any] = {

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.description import wrong
-from mars2d.core.errors import MissingExtraError, nearest
+from mars2d.core.errors import nearest
+from mars2d.core.extras import extra
 from mars2d.output.formats.columns import (
     COLUMN_UNITS,
     CONTACT_UNITS,
@@ -44,10 +45,8 @@ def to_frame(record: Record, table: str = "bodies") -> DataFrame:
         expected = "one of " + ", ".join(map(repr, tables))
         hint = nearest(table, tables, most=0) if isinstance(table, str) else ""
         raise wrong("table", table, expected + hint)
-    try:
+    with extra("data", "tables need pandas"):
         import pandas as pd  # noqa: F401
-    except ImportError:
-        raise MissingExtraError('tables need pandas: pip install "mars2d[data]"') from None
     frame, units = tables[table](record)
     frame.attrs["units"] = {name: unit for name, unit in units.items() if name in frame}
     return frame

@@ -8,7 +8,8 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.errors import InputError
+from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import plain_names
@@ -24,13 +25,8 @@ MAX_VARIABLE = 2**31 - 4
 
 def require(path: Path) -> None:
     """Raise MissingExtraError where xarray isn't installed."""
-    try:
+    with extra("data", f"{path}: netCDF needs xarray", ".npz, .mat and .csv need nothing"):
         import xarray  # noqa: F401
-    except ImportError:
-        raise MissingExtraError(
-            f'{path}: netCDF needs xarray: pip install "mars2d[data]"; .npz, .mat and .csv need '
-            "nothing"
-        ) from None
 
 
 def write(record: Record, path: Path) -> None:

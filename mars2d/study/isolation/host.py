@@ -162,7 +162,7 @@ class Host:
             try:
                 command: Any = law.command()
                 kind = "command"
-                asked += struct.pack("<2d", *robot_command(law, command))
+                asked += struct.pack("<2d", *robot_command(command, law.refuse))
             except BaseException as error:
                 self._blame(kind, error, None)
                 return None

@@ -12,7 +12,8 @@ from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
-from mars2d.core.errors import InputError, MissingExtraError, one_line
+from mars2d.core.errors import InputError, one_line
+from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.study.statistics import Interval, proportion
 from mars2d.study.table import cell, word_cell
@@ -251,10 +252,8 @@ class Tournament:
         """Return a table of pandas: "matches", one row a match, or "league", one row a law."""
         if table not in ("matches", "league"):
             raise InputError(f"to_frame({table!r}): expected 'matches' or 'league'")
-        try:
+        with extra("data", "tables need pandas"):
             import pandas as pd
-        except ImportError:
-            raise MissingExtraError('tables need pandas: pip install "mars2d[data]"') from None
         return pd.DataFrame(self.rows() if table == "matches" else self.standing_rows())
 
     def save_csv(self, path: str | Path, table: str = "matches") -> Path:

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import IO, Any, NamedTuple, Protocol
 from zlib import crc32
 
-from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.errors import InputError
+from mars2d.core.extras import extra
 from mars2d.output.formats.guard import check_size
 
 __all__ = [
@@ -212,10 +213,8 @@ def _unpacker(kind: str, part: _Part) -> _Source:
         return part
     if kind != "zstd":
         raise InputError(f"its chunks are compressed by {kind!r}; expected zstd, or none")
-    try:
+    with extra("log", "a packed log needs zstandard"):
         import zstandard
-    except ImportError:
-        raise MissingExtraError('a packed log needs zstandard: pip install "mars2d[log]"') from None
     unpacker: Any = zstandard.ZstdDecompressor(max_window_size=2**27)
     source: _Source = unpacker.stream_reader(part)
     return source

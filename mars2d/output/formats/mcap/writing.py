@@ -9,7 +9,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
-from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.errors import InputError
+from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.guard import MAX_LIMIT
@@ -52,12 +53,10 @@ NEVER = 2**64
 
 def require(path: Path) -> None:
     """Raise MissingExtraError where a library is missing that a log needs."""
-    try:
+    with extra("log", f"{path}: a log needs mcap"):
         import foxglove_schemas_protobuf  # noqa: F401
         import google.protobuf  # noqa: F401
         import mcap  # noqa: F401
-    except ImportError:
-        raise MissingExtraError(f'{path}: a log needs mcap: pip install "mars2d[log]"') from None
 
 
 class Tape:

@@ -1,0 +1,165 @@
+"""A fork goes on from an instant of a world, and shares nothing with it."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import pytest
+
+from mars2d import Robot, Scenario, Unicycle, World
+from mars2d.addons import Communication
+from mars2d.addons.base import Addon
+from mars2d.core.errors import InputError
+from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.sensors import Proximity, RangeFinder
+from mars2d.world.loop import open_world
+
+GENERATORS = {
+    "corner_game", "crowd", "dead_reckoning", "follow_the_leader", "herding", "pursuit_corners",
+    "pursuit_voronoi", "sumo", "token_ring", "wall_follower",
+}  # fmt: skip
+"""Examples with laws that are generators."""
+
+TOUCHING = {"many_push_one": 1e-4, "material_pairs": 1e-3, "push_box": 1e-4, "wall_slide": 1e-3}
+"""How far bodies in contact may be off after the steps, metres, as the solver starts anew."""
+
+STEPS = 40
+
+
+def stepped(world, steps=STEPS):
+    for _ in range(steps):
+        if not world.over:
+            world.step()
+    return world
+
+
+@pytest.mark.parametrize("name", sorted(set(examples()) - GENERATORS))
+def test_a_fork_goes_the_way_of_its_world(name):
+    world = stepped(open_world(open_experiment(name), 0))
+    fork = world.fork()
+    before = world.record.digest
+    stepped(fork)
+    assert world.record.digest == before  # whatever the fork does
+    stepped(world)
+    assert fork.iteration == world.iteration
+    off = np.abs(np.hstack([world.pose - fork.pose, world.prop_pose - fork.prop_pose])).max()
+    assert off <= TOUCHING.get(name, 1e-9)
+    np.testing.assert_allclose(fork.energy.total, world.energy.total, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["sumo", "wall_follower"])
+def test_a_generator_that_runs_is_refused_by_name_and_may_be_left_out(name):
+    world = stepped(open_world(open_experiment(name), 0))
+    with pytest.raises(InputError, match=r"the law \w+ is a generator.*fork\(laws=False\)"):
+        world.fork()
+    fork = world.fork(laws=False)
+    fork.step()
+    assert not fork.command.any()
+    assert world.record.finished == world.finished
+
+
+class Counting:
+    """A law that is an object, and counts."""
+
+    def __init__(self):
+        self.count = 0
+
+    def __call__(self, robot):
+        self.count += 1
+        robot.memory.count = getattr(robot.memory, "count", 0) + 1
+        robot.send(self.count)
+        return 0.1, 0.2 * robot.rng.normal()
+
+
+class Stopwatch(Addon):
+    """Counts control steps in a list."""
+
+    def on_start(self, world):
+        self.seen = []
+
+    def on_step(self, world):
+        self.seen.append(world.time)
+
+
+def remembering():
+    robot = Robot(
+        drive=Unicycle(noise=0.02, dead_time=0.3),
+        sensors=[
+            RangeFinder(beams=4, noise=0.1, latency=0.2),
+            Proximity(range=0.5, recorded=False),
+        ],
+        controller=Counting(),
+    )
+    return Scenario(
+        robots=[robot.replace(name="a"), robot.replace(name="b", controller=Counting()).at(2, 1)],
+        addons=[Communication(delay=0.4, loss=0.3), Stopwatch()],
+        stop_time=60.0,
+    )
+
+
+def test_all_that_remembers_is_copied():
+    world = stepped(World(remembering(), seed=4))
+    fork = world.fork()
+    assert fork.scenario is world.scenario
+    stepped(fork)
+    assert len(world.addons.stopwatch.seen) == STEPS
+    assert [robot.memory.count for robot in world.robots] == [STEPS, STEPS]
+    assert world.scenario.robots[0].controller.count == STEPS
+    stepped(world)
+    np.testing.assert_allclose(fork.pose, world.pose, rtol=0, atol=1e-12)
+    assert fork.addons.stopwatch.seen == world.addons.stopwatch.seen
+    for mine, theirs in zip(fork.robots, world.robots, strict=True):
+        assert mine.memory.count == theirs.memory.count == 2 * STEPS
+        assert mine.inbox == theirs.inbox
+        np.testing.assert_array_equal(mine.sense.range_finder, theirs.sense.range_finder)
+
+
+def test_a_fork_forks_and_resets():
+    world = stepped(World(remembering(), seed=4))
+    twice = world.fork().fork()
+    np.testing.assert_allclose(stepped(twice).pose, stepped(world).pose, rtol=0, atol=1e-12)
+    twice.reset()
+    assert twice.iteration == 0
+
+
+def test_a_law_plans_by_forks_and_its_world_goes_on_as_without():
+    def plan(world):
+        ends = []
+        for omega in (-1.0, 0.0, 1.0):
+            trial = world.fork(laws=False)
+            while not trial.over and trial.iteration < world.iteration + 5:
+                trial.step([[0.5], [omega]])
+            ends.append(float(trial.pose[2, 0]))
+        assert ends[0] <= ends[1] <= ends[2]
+        return 0.5, (-1.0, 0.0, 1.0)[int(np.argmax(ends))]
+
+    scenario = Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=1.0)
+    planned, plain = World(scenario, plan), World(scenario, lambda world: (0.5, 1.0))
+    for world in (planned, plain):
+        while not world.over:
+            world.step()
+    np.testing.assert_array_equal(planned.record.pose, plain.record.pose)
+
+
+class Locked(Addon):
+    """Holds something that can't be copied."""
+
+    def on_start(self, world):
+        self.lock = threading.Lock()
+
+
+def test_what_can_not_be_copied_is_named():
+    world = World(Scenario(addons=[Locked()]))
+    with pytest.raises(InputError, match=r"the add-on 'locked' can't be copied: .*lock"):
+        world.fork()
+    law = Counting()
+    law.lock = threading.Lock()
+    with pytest.raises(InputError, match=r"the law \w+ can't be copied: .*fork\(laws=False\)"):
+        World(Scenario(robots=[Robot(controller=law)])).fork()
+
+
+def test_arrays_of_a_fork_can_not_be_written():
+    fork = stepped(World(remembering())).fork()
+    for array in (fork.pose, fork.command, fork.contacts, fork.prop_pose, fork.effort):
+        assert not array.flags.writeable
