@@ -11,6 +11,8 @@ Prediction: a guard stops an attacker alone if the flag is outside the attacker'
 Of N attackers at most N - m reach the flag, where m is the size of the maximum matching.
 """
 
+from math import cos, pi, sin
+
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
@@ -19,8 +21,9 @@ from mars2d.addons import Game, Theory
 from mars2d.geometry import dominance
 
 SPEED, CAPTURE, REACH, VIOLET = 0.5, 0.5, 0.5, "#7b3294"  # m/s, of guards; m
+GUARD, ATTACKER = "flag_guards/match.py", "flag_attackers/region.py"
 FLAG = np.array([[-4.0], [0.0]])
-GOAL = (FLAG + REACH * np.array([np.cos(a := np.arange(24) * np.pi / 12), np.sin(a)])).T.tolist()
+GOAL = [(REACH * cos(k * pi / 12) - 4, REACH * sin(k * pi / 12)) for k in range(24)]
 
 
 def stops(guard, attacker, mu):
@@ -29,17 +32,11 @@ def stops(guard, attacker, mu):
 
 def matching(starts, guards, mu):
     can = [[stops(one, other, mu) for other in starts[guards:]] for one in starts[:guards]]
-    return [(i, j) for i, j in zip(*linear_sum_assignment(can, maximize=True)) if can[i][j]]
+    pairs = np.transpose(linear_sum_assignment(can, maximize=True))
+    return [(i, j) for i, j in pairs if can[i][j]]
 
 
-def scenario(
-    guards: int = 2,
-    attackers: int = 4,
-    mu: float = 1.0,
-    guard: str = "flag_guards/match.py",
-    attacker: str = "flag_attackers/region.py",
-    seed: int = 0,
-):
+def scenario(guards=2, attackers=4, mu=1.0, guard=GUARD, attacker=ATTACKER, seed=0):
     def pairs(scene, frame):
         starts = frame.scenario.initial_pose[:2].T
         for i, j in matching(starts, guards, mu):
@@ -54,16 +51,10 @@ def scenario(
     team = [red.replace(name=f"guard {k + 1}").at(x[0][k], y[0][k]) for k in range(guards)]
     team += [blue.replace(name=f"blue {k + 1}").at(x[1][k], y[1][k]) for k in range(attackers)]
     roles = {"guard": range(guards), "attacker": range(guards, guards + attackers)}
+    walls = {"workspace": [(-6, -4), (6, -4), (6, 4), (-6, 4)], "on_exit": "wall"}
     game = Game(roles, capture=CAPTURE, goal=GOAL)
-    return Scenario(
-        title="Capture the flag",
-        robots=team,
-        workspace=[(-6, -4), (6, -4), (6, 4), (-6, 4)],
-        on_exit="wall",
-        stop_time=60.0,
-        addons=[game, Theory(pairs)],
-        animation=Animation(playback_speed=2),
-    )
+    plan = {"title": "Capture the flag", "stop_time": 60, "animation": Animation(playback_speed=2)}
+    return Scenario(robots=team, addons=[game, Theory(pairs)], **plan, **walls)
 
 
 def checks(record):

@@ -18,6 +18,7 @@ from mars2d.addons import Game, Theory
 from mars2d.geometry import dominance
 
 SPEED, CAPTURE, LINE, VIOLET = 0.5, 0.5, -1.8, "#7b3294"  # m/s, of the guard; m; m, its y
+GUARD, ATTACKER = "line_guards/lowest.py", "line_attackers/lowest.py"
 FIELD = [(-7, -3), (7, -3), (7, 4), (-7, 4)]
 GOAL = [(-7, -3), (7, -3), (7, LINE), (-7, LINE)]
 
@@ -27,33 +28,26 @@ def lowest(guard, attacker, mu):
     return region[:, region[1].argmin()]
 
 
-def scenario(
-    mu: float = 0.7,
-    guard: str = "line_guards/lowest.py",
-    attacker: str = "line_attackers/lowest.py",
-    seed: int = 0,
-):
+def scenario(mu: float = 0.7, guard: str = GUARD, attacker: str = ATTACKER, seed: int = 0):
     def region(scene, frame):
         red, blue = frame.scenario.initial_pose[:2].T
         below = dominance(blue, red, mu, CAPTURE)[:, 180:]  # all ways down
         scene.line(below.T, stroke=VIOLET, width=1.5)
-        scene.circle(lowest(red, blue, mu), 0, fill=VIOLET, pixels=5)
+        scene.circle(below[:, below[1].argmin()], 0, fill=VIOLET, pixels=5)
 
     rng, robot = np.random.default_rng(seed), Robot(diameter=0.4, sees="positions")
-    start = rng.uniform((-3, 1, -3, -1), (3, 3, 3, 1))  # x and y of blue, and of red
+    x, y, *at = rng.uniform((-3, 1, -3, -1), (3, 3, 3, 1))  # of blue, and of red
     slow, quick = (Holonomic(max_linear_speed=speed) for speed in (mu * SPEED, SPEED))
     red = robot.replace(name="red", drive=quick, controller=load_law(guard))
     blue = robot.replace(name="blue", drive=slow, controller=load_law(attacker))
+    game = Game({"guard": ["red"], "attacker": ["blue"]}, capture=CAPTURE, goal=GOAL)
     return Scenario(
         title="Guard the line",
-        robots=[red.at(*start[2:]), blue.at(*start[:2])],
+        robots=[red.at(*at), blue.at(x, y)],
         workspace=FIELD,
         on_exit="wall",
         stop_time=40.0,
-        addons=[
-            Game({"guard": ["red"], "attacker": ["blue"]}, capture=CAPTURE, goal=GOAL),
-            Theory(region),
-        ],
+        addons=[game, Theory(region)],
         animation=Animation(base_colors=("red", "blue"), playback_speed=2),
     )
 
@@ -66,8 +60,7 @@ def heights(record):
 
 
 def miss(record):
-    predicted, measured = heights(record)
-    return measured - predicted
+    return -np.subtract(*heights(record))
 
 
 def checks(record):

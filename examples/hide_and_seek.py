@@ -10,7 +10,7 @@ Prediction: at D and h from the pillar's middle they see each other if the angle
 less than acos(R / D) + acos(R / h). It falls by mu v / D - v / h a second: never if mu < D / h.
 """
 
-from math import acos, atan2, pi
+from math import acos, atan2, cos, pi, sin
 
 import numpy as np
 
@@ -19,40 +19,34 @@ from mars2d.addons import Game, Map, Theory
 from mars2d.sensors import Pose, RangeBearing
 
 SPEED, PILLAR, NEAR, FAR, VIOLET = 0.5, 1.5, 1.75, 2.05, "#7b3294"  # m/s, of the hider; m
+SEEKER, HIDER = "seekers/circle.py", "hiders/opposite.py"
 
 
-def circle(angles, radius):
-    return radius * np.array([np.cos(angles), np.sin(angles)])
+def circle(angle, radius):
+    return radius * cos(angle), radius * sin(angle)
 
 
-def scenario(
-    mu: float = 1.4, seeker: str = "seekers/circle.py", hider: str = "hiders/opposite.py", seed: int = 0
-):
+def scenario(mu: float = 1.4, seeker: str = SEEKER, hider: str = HIDER, seed: int = 0):
     def shadow(scene, frame):
         x, y = frame.pose[:2, 0]
         half = acos(min(1, PILLAR / np.hypot(x, y)))
         for side in (-half, half):
-            touch = circle(atan2(y, x) + side, PILLAR)
+            touch = np.array(circle(atan2(y, x) + side, PILLAR))
             scene.line([touch, touch + 2 * (touch - (x, y))], stroke=VIOLET, width=1.5)
 
     apart = np.random.default_rng(seed).uniform(2.3, 3.1)
-    one = Robot(name="red", diameter=1.0, sees="sensors", controller=load_law(seeker))
-    other = one.replace(name="blue", diameter=0.4, controller=load_law(hider))
-    eyes, ears = RangeBearing(range=20), RangeBearing(range=20, through_walls=True)
+    eyes, ears = (RangeBearing(range=20, through_walls=hears) for hears in (False, True))
     slow, quick = (Holonomic(max_linear_speed=speed) for speed in (SPEED, mu * SPEED))
-    red = one.replace(drive=quick, sensors=[Pose(), eyes])
-    blue = other.replace(drive=slow, sensors=[Pose(), ears])
+    red = Robot(name="red", diameter=1.0, drive=quick, sees="sensors", sensors=[Pose(), eyes])
+    blue = red.replace(name="blue", diameter=0.4, drive=slow, sensors=[Pose(), ears])
+    red, blue = red.replace(controller=load_law(seeker)), blue.replace(controller=load_law(hider))
+    game = Game({"seeker": ["red"], "hider": ["blue"]}, capture="sight")
     return Scenario(
         title="Hide and seek",
         robots=[red.at(FAR, 0, 0), blue.at(*circle(apart, NEAR))],
-        workspace=[(-4, -4), (4, -4), (4, 4), (-4, 4)],
         on_exit="wall",
         stop_time=60.0,
-        addons=[
-            Map([circle(np.arange(48) * pi / 24, PILLAR).T.tolist()]),
-            Game({"seeker": ["red"], "hider": ["blue"]}, capture="sight"),
-            Theory(shadow),
-        ],
+        addons=[Map([[circle(k * pi / 24, PILLAR) for k in range(48)]]), game, Theory(shadow)],
         animation=Animation(base_colors=("red", "blue"), playback_speed=4),
     )
 
@@ -66,8 +60,7 @@ def times(record):
 
 
 def miss(record):
-    predicted, measured = times(record)
-    return measured - predicted
+    return -np.subtract(*times(record))
 
 
 def checks(record):

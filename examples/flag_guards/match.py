@@ -23,8 +23,7 @@ def control(robot):
             region = dominance(where[attacker], where[guard], min(ratio, 1.0), CAPTURE)
             away = ((region - FLAG) ** 2).sum(axis=0)
             goal[i, j] = region[:, away.argmin()]
-            stops = away.min() > REACH**2
-            cost[i, j] = dist(where[guard], where[attacker]) - 100 * stops
+            cost[i, j] = dist(where[guard], where[attacker]) - 100 * (away.min() > REACH**2)
     pairs = dict(zip(*map(list, linear_sum_assignment(cost)), strict=True))
     mine = guards.index(robot.index)
     other = pairs.get(mine, int(cost[mine].argmin()))  # with fewer attackers than guards

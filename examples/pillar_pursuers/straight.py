@@ -1,4 +1,4 @@
-"""Straight: heads for the evader through the pillar, and so is stopped by it, or slides along it."""
+"""Straight: heads for the evader, through the pillar if need be, and slides along it."""
 
 
 def control(robot):
