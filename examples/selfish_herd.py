@@ -2,9 +2,9 @@
 
 Question: what does an animal gain from others beside it? Play with laws of your own:
 mars2d run selfish_herd --set flock=my_law.py --set number=24 --seed 3
-Setting: distributed, full information: each has a law of its own and sees all; all of the flock
-have the same. A predator appears 4 m from the middle of a field and goes 0.5 m/s, the flock 0.3
-m/s. A distance of 0.4 m is a capture. It needs `wanted` of them within 30 s.
+Setting: distributed, partial information: each knows its own pose and where all others are; all of
+the flock have the same law. A predator appears 4 m from the middle of a field and goes 0.5 m/s, the
+flock 0.3 m/s. A distance of 0.4 m is a capture. It needs `wanted` of them within 30 s.
 Law of the predator: run at whoever is nearest. Of the flock: run straight away from it.
 Source: Hamilton, Geometry for the selfish herd, J. theor. Biol. 31, 295-311, 1971; the straight
 chase: Apollonius. Foster and Treherne, Nature 293, 466-467, 1981, have counted it at sea.
@@ -20,7 +20,7 @@ from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
 from mars2d.addons import Game, Theory
 from mars2d.geometry import Tessellation, rectangle
 
-FAST, SLOW, CAPTURE, SIZE, VIOLET = 0.5, 0.3, 0.4, 0.3, "#7b3294"  # m/s, m/s, m, m
+FAST, SLOW, CAPTURE, VIOLET = 0.5, 0.3, 0.4, "#7b3294"  # m/s, m/s, m
 WOLF, FLOCK = "predators/nearest.py", "flocks/away.py"
 
 
@@ -32,7 +32,7 @@ def scenario(number=12, wanted=3, predator: str = WOLF, flock: str = FLOCK, seed
             fill = VIOLET + "30" if k == victim else None
             scene.polygon(cell.exterior.coords, stroke=VIOLET, width=1, fill=fill)
 
-    rng, robot = np.random.default_rng(seed), Robot(diameter=SIZE)
+    rng, robot = np.random.default_rng(seed), Robot(diameter=0.3, sees="positions")
     angle, grid = rng.uniform(0, 2 * pi), [(k // 7 - 3, k % 7 - 3) for k in range(49)]
     at = 0.6 * rng.permutation(grid)[:number] + rng.uniform(-0.12, 0.12, (number, 2))
     quick, slow = (Holonomic(max_linear_speed=speed) for speed in (FAST, SLOW))

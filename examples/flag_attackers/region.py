@@ -6,18 +6,16 @@ import numpy as np
 
 from mars2d.geometry import dominance
 
-FLAG, CAPTURE = np.array([-4.0, 0.0]), 0.5  # m
+FLAG, GUARD, CAPTURE = np.array([[-4.0], [0.0]]), 0.5, 0.5  # m; m/s; m
 
 
 def control(robot):
-    game, best = robot.world.addons.game, np.inf
-    for guard in game.hunters:
-        other = robot.world.robots[guard]
-        ratio = robot.drive.max_linear_speed / other.drive.max_linear_speed
-        way = dominance(robot.position, other.position, min(ratio, 1.0), CAPTURE)
-        best = np.minimum(best, np.sqrt(((way.T - robot.position) ** 2).sum(axis=1)))
-    far = dist(FLAG, robot.position) + 1
-    ahead = (way.T - robot.position) / np.sqrt(((way.T - robot.position) ** 2).sum(axis=1))[:, None]
-    ends = np.minimum(best, far)[:, None] * ahead + robot.position
-    goal = ends[((ends - FLAG) ** 2).sum(axis=1).argmin()]
-    return 100 * (goal - robot.position) + (FLAG - robot.position)
+    here, ratio = robot.position[:, None], min(1.0, robot.drive.max_linear_speed / GUARD)
+    guards = [other.position for other in robot.neighbours if other.name.startswith("guard")]
+    edges = [dominance(robot.position, at, ratio, CAPTURE) - here for at in guards]
+    lengths = np.sqrt([(edge**2).sum(axis=0) for edge in edges])
+    ways = edges[0] / np.maximum(lengths[0], 1e-9)
+    far = dist(FLAG[:, 0], robot.position) + 1
+    ends = here + np.minimum(lengths.min(axis=0), far) * ways
+    goal = ends[:, ((ends - FLAG) ** 2).sum(axis=0).argmin()]
+    return 100 * (goal - robot.position) + (FLAG[:, 0] - robot.position)

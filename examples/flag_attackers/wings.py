@@ -1,18 +1,15 @@
 """Wings: the attackers spread out, and come at the flag from different sides at once."""
 
-from math import dist
-
 import numpy as np
 
 FLAG = np.array([-4.0, 0.0])
 
 
 def control(robot):
-    attackers = robot.world.scenario.addons[0].players(robot.world.scenario)[1]
-    y = np.linspace(-3.5, 3.5, len(attackers))[attackers.index(robot.index)]
+    team = [other.name for other in robot.neighbours if other.name.startswith("blue")]
+    team = sorted([robot.name, *team])
+    y = np.linspace(-3.5, 3.5, len(team))[team.index(robot.name)]
     while robot.position[0] > FLAG[0] + 0.2:
-        yield 100 * ((-4.0, y) - robot.position)
-        if dist(robot.position, FLAG) < 1:
-            break
+        yield 100 * ((FLAG[0], y) - robot.position)
     while True:
         yield 100 * (FLAG - robot.position)

@@ -14,17 +14,17 @@ FLAG, REACH, CAPTURE = np.array([[-4.0], [0.0]]), 0.5, 0.5  # m
 
 
 def control(robot):
-    game, where = robot.world.addons.game, robot.world.position.T
-    guards, free = game.hunters, game.free or game.caught
-    ratio = robot.world.robots[free[0]].drive.max_linear_speed / robot.drive.max_linear_speed
-    goal, cost = {}, np.zeros((len(guards), len(free)))
-    for i, guard in enumerate(guards):
-        for j, attacker in enumerate(free):
-            region = dominance(where[attacker], where[guard], min(ratio, 1.0), CAPTURE)
+    out = set()  # attackers that have been caught
+    while True:
+        where = {other.name: other.position for other in (robot, *robot.neighbours)}
+        team = sorted(name for name in where if name.startswith("guard"))
+        blue = sorted(name for name in where if name.startswith("blue"))
+        out |= {b for b in blue if any(dist(where[b], where[g]) <= CAPTURE for g in team)}
+        goal, cost = {}, np.zeros((len(team), len(free := [b for b in blue if b not in out])))
+        for i, j in np.ndindex(cost.shape):
+            region = dominance(where[free[j]], where[team[i]], 1.0, CAPTURE)
             away = ((region - FLAG) ** 2).sum(axis=0)
-            goal[i, j] = region[:, away.argmin()]
-            cost[i, j] = dist(where[guard], where[attacker]) - 100 * (away.min() > REACH**2)
-    pairs = dict(zip(*map(list, linear_sum_assignment(cost)), strict=True))
-    mine = guards.index(robot.index)
-    other = pairs.get(mine, int(cost[mine].argmin()))  # with fewer attackers than guards
-    return 100 * (goal[mine, other] - robot.position)
+            goal[team[i], j] = region[:, away.argmin()]
+            cost[i, j] = dist(where[team[i]], where[free[j]]) - 100 * (away.min() > REACH**2)
+        pairs = {team[i]: j for i, j in zip(*linear_sum_assignment(cost), strict=True)}
+        yield 100 * (goal.get((robot.name, pairs.get(robot.name, 0)), FLAG[:, 0]) - robot.position)

@@ -2,8 +2,15 @@
 
 from math import dist
 
+CAPTURE = 0.5  # m
+
 
 def control(robot):
-    where = robot.world.position.T
-    free = [where[k] for k in robot.world.addons.game.free] or [robot.position]
-    return 100 * (min(free, key=lambda at: dist(at, robot.position)) - robot.position)
+    out = set()
+    while True:
+        team = {other.name: other.position for other in robot.neighbours}
+        blue = {name: team.pop(name) for name in [*team] if name.startswith("blue")}
+        guards = [robot.position, *team.values()]
+        out |= {b for b in blue if any(dist(blue[b], at) <= CAPTURE for at in guards)}
+        free = [at for name, at in blue.items() if name not in out] or [robot.position]
+        yield 100 * (min(free, key=lambda at: dist(at, robot.position)) - robot.position)

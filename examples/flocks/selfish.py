@@ -7,7 +7,5 @@ from math import dist
 
 
 def control(robot):
-    game, where = robot.world.addons.game, robot.world.position
-    others = [where[:, k] for k in game.free if k != robot.index]
-    near = min(others, key=lambda at: dist(at, robot.position), default=robot.position)
-    return 100 * (near - robot.position)
+    others = [other.position for other in robot.neighbours[1:]] or [robot.position]
+    return 100 * (min(others, key=lambda at: dist(at, robot.position)) - robot.position)

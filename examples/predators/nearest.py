@@ -2,8 +2,14 @@
 
 from math import dist
 
+CAPTURE = 0.4  # m
+
 
 def control(robot):
-    free = robot.world.addons.game.free or robot.world.addons.game.caught
-    where = [robot.world.position[:, k] for k in free]
-    return 100 * (min(where, key=lambda at: dist(at, robot.position)) - robot.position)
+    out = set()  # those that have been caught
+    while True:
+        away = {other: dist(other.position, robot.position) for other in robot.neighbours}
+        out |= {other.name for other in away if away[other] <= CAPTURE}
+        free = [other for other in away if other.name not in out]
+        prey = min(free, key=away.get, default=robot)
+        yield 100 * (prey.position - robot.position)

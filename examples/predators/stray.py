@@ -4,11 +4,14 @@ from math import dist
 
 
 def control(robot):
-    world, prey = robot.world, None
+    free = list(robot.neighbours)
     while True:
-        free = world.addons.game.free or world.addons.game.caught
-        where = {k: world.position[:, k] for k in free}
-        if prey not in where:
-            alone = {k: sum(dist(where[k], other) for other in where.values()) for k in where}
-            prey = max(alone, key=alone.get)
-        yield 100 * (where[prey] - robot.position)
+        where = [other.position for other in free]
+        alone = [sum(dist(at, other) for other in where) for at in where]
+        prey = free[alone.index(max(alone))] if free else robot
+        yield 100 * (prey.position - robot.position)
+        while prey in free:
+            if dist(prey.position, robot.position) <= 0.4:  # m: it is caught
+                free.remove(prey)
+            else:
+                yield 100 * (prey.position - robot.position)

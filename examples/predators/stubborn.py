@@ -4,9 +4,12 @@ from math import dist
 
 
 def control(robot):
-    prey = None
+    free = list(robot.neighbours)
     while True:
-        world, free = robot.world, robot.world.addons.game.free
-        if prey not in free:
-            prey = min(free, key=lambda k: dist(world.position[:, k], robot.position), default=0)
-        yield 100 * (world.position[:, prey] - robot.position)
+        prey = min(free, key=lambda at: dist(at.position, robot.position), default=robot)
+        yield 100 * (prey.position - robot.position)
+        while prey in free:
+            if dist(prey.position, robot.position) <= 0.4:  # m: it is caught
+                free.remove(prey)
+            else:
+                yield 100 * (prey.position - robot.position)

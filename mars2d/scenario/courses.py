@@ -18,6 +18,10 @@ COURSES: Mapping[str, tuple[str, ...]] = {
         "head_on", "push_box", "many_push_one", "wall_slide", "material_pairs", "stick_slip",
         "billiards", "shove_and_spin", "tug_of_war", "sumo", "crowd",
     ),
+    "Pursuit": (
+        "guard_the_line", "capture_the_flag", "round_a_pillar", "hide_and_seek", "escort",
+        "selfish_herd",
+    ),
     "Sensing": (
         "obstacle_avoidance", "wall_follower", "dead_reckoning", "braitenberg",
         "own_sensor_and_addon",
@@ -44,6 +48,12 @@ GAMES = (
     Game("pursuit_voronoi", "red", "Catch the evader"),
     Game("sumo", "red", "Push blue out"),
     Game("herding", "dog", "Pen the flock"),
+    Game("guard_the_line", "attacker", "Reach the line"),
+    Game("capture_the_flag", "attacker", "Capture the flag"),
+    Game("round_a_pillar", "evader", "Run round the pillar"),
+    Game("hide_and_seek", "hider", "Stay out of sight"),
+    Game("escort", "escort", "Stay in between"),
+    Game("selfish_herd", "flock", "Be one of many"),
 )
 """The games, easiest to understand first."""
 

@@ -17,6 +17,7 @@ from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.window.display import Preferences
 from mars2d.window.home import Home
 from mars2d.window.memory import SIZE, Memory
+from mars2d.world.teleop import robot_of
 from tests.processes import PATIENCE, bare_environment, mars, wait_until
 from tests.window.person import needs_screen
 
@@ -75,8 +76,7 @@ def test_the_first_course_is_that_of_the_paper():
 
 @pytest.mark.parametrize("game", GAMES, ids=lambda game: game.example)
 def test_a_game_has_the_robot_that_is_driven(game):
-    robots = open_experiment(game.example).scenario.robots
-    assert game.human in [robot.name for robot in robots] + ["evader", "pursuer"]
+    assert robot_of(open_experiment(game.example).scenario, game.human) >= 0
     assert not mars("run", game.example, "--human", game.human, "--headless").stdout
 
 
