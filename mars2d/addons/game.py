@@ -81,7 +81,7 @@ class Game(Contest):
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
         default=None, check=_hunted,
-        doc="the robots of the second role that can be caught; None: all; the others help them",
+        doc="the robots that can be caught, if not those of the second role, which help them then",
     )  # fmt: skip
     wanted: int | None = integer(
         default=None, low=1, high=10**6, optional=True,
@@ -158,7 +158,8 @@ class Game(Contest):
         evaders, wins = len(self._teams[1]), f": {self.winner} wins"
         if len(self.captures) >= self._needed(self._teams):
             time, hunter, evader = self.captures[-1]
-            which = "last" if not self.free else ordinal(len(self.captures))
+            count = len(self.captures)
+            which = "last" if count == evaders else ordinal(count)
             whom = names[evader] + (f", the {which} of {evaders}," if evaders > 1 else "")
             verb = "sees" if self.capture == SIGHT else "catches"
             return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{wins}"
@@ -185,18 +186,16 @@ class Game(Contest):
     def players(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the hunters in a scenario, and of those that they hunt.
 
-        Raises InputError for a robot that is not there or has two roles, for a hunted one that is
-        not of the second role, and if more are `wanted` than there are.
+        Raises InputError for a robot that is not there or has two roles, for a hunter that is
+        hunted, and if more are `wanted` than there are.
         """
         hunters, evaders = self.teams(scenario)
         if self.hunted is not None:
             field = f"{type(self).__name__}.hunted"
-            hunted = [scenario.index_of(field, robot) for robot in self.hunted]
-            for robot in hunted:
-                if robot not in evaders:
-                    name = scenario.robots[robot].name
-                    raise InputError(f"{field}: {name} is not of the role {self.roles[1][0]}")
-            evaders = tuple(dict.fromkeys(hunted))
+            evaders = tuple(scenario.index_of(field, robot) for robot in self.hunted)
+            for robot in evaders:
+                if robot in hunters:
+                    raise InputError(f"{field}: {scenario.robots[robot].name} is a hunter")
         if self.wanted is not None and self.wanted > len(evaders):
             raise wrong(
                 f"{type(self).__name__}.wanted", self.wanted,

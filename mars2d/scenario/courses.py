@@ -17,6 +17,10 @@ COURSES: Mapping[str, tuple[str, ...]] = {
         "head_on", "push_box", "many_push_one", "wall_slide", "material_pairs", "stick_slip",
         "billiards", "shove_and_spin", "tug_of_war", "sumo", "crowd",
     ),
+    "Pursuit": (
+        "guard_the_line", "capture_the_flag", "round_a_pillar", "hide_and_seek", "escort",
+        "selfish_herd",
+    ),
     "Sensing": (
         "obstacle_avoidance", "wall_follower", "dead_reckoning", "braitenberg",
         "own_sensor_and_addon",
@@ -30,7 +34,12 @@ COURSES: Mapping[str, tuple[str, ...]] = {
 """The names of all examples, by course."""
 
 
-GAMES: Mapping[str, str] = {"corner_game": "", "sumo": "", "pursuit_voronoi": "", "herding": "dog"}
+GAMES: Mapping[str, str] = {
+    "corner_game": "", "sumo": "", "pursuit_voronoi": "", "herding": "dog",
+    "straight_chase": "", "homicidal_chauffeur": "", "two_cars": "", "lion_and_man": "",
+    "encirclement": "", "guard_the_line": "", "capture_the_flag": "", "round_a_pillar": "",
+    "hide_and_seek": "", "escort": "", "selfish_herd": "",
+}  # fmt: skip
 """The games among them, easiest to understand first, and the robot that a person drives where no
 contest has roles to choose from."""
 
