@@ -26,6 +26,9 @@ COURSES: Mapping[str, tuple[str, ...]] = {
         "flocking", "formation", "leader_following", "follow_the_leader", "rendezvous",
         "token_ring", "herding",
     ),
+    "Pursuit": (
+        "straight_chase", "homicidal_chauffeur", "two_cars", "lion_and_man", "encirclement",
+    ),
     "First laws and games": ("go_to_point", "corner_game"),
 }  # fmt: skip
 """The names of all examples, by course."""
@@ -44,6 +47,11 @@ GAMES = (
     Game("pursuit_voronoi", "red", "Catch the evader"),
     Game("sumo", "red", "Push blue out"),
     Game("herding", "dog", "Pen the flock"),
+    Game("straight_chase", "evader", "Get away from a quicker one"),
+    Game("homicidal_chauffeur", "pedestrian", "Don't be run over"),
+    Game("two_cars", "evader", "Shake it off"),
+    Game("lion_and_man", "man", "Don't be eaten"),
+    Game("encirclement", "evader", "Break through the ring"),
 )
 """The games, easiest to understand first."""
 
