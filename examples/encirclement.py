@@ -26,7 +26,7 @@ SPEED, APART, WIDTH = 0.5, 3.0, 0.2  # m/s, of the evader; m, how far all start;
 def scenario(
     n: int = 3,
     ratio: float = 0.9,
-    uneven: float = 0.0,  # rad, how far the pursuers may stand off even gaps
+    uneven: float = 0.05,  # rad, how far the pursuers may stand off even gaps
     pursuer: str = "ring_pursuers/bearing.py",
     evader: str = "ring_evaders/gap.py",
     accel: float = 0.0,  # m/s^2, what feet hold, 0: any
@@ -50,7 +50,7 @@ def scenario(
     blue = red.replace(name="blue", drive=quick, controller=load_law(evader)).at(0, 0)
     return Scenario(
         title="Encirclement", robots=[*hunters, blue],
-        workspace=[(-8, -8), (8, -8), (8, 8), (-8, 8)], on_exit="ignore",
+        workspace=[(-6, -6), (6, -6), (6, 6), (-6, 6)], on_exit="ignore",
         sampling_time=0.05, stop_time=15.0,
         addons=[Game({"pursuers": names, "evader": ["blue"]}), Theory(cones)],
         animation=Animation(base_colors=("red",) * n + ("blue",), playback_speed=3),

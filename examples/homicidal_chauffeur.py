@@ -52,7 +52,7 @@ def scenario(
     return Scenario(
         title="Homicidal chauffeur", robots=[red, blue.replace(controller=load_law(pedestrian))],
         workspace=[(-12, -12), (12, -12), (12, 12), (-12, 12)], on_exit="ignore",
-        sampling_time=0.02, stop_time=100.0,
+        sampling_time=0.02, stop_time=40.0,
         addons=[Game({"car": ["car"], "pedestrian": ["pedestrian"]}), Theory(barrier)],
         animation=Animation(base_colors=("red", "blue"), playback_speed=5),
     )  # fmt: skip

@@ -50,7 +50,7 @@ def scenario(
     return Scenario(
         title="Two cars", robots=[red.at(6 * cos(way), 6 * sin(way), heading), blue],
         workspace=[(-15, -15), (15, -15), (15, 15), (-15, 15)], on_exit="ignore",
-        sampling_time=0.02, stop_time=100.0,
+        sampling_time=0.02, stop_time=40.0,
         addons=[Game({"pursuer": ["red"], "evader": ["blue"]}), Theory(ways)],
         animation=Animation(base_colors=("red", "blue"), playback_speed=5),
     )  # fmt: skip
