@@ -1,10 +1,11 @@
-"""Draw by how much the theory of each pursuit game misses with real bodies, docs/pictures/*_bodies.png.
+"""Draw by how much theory misses in each pursuit game with real bodies, docs/pictures/*_bodies.png.
 
 python docs/make_pursuit.py [NAME ...]
 
-Each game is run from the same seeds with contact, stop and ideal, and with drives that are weaker and
-weaker. A dot is a run: what was measured, less what the formula says of its start. The bars are means
-with their 95 % intervals, by Student's t. It takes about five minutes.
+Each game is run from the same seeds with contact, stop and ideal, and with drives that are weaker
+and weaker. A dot is a run: what was measured, less what the formula says of its start. The bars are
+means with their 95 % intervals, by Student's t. It takes some minutes, and draws the boundary of
+the homicidal chauffeur as well.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from scipy import stats
 
 import mars2d
 from mars2d import Record
-from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.experiment import open_experiment, open_module
 
 PICTURES = Path(__file__).parent / "pictures"
 SEEDS = 10
@@ -31,7 +32,8 @@ Options = dict[str, Any]
 
 def capture(record: Record) -> float:
     """Return when the evader was caught, s; nan if it was not."""
-    return next(iter(record.scenario.addons)).outcome(record).capture_time  # type: ignore[attr-defined]
+    game: Any = record.scenario.addons[0]
+    return float(game.outcome(record).capture_time)
 
 
 def nearest(record: Record) -> float:
@@ -64,7 +66,7 @@ STUDIES = {
         "capture, later than predicted [s]",
     ),
     "homicidal_chauffeur": Study(
-        {"stop_time": 20},
+        {"stop_time": 30},
         {"any force": {}, "1 m/s$^2$": {"accel": 1.0}, "0.6 m/s$^2$": {"accel": 0.6}},
         passing,
         "first pass, farther than predicted [m]",
@@ -95,9 +97,8 @@ def misses(name: str, study: Study, extra: Options) -> dict[str, list[float]]:
     found: dict[str, list[float]] = {physics: [] for physics in COLORS}
     for seed in range(SEEDS):
         plain = open_experiment(name, study.options | {"seed": seed, "physics": "ideal"})
-        predicted = plain.predictions(mars2d.run(plain.scenario, control=plain.control))[
-            0
-        ].predicted
+        record = mars2d.run(plain.scenario, control=plain.control)
+        predicted = plain.predictions(record)[0].predicted
         for physics, values in found.items():
             options = study.options | extra | {"seed": seed, "physics": physics}
             values.append(study.measure(mars2d.run(name, options=options)) - predicted)
@@ -106,30 +107,22 @@ def misses(name: str, study: Study, extra: Options) -> dict[str, list[float]]:
 
 def draw(name: str, study: Study) -> None:
     """Draw the figure of a game, and print its numbers."""
+    count = len(study.panels)
     figure, axes = plt.subplots(
-        1,
-        len(study.panels),
-        figsize=(2.6 * len(study.panels) + 1.4, 3.4),
-        sharey=True,
-        squeeze=False,
+        1, count, figsize=(2.6 * count + 1.4, 3.4), sharey=True, squeeze=False
     )
     for ax, (title, extra) in zip(axes[0], study.panels.items(), strict=True):
         for k, (physics, values) in enumerate(misses(name, study, extra).items()):
-            known = np.array([value for value in values if np.isfinite(value)])
-            label = (
-                f"{physics}\n{len(known)} of {len(values)}" if len(known) < len(values) else physics
-            )
-            ax.plot([], [])
+            known, color = np.array([v for v in values if np.isfinite(v)]), COLORS[physics]
+            label = physics
+            if len(known) < len(values):
+                label = f"{physics}\n{len(known)} of {len(values)}"
             if len(known) > 1:
                 half = stats.t.ppf(0.975, len(known) - 1) * known.std(ddof=1) / len(known) ** 0.5
-                ax.errorbar(
-                    k, known.mean(), half, fmt="_", ms=22, mew=2, capsize=5, color=COLORS[physics]
-                )
-                print(
-                    f"{name}, {title}, {physics}: {known.mean():.3f} ± {half:.3f}, {len(known)} runs"
-                )
+                ax.errorbar(k, known.mean(), half, fmt="_", ms=22, mew=2, capsize=5, color=color)
+                print(f"{name}, {title}, {physics}: {known.mean():.3f} ± {half:.3f}", len(known))
             spread = np.linspace(-0.18, 0.18, len(known))
-            ax.plot(k + spread, known, "o", ms=3.5, alpha=0.5, color=COLORS[physics], mec="none")
+            ax.plot(k + spread, known, "o", ms=3.5, alpha=0.5, color=color, mec="none")
             ax.text(k, -0.02, label, transform=ax.get_xaxis_transform(), ha="center", va="top")
         ax.axhline(0, color="#7b3294", lw=1.5, zorder=0)
         ax.set(title=title, xlim=(-0.6, 2.6), xticks=[])
@@ -140,6 +133,29 @@ def draw(name: str, study: Study) -> None:
     plt.close(figure)
 
 
+def boundary() -> None:
+    """Draw who wins the homicidal chauffeur, over the ratio of speeds and the reach."""
+    least = open_module("homicidal_chauffeur").least
+    figure, ax = plt.subplots(figsize=(6, 4))
+    for ratio in np.arange(0.3, 0.76, 0.05).round(2).tolist():
+        for reach in np.arange(0.12, 0.69, 0.04).round(2).tolist():
+            options = {"ratio": ratio, "reach": reach, "stop_time": 25}
+            caught = np.isfinite(capture(mars2d.run("homicidal_chauffeur", options=options)))
+            ax.plot(ratio, reach, "o", ms=5, mfc="#d62728" if caught else "none", mec="#d62728")
+    ratios = np.linspace(0.28, 0.77, 100)
+    ax.plot(ratios, [least(ratio) for ratio in ratios], color="#7b3294", lw=2)
+    ax.set(
+        xlabel="ratio of the speeds, pedestrian to car", ylabel="reach [m]",
+        title="filled: the car wins; line: Isaacs' formula",
+    )  # fmt: skip
+    ax.spines[["top", "right"]].set_visible(False)
+    figure.tight_layout()
+    figure.savefig(PICTURES / "homicidal_chauffeur_boundary.png", dpi=110)
+    plt.close(figure)
+
+
 if __name__ == "__main__":
     for each in sys.argv[1:] or STUDIES:
         draw(each, STUDIES[each])
+    if sys.argv[1:] in ([], ["homicidal_chauffeur"]):
+        boundary()

@@ -12,7 +12,7 @@ def control(robot):
         x, y = robot.position - car.position
         c, s = cos(car.pose[2]), sin(car.pose[2])
         ahead, left = c * x + s * y, c * y - s * x
-        if not 0 < ahead < ratio * RADIUS:  # there Isaacs' barrier is narrowest
+        if ahead < 0 or hypot(x, y) > ratio * RADIUS:  # there Isaacs' barrier is narrowest
             side = 0.0, 0.0
         elif ahead < ratio * hypot(x, y):  # the car can't come nearer, if one runs from it
             side = 100 * x, 100 * y

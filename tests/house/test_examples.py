@@ -31,7 +31,7 @@ DIGESTS = {
     "go_to_point": "134bf40bd439dfe82d92c445d0ada05cb206505e1e422d494e5bd86bde8009a0",
     "head_on": "5ce7648ada31000408869070db8b0bfd311854d577a2bfbf00ea9fdcffc1e1fa",
     "herding": "a226c2f1c724d875b07f5d219f35f735aebc2b0194ce869a0c7c95786c52cac4",
-    "homicidal_chauffeur": "520287484c22389284458443bb467bcd49ee928895f2d31cb7a569d178778ed5",
+    "homicidal_chauffeur": "642db8c7a46ba7bd0aa5dda8089eee25cdaadc7292415f6a7a10450d889b2e95",
     "leader_following": "efd9620dea54eb94752954e3e49c91526db9b1c779a98b672c7d96fd47105c5d",
     "lion_and_man": "a1aab5cfc50f0be6bf41abe9499ef5a75d65f8c625f089076218d119f268f68c",
     "many_push_one": "d44d1d8c7b6a50ffc7d1bd4ad617a1c74bbad1eb213eb7a5b1beeaf797cb3648",
