@@ -18,6 +18,7 @@ COURSES: Mapping[str, tuple[str, ...]] = {
         "billiards", "shove_and_spin", "tug_of_war", "sumo", "crowd",
     ),
     "Pursuit": (
+        "straight_chase", "homicidal_chauffeur", "two_cars", "lion_and_man", "encirclement",
         "guard_the_line", "capture_the_flag", "round_a_pillar", "hide_and_seek", "escort",
         "selfish_herd",
     ),

@@ -25,6 +25,7 @@ DIGESTS = {
     "crowd": "84712c73e24ddf3d69dd903816df8334952ed114f54eacf978d18dd56c29e248",
     "cyclic_pursuit": "812d1f69fde55312f16fe5b7f4beea39bee4508c352679ddbf5c1fbe0f023ac6",
     "dead_reckoning": "abcf646057647121de1dbf386c8f52e1db24b49f02005fdd97cc847fd037bf26",
+    "encirclement": "31cfd25ddf2c43ba6b59aa5857c512b442d9212ca718f67462998832cfdc089f",
     "escort": "5e60e1aa5bf893d7442052aaebec563f3bed068f8bcec1e1aadb8901bf9b72dd",
     "flocking": "b6e3e93d858a7206c64d33201edc01629cdf57bc2b30f43a96b953436dbeb8cf",
     "follow_the_leader": "7b1006cac62a2b6f748e4bb3e1d8a093511f7bbeadc54adbf01f899a89a14ea9",
@@ -34,7 +35,9 @@ DIGESTS = {
     "head_on": "5ce7648ada31000408869070db8b0bfd311854d577a2bfbf00ea9fdcffc1e1fa",
     "herding": "a226c2f1c724d875b07f5d219f35f735aebc2b0194ce869a0c7c95786c52cac4",
     "hide_and_seek": "b9448f5189c1ae4f7db18b567f22b3379e471cf4272387260b3fe89d15973d8f",
+    "homicidal_chauffeur": "642db8c7a46ba7bd0aa5dda8089eee25cdaadc7292415f6a7a10450d889b2e95",
     "leader_following": "efd9620dea54eb94752954e3e49c91526db9b1c779a98b672c7d96fd47105c5d",
+    "lion_and_man": "a1aab5cfc50f0be6bf41abe9499ef5a75d65f8c625f089076218d119f268f68c",
     "many_push_one": "d44d1d8c7b6a50ffc7d1bd4ad617a1c74bbad1eb213eb7a5b1beeaf797cb3648",
     "material_pairs": "e4c1f416319b2de338f62ae0c1e4eb097009460999aed7ae38f8681ce1fe130a",
     "obstacle_avoidance": "ad0d30660f25c2824212b7dcf06367f6731bcecd733d0e30efd0d8944d3a7b19",
@@ -49,9 +52,11 @@ DIGESTS = {
     "selfish_herd": "a0d15f1e53680d8da0c8a6f5cc51574e12b0671f2d7a3061987075cfd6e3616d",
     "shove_and_spin": "e396aaf1081a2a453d0e6d12a94a7cc5c2285dbd943cc7bdc16251f46955ed90",
     "stick_slip": "08fbecedee7e877e8b21e712ca67decafc6cc9733fc3a1204d05360024298b6c",
+    "straight_chase": "9b8f5dd307d06ed82f6bf2a0ae445022b893ae58b31a2f2b30c4a334d4a70f4b",
     "sumo": "5b1fd118a4b870779103db196fb81756e33957b98e4b78de181936f2d20d57f8",
     "token_ring": "9eed2e88451125b5f3a822182608e43b05eba76b9be02fc2389015c8dc7e6c6f",
     "tug_of_war": "053449a36f1973c352c44c04987961f5cf50b032cdd37246ecd4c650d913d5d3",
+    "two_cars": "18ad082f3b355ffebb120fb61fcc8c9376717ea30a963f758c59a199d5bf607c",
     "wall_follower": "52effd1775b256cc7de2b0d5b6ed7425fce762a37642ceb65ba39af71c0ed5d5",
     "wall_slide": "b0936f8a079d0cc80d0645d0c326c1dc49562899ee53b507f91561e0865c88d1",
 }
@@ -68,8 +73,8 @@ def test_every_example_is_pinned():
 
 
 SLOW = {
-    "circular_motion", "coverage_square", "dead_reckoning", "flocking", "obstacle_avoidance",
-    "pursuit_corners", "pursuit_voronoi",
+    "circular_motion", "coverage_square", "dead_reckoning", "flocking", "homicidal_chauffeur",
+    "obstacle_avoidance", "pursuit_corners", "pursuit_voronoi", "two_cars",
 }  # fmt: skip
 """Examples that take a second and more."""
 
