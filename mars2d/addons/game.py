@@ -273,7 +273,9 @@ class Game(Contest):
         if role == self.roles[0][0]:
             verb = "see" if self.capture == SIGHT else "catch"
             some = whom if needed == len(evaders) else f"{needed} of {len(evaders)}"
-            return f"{verb} {some}" + ("" if self.goal is None else " before the goal")
+            if self.goal is None:
+                return f"{verb} {some}"
+            return f"{verb} {some} before {_so_many_are(len(evaders), needed)} in the goal"
         if self.goal is not None:
             return "reach the goal uncaught"
         if self.hunted is not None:
@@ -290,7 +292,10 @@ class Game(Contest):
             CONTACT: "touches an evader",
             SIGHT: "sees an evader, with no obstacle between their middles",
         }.get(str(self.capture), f"comes within {self.capture} m of an evader, middle to middle")
-        hunter = f"the {hunting}" if len(hunters) == 1 else f"any {hunting}"
+        hunter = f"the {hunting}"
+        if len(hunters) > 1:
+            hunter = f"one of {len(hunters)} {hunting.removesuffix('s')}s"
+        hunters_win, evaders_win = (f"{role} {_wins(role)}" for role in (hunting, evading))
         how = how.replace("an evader", f"the {evading}" if count == 1 else f"one of {count}")
         if self.hunted is not None:
             how = how.replace(f"the {evading}", "the hunted one")
@@ -298,14 +303,13 @@ class Game(Contest):
         if count > 1:
             parts.append("Who is caught stands still.")
         captures = "the capture" if needed == 1 else f"{needed} captures"
-        parts.append(f"The {hunting} wins with {captures}.")
+        parts.append(f"The {hunters_win} with {captures}.")
         if self.goal is None:
-            parts.append(f"If time is over before, the {evading} wins.")
+            parts.append(f"If time is over before, the {evaders_win}.")
         else:
-            safe = count - needed + 1
-            who = f"{safe} of {count} {'is' if safe == 1 else 'are'}" if count > 1 else "it is"
-            parts.append(f"The {evading} wins when {who} in the goal uncaught.")
-            parts.append(f"If time is over before, the {hunting} wins.")
+            safe = _so_many_are(count, needed)
+            parts.append(f"The {evaders_win} when {safe} in the goal uncaught.")
+            parts.append(f"If time is over before, the {hunters_win}.")
         return " ".join(parts)
 
     # -- how it looks ------------------------------------------------------------------------------
@@ -336,6 +340,16 @@ class Game(Contest):
             mark(scene, frame, capture.evader, f"{round(capture.time, 1):g} s", above)
         for robot, when in found.safe.items():
             mark(scene, frame, robot, f"{round(when, 1):g} s", above=True, cross=False)
+
+
+def _so_many_are(count: int, needed: int) -> str:
+    """Return how many of so many evaders decide it by their goal, with the verb."""
+    safe = count - needed + 1
+    return "it is" if count == 1 else f"{safe} of {count} {'is' if safe == 1 else 'are'}"
+
+
+def _wins(role: str) -> str:
+    return "win" if role.endswith("s") else "wins"
 
 
 def _edges(scenario: ScenarioLike) -> Float:

@@ -36,6 +36,8 @@ __all__ = [
 CROSSING = 5.0
 """How long the quickest robot that a person drives takes from side to side, seconds of the clock,
 unless a speed is given."""
+LEAST = 15.0
+"""How long a game of full length lasts at least, seconds of the clock, unless a speed is given."""
 FASTEST_BY_HAND = 10.0
 """The highest speed of an experiment in which a person drives, unless a speed is given."""
 
@@ -89,14 +91,16 @@ def show(
 def speed_by_hand(scenario: Scenario, robots: Sequence[int] = ()) -> float:
     """Return a factor of real time at which a person can drive these robots, or any.
 
-    The quickest of them crosses the arena in `CROSSING` seconds of the clock.
+    The quickest of them crosses the arena in `CROSSING` seconds of the clock; all of it takes
+    `LEAST` at least.
     """
     xmin, xmax, ymin, ymax = scenario.bounds
     quickest = max(
         scenario.robots[k].drive.max_linear_speed for k in robots or range(len(scenario.robots))
     )
     factor = max(xmax - xmin, ymax - ymin) / (CROSSING * quickest)
-    return min(float(f"{factor:.1g}"), FASTEST_BY_HAND)
+    factor = min(factor, scenario.stop_time / LEAST, FASTEST_BY_HAND)
+    return float(f"{factor:.1g}")
 
 
 def run_headless(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from math import ceil
+from collections.abc import Sequence
+from itertools import product
+from math import ceil, dist
 
 import pygame
 
@@ -18,6 +20,8 @@ __all__ = ["Countdown"]
 PAD, ROW, TITLE, AIM = 20.0, 46.0, 40.0, 17.0
 """The margin, the heights of a choice, of the title and of a line below a choice, points."""
 WIDTH = 420.0
+SPOTS = 9
+"""How many places from left to right, and from top to bottom, are tried for a plate."""
 NUMBER = 120.0
 """The height of the numbers of the countdown, points."""
 
@@ -50,43 +54,61 @@ class Countdown:
     ) -> None:
         """Draw what there is to say now; area: of the picture, room: of the arena in it."""
         self.places = {}
+        robots = self._robots(camera, frame)
         if not self.play.seats:
-            self._draw_choices(surface, room, area, frame, pointer)
+            self._draw_choices(surface, room, area, robots, frame, pointer)
         elif self.play.counting:
-            self._draw_number(surface, room)
-            self._draw_people(surface, camera, frame)
+            keys = self._draw_people(surface, room, robots, frame)
+            self._draw_number(surface, room, [*robots, *keys])
 
-    def _draw_number(self, surface: pygame.Surface, room: pygame.Rect) -> None:
+    def _robots(self, camera: Camera, frame: Frame) -> list[pygame.Rect]:
+        """Return where the robots are drawn."""
+        pixels = camera.to_pixels(frame.pose[:2].T).astype(int).tolist()
+        sizes = [ceil(2 * camera.scale * robot.radius) for robot in frame.scenario.robots]
+        return [_about(pixel, size, size) for pixel, size in zip(pixels, sizes, strict=True)]
+
+    def _draw_number(
+        self, surface: pygame.Surface, room: pygame.Rect, taken: Sequence[pygame.Rect]
+    ) -> None:
         ui, theme = self.painter.ui, self.painter.theme
         size = min(NUMBER * ui, room.height / 3)
         number = str(ceil(self.play.counting))
         image = self.painter.fonts.render(number, size, theme.ink, bold=True)
         side = round(1.35 * size)
-        plate = pygame.Rect(0, 0, side, side)
-        plate.center = room.center
+        plate = _placed(pygame.Rect(0, 0, side, side), room, taken)
         self.painter.panel(surface, plate, theme.plate + "d0", side / 2, theme.edge)
-        surface.blit(image, image.get_rect(center=room.center))
+        surface.blit(image, image.get_rect(center=plate.center))
 
-    def _draw_people(self, surface: pygame.Surface, camera: Camera, frame: Frame) -> None:
-        """Draw the keys of each person beside the robot."""
-        ui, fonts = self.painter.ui, self.painter.fonts
+    def _draw_people(
+        self,
+        surface: pygame.Surface,
+        room: pygame.Rect,
+        robots: Sequence[pygame.Rect],
+        frame: Frame,
+    ) -> list[pygame.Rect]:
+        """Draw the keys of each person beside the robot; return where they are drawn."""
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        plates: list[pygame.Rect] = []
         for seat in self.play.seats:
-            x, y = frame.pose[:2, seat.robot].tolist()
-            ((left, top),) = camera.to_pixels([(x, y)]).astype(int).tolist()
-            width = sum(cap_width(fonts, key, ui) for key in seat.keys) + round(10 * ui)
-            plate = pygame.Rect(0, 0, width, round(40 * ui))
-            away = camera.scale * frame.scenario.robots[seat.robot].radius + 34 * ui
-            plate.center = left, round(top + (away if y >= 0 else -away))
-            plate.clamp_ip(surface.get_rect())
-            theme = self.painter.theme
+            robot = robots[seat.robot]
+            keys = sum(cap_width(fonts, key, ui) for key in seat.keys)
+            plate = pygame.Rect(0, 0, keys + round(34 * ui), round(40 * ui))
+            around = robot.inflate(round(2.2 * plate.width), round(3.2 * plate.height))
+            plate = _placed(plate, around.clip(room), [*robots, *plates], robot.center)
             self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)
-            draw_keys(surface, self.painter, seat.keys, (plate.left + round(8 * ui), plate.centery))
+            color = theme.shade(frame.scenario.colors[seat.robot])
+            left = plate.left + round(14 * ui)
+            draw_dot(surface, self.painter, color, (left, plate.centery))
+            draw_keys(surface, self.painter, seat.keys, (left + round(12 * ui), plate.centery))
+            plates.append(plate)
+        return plates
 
     def _draw_choices(
         self,
         surface: pygame.Surface,
         room: pygame.Rect,
         area: pygame.Rect,
+        robots: Sequence[pygame.Rect],
         frame: Frame,
         pointer: tuple[int, int] | None,
     ) -> None:
@@ -98,7 +120,7 @@ class Countdown:
         needed = max(fonts.width(aim, 13.5 * ui) for aim in aims) + round(130 * ui)
         width = min(max(round(WIDTH * ui), needed), area.width - 2 * pad)
         plate = pygame.Rect(0, 0, width, round(TITLE * ui) + row * len(choices) + 2 * pad)
-        plate.center = room.center
+        plate = _placed(plate, room, robots)
         plate.clamp_ip(area)
         self.painter.panel(surface, plate, theme.plate, 10 * ui, theme.edge)
         title = fonts.render("Who do you play?", 20 * ui, theme.ink, bold=True)
@@ -131,3 +153,30 @@ class Countdown:
         if len(choice.robots) > 1 or contest is None:
             return "arrow keys against W, A, S and D"
         return contest.aim(choice.title, frame.scenario)
+
+
+def _about(pixel: Sequence[int], width: int, height: int) -> pygame.Rect:
+    """Return a rectangle about a pixel."""
+    place = pygame.Rect(0, 0, width, height)
+    place.center = pixel[0], pixel[1]
+    return place
+
+
+def _placed(
+    plate: pygame.Rect,
+    room: pygame.Rect,
+    taken: Sequence[pygame.Rect],
+    near: tuple[int, int] | None = None,
+) -> pygame.Rect:
+    """Return a plate in a room, where it covers as few as possible of the places that are taken.
+
+    near: a pixel from which it is as near as possible, by default the middle of the room.
+    """
+    aim, others = near or room.center, list(taken)
+    places = []
+    for x, y in product(range(SPOTS), range(SPOTS)):
+        place = plate.copy()
+        place.left = room.left + x * (room.width - plate.width) // (SPOTS - 1)
+        place.top = room.top + y * (room.height - plate.height) // (SPOTS - 1)
+        places.append(place)
+    return min(places, key=lambda p: (len(p.collidelistall(others)), dist(p.center, aim)))

@@ -74,6 +74,8 @@ LEAP = 10
 """How many steps PgDn and PgUp do, unless a number was typed."""
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
+SEEN = 4.0
+"""The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
 RESERVE = 0.004
 """The time of a picture that is not used to prepare for going back, seconds."""
 TOGGLED = tuple(layer.name for layer in LAYERS if layer.key)
@@ -113,6 +115,7 @@ class Window:
         self.game: Play | None = None  # where people play
         self._before: Countdown | None = None
         self._score: ScorePanel | None = None
+        self._unseen = False  # whether a game has not been drawn yet
         timeline = self.director.timeline
         self._controls = Controls(self.player)
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
@@ -306,12 +309,21 @@ class Window:
         if self.editor is not None:
             return
         self._read_again()
-        if self.game is not None and self.game.pass_time(seconds):
-            self._rest.stir()
+        if self.game is not None:
+            self._go_near()
+            if self.game.pass_time(seconds):
+                self._rest.stir()
         self.director.steer(seconds)
         self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.player.pass_time(seconds)
         self.viewpoint.step(self.player.frame, seconds)
+
+    def _go_near(self) -> None:
+        """Let the camera follow the robots of a game that are small in its first picture."""
+        smallest = min(robot.radius for robot in self.player.source.scenario.robots)
+        if self._unseen and smallest * self.camera.scale < SEEN:
+            self.viewpoint.follow(None)
+        self._unseen = False
 
     def _read_again(self) -> None:
         """Continue with the experiment's files if they were saved."""
@@ -443,7 +455,8 @@ class Window:
         if self.selected is not None and not self.viewpoint.makes_room:
             ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
             spot = x, y
-        free = self._seen_arena(frame) if self._drives else None
+        drives = self._drives and self.viewpoint.following is None
+        free = self._seen_arena(frame) if drives else None
         self.dock.draw(surface, frame, spot, self._pointer, free=free)
 
     @property
@@ -701,6 +714,7 @@ class Window:
         self._before = Countdown(self._painter, self.game)
         self._score = ScorePanel(self._painter, self.game)
         self.dock.panels = [*self.dock.panels, self._score]
+        self._unseen = True
         self.game.begin(robots)
 
     def _open_editor(self) -> None:

@@ -52,7 +52,7 @@ def test_without_forces_the_rules_say_so():
         ({"wanted": 1}, "catch 1 of 2", "stay free", "wolf wins with the capture. If time"),
         (
             {"goal": [(4, 4), (5, 4), (5, 5)]},
-            "catch b and c before the goal",
+            "catch b and c before 1 of 2 is in the goal",
             "reach the goal uncaught",
             "The sheep wins when 1 of 2 is in the goal uncaught. If time is over before, the wolf",
         ),

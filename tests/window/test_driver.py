@@ -382,7 +382,8 @@ def test_the_quickest_robot_of_a_person_crosses_the_arena_in_five_seconds():
     assert speed_by_hand(scenario, [0]) == 4.0
     assert speed_by_hand(scenario, [0, 1]) == speed_by_hand(scenario) == 1.0
     creeping = slow.replace(drive=Holonomic(max_linear_speed=0.01))
-    assert speed_by_hand(Scenario(robots=[creeping])) == 10.0
+    assert speed_by_hand(Scenario(robots=[creeping], stop_time=500)) == 10.0
+    assert speed_by_hand(Scenario(robots=[creeping], stop_time=30)) == 2.0
 
 
 @pytest.mark.parametrize(
