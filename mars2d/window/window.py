@@ -282,8 +282,10 @@ class Window:
     def _moves(self) -> bool:
         """Whether the next picture may differ from this one though nobody does anything."""
         player, followed = self.player, self.viewpoint.following is not None
-        acts = self.grab.busy or self._drives or self.saver.filming or self.editor is not None
-        acts = acts or (self.game is not None and self.game.counting > 0)
+        acts = self.grab.busy or self.saver.filming or self.editor is not None
+        acts |= self._drives and self.game is None
+        if self.game is not None:
+            acts |= self.game.counting > 0
         return acts or followed or player.playing or player.busy or len(self.notes) > 0
 
     def _show_picture(self, screen: pygame.Surface) -> None:
