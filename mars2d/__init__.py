@@ -16,7 +16,7 @@ from mars2d.core import interrupt  # noqa: F401 - first: Ctrl-C while the others
 
 # isort: split
 from mars2d.addons import Addon
-from mars2d.bodies import Car, Differential, Drive, Holonomic, Unicycle
+from mars2d.bodies import Car, Differential, Drive, Dubins, Holonomic, Unicycle
 from mars2d.core.errors import InputError, LawError, Mars2dError
 from mars2d.core.former import FormerNames
 from mars2d.record.record import Record, load
@@ -46,6 +46,7 @@ __all__ = [
     "Delaunay",
     "Differential",
     "Drive",
+    "Dubins",
     "Everyone",
     "Graph",
     "Holonomic",

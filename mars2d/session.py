@@ -15,9 +15,9 @@ from mars2d.core.streams import check_seed
 from mars2d.record.record import Record
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.roles import robots_named
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import Interrupted, simulate
-from mars2d.world.teleop import robot_of
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def run(
     control: Callable[[World], Any] | None = None,
     seed: int = 0,
     show: bool | None = None,
-    human: str | int | None = None,
+    human: str | int | Sequence[str | int] | None = None,
     watchers: Sequence[Watcher] = (),
     record: str | Path | None = None,
 ) -> Record:
@@ -47,7 +47,8 @@ def run(
     and parameters of a scenario function. control: the law of the team, in place of the
     experiment's. seed: of all random streams, and the ``seed`` of a scenario function that has such
     a parameter. show: whether in a window; by default, if a speed is given and there is a display.
-    human: a robot that is driven by hand in a window: its name, its index, or a game's role.
+    human: a robot that is driven by hand in a window: its name, its index, or a game's role; or a
+    list of two.
     watchers: functions called with the world at each control step, after its sensors are read.
     record: a file for the record, see `Record.save`. An .mcap file is written at each control step,
     so that nothing is lost where the process is killed; other files at the end.
@@ -60,14 +61,14 @@ def run(
     speed, seed = playback_speed("speed", speed), check_seed(seed)
     opened = open_experiment(experiment, options, control, seed)
     watchers = _called(watchers)
-    driven = None if human is None else robot_of(opened.scenario, human)
+    driven = robots_named(opened.scenario, human, "human =")
     target, log = (None, None) if record is None else _output(record)
     with held_back():  # Ctrl-C ends a run, and not that it is saved
         try:
-            if driven is not None or _wants_window(speed, show):
+            if driven or _wants_window(speed, show):
                 from mars2d.window.show import show_experiment
 
-                result = show_experiment(opened, speed, seed, watchers, human=driven, log=log)
+                result = show_experiment(opened, speed, seed, watchers, humans=driven, log=log)
             else:
                 result = simulate(opened, seed, speed, watchers, log).record
         except (Mars2dError, Interrupted) as error:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 from abc import abstractmethod
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike
 from mars2d.core.scene import Scene
 
-__all__ = ["Capture", "Contest", "Outcome", "Teams"]
+__all__ = ["Capture", "Contest", "Outcome", "Teams", "listed", "mark", "robots_of"]
 
 Role = tuple[str, tuple[str | int, ...]]
 Teams = tuple[tuple[int, ...], tuple[int, ...]]
@@ -63,10 +64,11 @@ def _roles(name: str, value: object) -> tuple[Role, ...]:
             raise wrong(name, value, ROLES)
     if pairs[0][0] == pairs[1][0]:
         raise InputError(f"{name}: two roles are called {pairs[0][0]!r}")
-    return tuple((role, _robots(f"{name}[{role!r}]", robots)) for role, robots in pairs)
+    return tuple((role, robots_of(f"{name}[{role!r}]", robots)) for role, robots in pairs)
 
 
-def _robots(name: str, value: object) -> tuple[str | int, ...]:
+def robots_of(name: str, value: object) -> tuple[str | int, ...]:
+    """Check a list of robots, by their names or indices."""
     expected = "a list of robots, by their names or indices, as ['red', 'blue']"
     if not isinstance(value, (list, tuple, range)):
         raise wrong(name, value, expected)
@@ -90,9 +92,24 @@ class Contest(Addon):
         doc="the robots of both roles by name or index, hunters first if there are any",
     )  # fmt: skip
 
+    scored: ClassVar[tuple[str, str]] = ("", "")
+    """What the score of each role counts, in a word for people."""
+
     @abstractmethod
     def outcome(self, record: Any) -> Outcome:
         """Return captures, score and winner of a record, loaded or just made."""
+
+    def aim(self, role: str, scenario: Any) -> str:  # noqa: ARG002
+        """Return how a role wins, in a few words for people, such as ``"catch blue"``.
+
+        scenario: of the game. By default empty: then only `counts` explains the game.
+        """
+        return ""
+
+    @property
+    def counts(self) -> str:
+        """What decides, in a few sentences for people; by default the docstring of its class."""
+        return inspect.cleandoc(type(self).__doc__ or "").partition("\n\n")[0].replace("\n", " ")
 
     def teams(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the first role's robots in a scenario, and of the second role's.
@@ -116,11 +133,25 @@ class Contest(Addon):
         return teams[0], teams[1]
 
 
-def mark(scene: Scene, frame: FrameLike, robot: int, label: str, above: bool) -> None:
-    """Cross out a robot, by its index, that is out of the game; write a label above or below it."""
+def listed(scenario: ScenarioLike, team: tuple[int, ...]) -> str:
+    """Return the names of a team, by its indices, or how many they are if they are many."""
+    names = [str(scenario.robots[robot].name) for robot in team]
+    if len(names) > 3:
+        return f"all {len(names)}"
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+
+
+def mark(
+    scene: Scene, frame: FrameLike, robot: int, label: str, above: bool, *, cross: bool = True
+) -> None:
+    """Ring a robot, by its index, that is out of the game; write a label above or below it.
+
+    cross: whether it has lost, and is crossed out.
+    """
     arm = 1.25 * frame.scenario.robots[robot].radius
     x, y = frame.pose[:2, robot].tolist()
     scene.circle((x, y), arm, stroke=MARK, width=1.2)
-    scene.cross((x, y), arm, stroke=MARK, width=1.2)
+    if cross:
+        scene.cross((x, y), arm, stroke=MARK, width=1.2)
     place, lines = (y + arm, f"{label}\n") if above else (y - arm, f"\n{label}")
     scene.text((x, place), lines, color=MARK, size=10.0, halo="#ffffff")

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from math import inf
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.contest import MARK, Contest, Outcome, Teams, mark
+from mars2d.addons.contest import MARK, Contest, Outcome, Teams, listed, mark
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
 from mars2d.core.description import entry, number
-from mars2d.core.interfaces import FrameLike, RecordLike, WorldLike
+from mars2d.core.interfaces import FrameLike, RecordLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
 
@@ -113,6 +114,26 @@ class Ring(Contest):
         first = {robot: outside[:, robot].argmax() for team in teams for robot in team}
         left = {robot: float(time[row]) for robot, row in first.items() if outside[row, robot]}
         return dict(sorted(left.items(), key=lambda robot_time: robot_time[1]))
+
+    # -- how it is explained -----------------------------------------------------------------------
+
+    scored: ClassVar[tuple[str, str]] = ("in the ring", "in the ring")
+
+    def aim(self, role: str, scenario: ScenarioLike) -> str:
+        """Return how a role wins, in a few words."""
+        (first, _), _ = self.roles
+        return f"shove {listed(scenario, self.teams(scenario)[role == first])} out of the ring"
+
+    @property
+    def counts(self) -> str:
+        """Who is out, and who has won, in a few sentences."""
+        several = any(len(robots) > 1 for _, robots in self.roles)
+        lost = "the role whose robots are all out has lost" if several else "who is out has lost"
+        return (
+            f"A robot is out when its middle is more than {self.radius:g} m from the middle of the "
+            f"ring: {lost}. It is a draw if both leave in the same control step, and when time is "
+            "over."
+        )
 
     # -- how it looks ------------------------------------------------------------------------------
 

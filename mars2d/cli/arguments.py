@@ -16,8 +16,8 @@ from mars2d.output.raster import has_pygame, require_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.options import parse_setting
+from mars2d.scenario.roles import robots_named
 from mars2d.window.display import Preferences
-from mars2d.world.teleop import robot_of
 
 __all__ = [
     "add_human",
@@ -27,7 +27,7 @@ __all__ = [
     "add_speed",
     "add_theory",
     "add_workers",
-    "human_of",
+    "humans_of",
     "options_of",
     "preferences_of",
     "theory_of",
@@ -87,20 +87,23 @@ def _text(text: str) -> float:
 def add_human(parser: argparse.ArgumentParser) -> None:
     """Add the choice of a robot to drive by hand."""
     parser.add_argument(
-        "--human", metavar="WHO", help="a robot to drive by hand: its name or index, or a role"
+        "--human",
+        action="append",
+        default=[],
+        metavar="WHO",
+        help="a robot to drive by hand: its name or index, or a role; may be given twice",
     )
 
 
-def human_of(arguments: argparse.Namespace, experiment: Experiment) -> int | None:
-    """Return the index of the robot that `add_human` asks for, or None."""
-    if arguments.human is None:
-        return None
-    robot = robot_of(experiment.scenario, arguments.human, "--human")
-    if arguments.headless or not has_display():
+def humans_of(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
+    """Return the indices of the robots that `add_human` asks for."""
+    robots = robots_named(experiment.scenario, arguments.human, "--human")
+    if robots and (arguments.headless or not has_display()):
         require_pygame("a window")
         why = "not --headless" if arguments.headless else "and there is no display"
-        raise InputError(f"--human {arguments.human}: driving by hand needs a window, {why}")
-    return robot
+        who = ", ".join(arguments.human)
+        raise InputError(f"--human {who}: driving by hand needs a window, {why}")
+    return robots
 
 
 def add_theory(parser: argparse.ArgumentParser) -> None:

@@ -82,7 +82,10 @@ def _meant(value: float) -> str:
 
 def _bounds(robot: Robot) -> str:
     """Return the bounds of a drive that are set, in words."""
-    names = ("max_linear_speed", "max_acceleration", "max_steering", "max_steering_rate")
+    names = (
+        "max_linear_speed", "max_angular_speed", "max_acceleration", "max_steering",
+        "max_steering_rate",
+    )  # fmt: skip
     found = ((name, getattr(robot.drive, name, None)) for name in names)
     told = [f"{name}={value:g}" for name, value in found if value is not None]
     return f"{type(robot.drive).__name__}({', '.join(told)})"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
@@ -13,6 +13,7 @@ from mars2d.record.record import Record
 from mars2d.scenario.courses import courses, title_of
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.prediction import Prediction, table
+from mars2d.scenario.scenario import Scenario
 from mars2d.window.display import Preferences
 from mars2d.world.loop import simulate
 from mars2d.world.world import Watcher, World
@@ -32,7 +33,12 @@ __all__ = [
     "warn_unchecked",
 ]
 
-MAX_SPEED_BY_HAND = 4.0
+CROSSING = 5.0
+"""How long the quickest robot that a person drives takes from side to side, seconds of the clock,
+unless a speed is given."""
+LEAST = 15.0
+"""How long a game of full length lasts at least, seconds of the clock, unless a speed is given."""
+FASTEST_BY_HAND = 10.0
 """The highest speed of an experiment in which a person drives, unless a speed is given."""
 
 
@@ -48,23 +54,25 @@ def show(
     speed: float | str | None,
     seed: int,
     preferences: Preferences,
-    human: int | None = None,
+    humans: Sequence[int] = (),
     log: Log | None = None,
     watchers: Sequence[Watcher] = (),
     *,
     kept: bool = False,
+    play: bool = False,
+    settings: Mapping[str, Any] | None = None,
 ) -> Record:
     """Run in a window, at the experiment's own speed unless one is given.
 
-    human: a robot that is driven by hand; then the experiment's own speed is limited. log: writes
-    each row while the run goes on. watchers: called at each control step. kept: whether
-    the record is saved afterwards; else the window asks, where hands have changed the run.
+    humans: robots that are driven by hand; then the speed is one to drive at. log: writes each row
+    while the run goes on. watchers: called at each control step. kept: whether the record is saved
+    afterwards; else the window asks, where hands have changed the run. play: whether it is a game
+    whose roles people may choose. settings: in which the experiment differs from its file.
     """
     from mars2d.window.show import show_experiment
 
-    own = experiment.scenario.animation.playback_speed
-    if human is not None and not (isinstance(own, float) and 0 < own < MAX_SPEED_BY_HAND):
-        own = MAX_SPEED_BY_HAND
+    scenario = experiment.scenario
+    own = speed_by_hand(scenario, humans) if humans or play else scenario.animation.playback_speed
     pace = own if speed is None else speed
     return show_experiment(
         experiment,
@@ -72,10 +80,27 @@ def show(
         seed,
         watchers,
         preferences=preferences,
-        human=human,
+        humans=humans,
         log=log,
         asks=not kept,
+        play=play,
+        settings=settings,
     )
+
+
+def speed_by_hand(scenario: Scenario, robots: Sequence[int] = ()) -> float:
+    """Return a factor of real time at which a person can drive these robots, or any.
+
+    The quickest of them crosses the arena in `CROSSING` seconds of the clock; all of it takes
+    `LEAST` at least.
+    """
+    xmin, xmax, ymin, ymax = scenario.bounds
+    quickest = max(
+        scenario.robots[k].drive.max_linear_speed for k in robots or range(len(scenario.robots))
+    )
+    factor = max(xmax - xmin, ymax - ymin) / (CROSSING * quickest)
+    factor = min(factor, scenario.stop_time / LEAST, FASTEST_BY_HAND)
+    return float(f"{factor:.1g}")
 
 
 def run_headless(

@@ -134,14 +134,17 @@ def integer(
     default: Any = dataclasses.MISSING,
     low: int,
     high: int,
+    optional: bool = False,
     doc: str = "",
     kw_only: bool = True,
 ) -> Any:
     """Declare a field that is a whole number, ``low <= value <= high``."""
+    expected = f"a whole number from {low} to {high}" + (", or None" if optional else "")
 
     @accepts({"type": "integer", "minimum": low, "maximum": high})
-    def check(name: str, value: object) -> int:
-        expected = f"a whole number from {low} to {high}"
+    def check(name: str, value: object) -> int | None:
+        if optional and value is None:
+            return None
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
             raise wrong(name, value, expected)
         if not low <= int(value) <= high:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from math import dist
 from typing import Literal
 
 import numpy as np
@@ -34,6 +35,7 @@ __all__ = [
     "arrow_outline",
     "color",
     "color_of",
+    "color_word",
     "faded",
     "optional_color",
     "rgb",
@@ -129,6 +131,18 @@ def color_of(values: Iterable[float]) -> str:
     '#ff0033'
     """
     return "#" + "".join(f"{round(255 * min(max(value, 0.0), 1.0)):02x}" for value in values)
+
+
+def color_word(value: str) -> str:
+    """Return the word for a colour ``#rrggbb``: the nearest named one.
+
+    >>> color_word("#0072b2")
+    'blue'
+    """
+    return min(
+        (word for word in _NAMED if len(word) > 1),
+        key=lambda word: dist(rgb(_NAMED[word]), rgb(value)),
+    )
 
 
 @accepts({"type": "string"})

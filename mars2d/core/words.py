@@ -7,7 +7,7 @@ __all__ = ["instead"]
 POSE = "pose=(x, y, theta)"
 LAW = "controller=law"
 LIMIT = "drive=Unicycle(max_linear_speed=...)"
-TURN = "drive=Unicycle(wheel_semiaxis=...): the bound of the wheels' speeds bounds omega, too"
+TURN = "drive=Unicycle(max_angular_speed=...)"
 KEEP = "robot.memory in the law, or functools.partial(law, goal=...): a law keeps its own numbers"
 MAPPED = "addons=[Map([[(x, y), ...], ...])], of mars2d.addons"
 CORNERS = "workspace=[(x, y), ...], the corners of the area"
@@ -71,12 +71,17 @@ _INSTEAD: dict[str, dict[tuple[str, ...] | str, str]] = {
     },
     "Drive": {
         ("maxv", "vmax", "maxspeed", "speed", "v", "maxvelocity"): "max_linear_speed=...",
-        ("maxomega", "maxw", "wmax", "omega", "maxangularspeed", "maxangularvelocity"):
-            "wheel_semiaxis=...: the bound of the wheels' speeds bounds omega, too",
+        ("maxomega", "maxw", "wmax", "omega", "maxangularvelocity"): "max_angular_speed=...",
+        ("turningradius", "minturningradius", "minradius", "rho", "curvature", "maxcurvature"):
+            "max_angular_speed=...: at the speed v the radius is v / max_angular_speed",
         ("wheelseparation", "track", "axle", "axletrack", "l"):
             "wheel_semiaxis=..., half the distance of the wheels",
         "force": "max_force=...",
         ("acceleration", "amax"): "max_acceleration=...",
+    },
+    "Holonomic": {
+        ("maxangularspeed", "maxomega", "maxw", "wmax", "omega", "maxangularvelocity"):
+            "drive=Unicycle(max_angular_speed=...): a holonomic robot keeps its heading",
     },
     "Unicycle": {"wheelbase": "wheel_semiaxis=..., half the distance of the wheels"},
     "Differential": {"wheelbase": "wheel_semiaxis=..., half the distance of the wheels"},

@@ -15,6 +15,7 @@ from mars2d.core.plane import (
     rectangle,
     wrap,
 )
+from mars2d.geometry.dominance import dominance
 from mars2d.geometry.potential_field import Potential
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
 from mars2d.geometry.voronoi import Tessellation
@@ -30,6 +31,7 @@ __all__ = [
     "Tessellation",
     "bounds_of",
     "distance_to_ring",
+    "dominance",
     "edges_of",
     "inside_polygon",
     "outside_polygon",

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from mars2d.scenario.experiment import examples
 
-__all__ = ["COURSES", "GAMES", "Game", "courses", "title_of"]
+__all__ = ["COURSES", "GAMES", "courses", "title_of"]
 
 COURSES: Mapping[str, tuple[str, ...]] = {
     "Experiments of the MARS paper": (
@@ -17,6 +16,11 @@ COURSES: Mapping[str, tuple[str, ...]] = {
     "Contact": (
         "head_on", "push_box", "many_push_one", "wall_slide", "material_pairs", "stick_slip",
         "billiards", "shove_and_spin", "tug_of_war", "sumo", "crowd",
+    ),
+    "Pursuit": (
+        "straight_chase", "homicidal_chauffeur", "two_cars", "lion_and_man", "encirclement",
+        "guard_the_line", "capture_the_flag", "round_a_pillar", "hide_and_seek", "escort",
+        "selfish_herd",
     ),
     "Sensing": (
         "obstacle_avoidance", "wall_follower", "dead_reckoning", "braitenberg",
@@ -31,21 +35,14 @@ COURSES: Mapping[str, tuple[str, ...]] = {
 """The names of all examples, by course."""
 
 
-class Game(NamedTuple):
-    """An example that a person plays: the robot to drive, and what to do."""
-
-    example: str
-    human: str
-    task: str
-
-
-GAMES = (
-    Game("corner_game", "evader", "Get away"),
-    Game("pursuit_voronoi", "red", "Catch the evader"),
-    Game("sumo", "red", "Push blue out"),
-    Game("herding", "dog", "Pen the flock"),
-)
-"""The games, easiest to understand first."""
+GAMES: Mapping[str, str] = {
+    "corner_game": "", "sumo": "", "pursuit_voronoi": "", "herding": "dog",
+    "straight_chase": "", "homicidal_chauffeur": "", "two_cars": "", "lion_and_man": "",
+    "encirclement": "", "guard_the_line": "", "capture_the_flag": "", "round_a_pillar": "",
+    "hide_and_seek": "", "escort": "", "selfish_herd": "",
+}  # fmt: skip
+"""The games among them, easiest to understand first, and the robot that a person drives where no
+contest has roles to choose from."""
 
 
 def courses() -> dict[str, list[str]]:

@@ -13,12 +13,13 @@ import numpy as np
 from mars2d.addons.contest import Contest, Outcome
 from mars2d.core.errors import InputError, LawError, nearest, shown
 from mars2d.core.usercode import called, definition
+from mars2d.scenario.roles import contests_of
 
 if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["UNITS", "Measure", "contests_of", "measure_named", "measured", "measures"]
+__all__ = ["UNITS", "Measure", "measure_named", "measured", "measures"]
 
 Measure = Callable[["Record"], Any]
 
@@ -89,11 +90,6 @@ def effort(record: Record) -> float | None:
 
 def _outcome(measure: str, record: Record) -> Outcome:
     return _contest(measure, record.scenario).outcome(record)
-
-
-def contests_of(scenario: Scenario) -> list[Contest]:
-    """Return a scenario's contests: the add-ons that decide who has won."""
-    return [addon for addon in scenario.addons if isinstance(addon, Contest)]
 
 
 def _contest(measure: str, scenario: Scenario) -> Contest:

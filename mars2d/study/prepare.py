@@ -17,11 +17,12 @@ from typing import Any
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
 from mars2d.scenario.experiment import Experiment, examples
+from mars2d.scenario.roles import contests_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description
 from mars2d.study.code import CODE_DIGITS, WatchedFiles, code_of
 from mars2d.study.job import Job, measures_of, name_in, probed
-from mars2d.study.measures import Measure, contests_of
+from mars2d.study.measures import Measure
 from mars2d.study.plan import Plan
 from mars2d.study.table import FIRST, LAST, SEED, cells_of
 from mars2d.study.units import checked_units

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.output.raster.painter import Painter
@@ -13,7 +14,7 @@ from mars2d.scenario.changes import with_poses, without_body
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.driver import Driver
+from mars2d.window.driver import ARROWS, LETTERS, Driver
 from mars2d.window.notes import Notes
 from mars2d.window.player import Player
 from mars2d.window.saving import copied
@@ -41,7 +42,7 @@ class Director:
     def __init__(self, player: Player, notes: Notes, show_way_back: Progress) -> None:
         self._player, self._notes, self._show_way_back = player, notes, show_way_back
         self.timeline = player.source if isinstance(player.source, Timeline) else None
-        self.driver = Driver()
+        self.drivers: Sequence[Driver] = (Driver(),)  # one for each person
         if self.timeline is not None:
             player.error = self.timeline.error
 
@@ -120,7 +121,7 @@ class Director:
         except InputError as error:
             self._notes.say(str(error), "warning")
             return
-        self.driver.release()
+        self.release()
         self._player.error = None
         self._player.pause()
         at = undone.row * timeline.scenario.sampling_time
@@ -198,38 +199,76 @@ class Director:
             return
         self._restart(experiment, f"started anew: {said}; Space goes on")
 
-    # -- a robot driven by hand ---------------------------------------------------------------
+    # -- robots driven by hand ----------------------------------------------------------------
+
+    @property
+    def driven(self) -> tuple[int, ...]:
+        """The robots that are driven by hand, by index."""
+        return tuple(driver.robot for driver in self.drivers if driver.robot is not None)
+
+    @property
+    def status(self) -> str:
+        """The driven robots and their controllers, in words; "" without any."""
+        return ", ".join(filter(None, (driver.status for driver in self.drivers)))
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Handle an event; return whether it is for those who drive alone."""
+        taken = [driver.handle(event) for driver in self.drivers]
+        return any(taken)
 
     def drive(self, robot: int) -> None:
         """Start to drive a robot by hand."""
         if self._live() is None:
             return
-        name = str(self._player.source.scenario.robots[robot].name)
-        self.driver.take(robot, name)
+        self.seat((robot,))
+        name = self._player.source.scenario.robots[robot].name
         self._notes.say(f"arrow keys or WASD drive {name}, Shift slowly; H or Esc lets go")
 
+    def seat(self, robots: Sequence[int]) -> None:
+        """Let one person or two drive these robots from now on, and no others."""
+        self.let_go()
+        one, two = Driver(ARROWS, 0, 2), Driver(LETTERS, 1, 2)
+        self.drivers = (Driver(),) if len(robots) < 2 else (one, two)
+        for driver, robot in zip(self.drivers, robots, strict=False):
+            driver.take(robot, str(self._player.source.scenario.robots[robot].name))
+
+    def release(self) -> None:
+        """Stop driving, as far as keys are concerned."""
+        for driver in self.drivers:
+            driver.release()
+
     def let_go(self) -> None:
-        """Stop driving by hand: the robot's law drives it again."""
-        robot = self.driver.robot
-        self.driver.release()
-        if robot is not None and self.timeline is not None:
-            self.timeline.world.hands.steer(robot, None)
+        """Stop driving by hand: the robots' laws drive them again."""
+        robots = self.driven
+        self.release()
+        if self.timeline is not None:
+            for robot in robots:
+                self.timeline.world.hands.steer(robot, None)
 
     def steer(self, seconds: float) -> None:
-        """Give the driven robot the command of the keys.
+        """Give the driven robots the commands of the keys.
 
-        In the past only a command other than 0 counts, and only while time passes: to look back
+        In the past only commands other than 0 count, and only while time passes: to look back
         changes nothing. seconds: since the last call.
         """
-        robot, timeline = self.driver.robot, self.timeline
-        if robot is None or timeline is None or timeline.over:
+        timeline = self.timeline
+        if timeline is None or timeline.over:
             return
-        command = self.driver.command(timeline.scenario.robots[robot].drive, seconds)
+        robots = timeline.scenario.robots
+        commands = {
+            driver.robot: driver.command(robots[driver.robot].drive, seconds)
+            for driver in self.drivers
+            if driver.robot is not None
+        }
+
+        def steer(world: World) -> None:
+            for robot, command in commands.items():
+                world.hands.steer(robot, command)
+
         passes = self._player.playing or self._player.manual
-        wanted = passes and any(command)
         if not timeline.needs_way_back:
-            timeline.world.hands.steer(robot, command)
-        elif wanted and not self.change(lambda world: world.hands.steer(robot, command)):
+            steer(timeline.world)
+        elif passes and any(map(any, commands.values())) and not self.change(steer):
             self.let_go()
 
     # -- drawing ------------------------------------------------------------------------------

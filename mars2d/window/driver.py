@@ -2,20 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import NamedTuple
+
 import pygame
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.world.teleop import Stick, command_of, ramped
 
-__all__ = ["Driver"]
+__all__ = ["ARROWS", "BOTH", "LETTERS", "Driver", "Keys"]
 
-WAYS = {
-    pygame.KSCAN_UP: Stick(0, 1), pygame.KSCAN_W: Stick(0, 1),
-    pygame.KSCAN_DOWN: Stick(0, -1), pygame.KSCAN_S: Stick(0, -1),
-    pygame.KSCAN_LEFT: Stick(-1, 0), pygame.KSCAN_A: Stick(-1, 0),
-    pygame.KSCAN_RIGHT: Stick(1, 0), pygame.KSCAN_D: Stick(1, 0),
-}  # fmt: skip
-"""The stick that a key stands for, by its place: WASD are a cross on every keyboard."""
+
+class Keys(NamedTuple):
+    """Keys that drive a robot: the stick that each stands for, by its place, and their labels.
+
+    labels: of those for ahead, left, back and right.
+    """
+
+    ways: Mapping[int, Stick]
+    labels: tuple[str, ...]
+
+
+ARROWS = Keys(
+    {
+        pygame.KSCAN_UP: Stick(0, 1), pygame.KSCAN_DOWN: Stick(0, -1),
+        pygame.KSCAN_LEFT: Stick(-1, 0), pygame.KSCAN_RIGHT: Stick(1, 0),
+    },
+    ("↑", "←", "↓", "→"),
+)  # fmt: skip
+LETTERS = Keys(
+    {
+        pygame.KSCAN_W: Stick(0, 1), pygame.KSCAN_S: Stick(0, -1),
+        pygame.KSCAN_A: Stick(-1, 0), pygame.KSCAN_D: Stick(1, 0),
+    },
+    ("W", "A", "S", "D"),
+)  # fmt: skip
+"""By their place, W, A, S and D are a cross on every keyboard."""
+BOTH = Keys({**ARROWS.ways, **LETTERS.ways}, ARROWS.labels)
+"""For one who sits alone at the keyboard."""
 
 SLOW = 0.5
 """The deflection of the stick with Shift."""
@@ -26,10 +50,16 @@ ACROSS, AHEAD = 0, 1
 
 
 class Driver:
-    """Drives one robot by keys, or by a controller, which may be plugged in and out at any time."""
+    """Drives one robot by keys, or by a controller, which may be plugged in and out at any time.
 
-    def __init__(self) -> None:
+    keys: those of one person. place, of: which of several people that is; controllers are dealt out
+    to them in turn, in the order in which they were plugged in.
+    """
+
+    def __init__(self, keys: Keys = BOTH, place: int = 0, of: int = 1) -> None:
         """Start without a robot."""
+        self.keys = keys
+        self._place, self._of = place, of
         self.robot: int | None = None
         self._name = ""
         self._held: set[int] = set()
@@ -47,6 +77,9 @@ class Driver:
         self._rest()
         if not pygame.joystick.get_init():
             pygame.joystick.init()  # which posts an event for each controller
+            return
+        for number in range(pygame.joystick.get_count()):
+            self._add(number)
 
     def release(self) -> None:
         """Stop driving."""
@@ -96,24 +129,26 @@ class Driver:
         """The stick's target: that of the keys, or else of a controller."""
         if not self._held:
             return self._of_controllers
-        across, ahead = (sum(way[k] for way in {WAYS[key] for key in self._held}) for k in (0, 1))
+        ways = {self.keys.ways[key] for key in self._held}
+        across, ahead = (sum(way[k] for way in ways) for k in (0, 1))
         share = SLOW if self._slow else 1.0
         return Stick(share * across, share * ahead)
 
     @property
     def _of_controllers(self) -> Stick:
-        held = [*self._axes.values(), *self._hats.values()]
+        own = sorted(self._controllers)[self._place :: self._of]
+        held = [way for known in (self._axes, self._hats) for k, way in known.items() if k in own]
         return max(held, key=lambda stick: abs(stick.across) + abs(stick.ahead), default=Stick())
 
     @property
     def _by_controller(self) -> bool:
-        return bool(self._controllers) and not self._held
+        return len(self._controllers) > self._place and not self._held
 
     # -- keys -----------------------------------------------------------------------------------
 
     def _key(self, event: pygame.Event) -> bool:
         self._slow = bool(event.mod & pygame.KMOD_SHIFT)
-        if event.scancode not in WAYS:
+        if event.scancode not in self.keys.ways:
             return False
         if event.type == pygame.KEYUP:
             held = event.scancode in self._held
@@ -127,11 +162,14 @@ class Driver:
     def _plug(self, event: pygame.Event) -> None:
         """Add a controller that is plugged in; remove one that is plugged out."""
         if event.type == pygame.JOYDEVICEADDED:
-            controller = pygame.joystick.Joystick(event.device_index)
-            self._controllers[controller.get_instance_id()] = controller
+            self._add(event.device_index)
             return
         for known in (self._controllers, self._axes, self._hats):
             known.pop(event.instance_id, None)
+
+    def _add(self, number: int) -> None:
+        controller = pygame.joystick.Joystick(number)
+        self._controllers[controller.get_instance_id()] = controller
 
     def _controller(self, event: pygame.Event) -> bool:
         if event.type == pygame.JOYAXISMOTION:

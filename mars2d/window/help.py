@@ -13,7 +13,7 @@ from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.keys import Key
 
-__all__ = ["Help", "draw_help"]
+__all__ = ["Help", "cap_width", "draw_cap", "draw_help"]
 
 Groups = Iterable[tuple[str, Sequence[Key]]]
 Named = tuple[tuple[str, tuple[Key, ...]], ...]
@@ -161,7 +161,7 @@ def _draw_column(
         else:
             middle, x = round(top + ROW * ui / 2), left
             for name in row.labels:
-                x = _cap(surface, painter, name, x, middle, ui)
+                x = draw_cap(surface, painter, name, x, middle, ui)
             for k, line in enumerate(row.lines):
                 image = fonts.render(line, SIZE * ui, theme.text)
                 place = image.get_rect(midleft=(left + row.caps, middle))
@@ -228,7 +228,7 @@ def _columns(
     rows, widest = [], 0
     for heading, group in groups:
         rows.append(_Row((), (heading,)))
-        caps = max(sum(_cap_width(fonts, name, ui) for name in key.labels) for key in group)
+        caps = max(sum(cap_width(fonts, name, ui) for name in key.labels) for key in group)
         caps += round(10 * ui)
         words = min(column - caps, MAX_WORDS * ui)
         if words < MIN_WORDS * ui:
@@ -279,15 +279,18 @@ def _height(rows: Sequence[_Row]) -> float:
     return sum(row.height for row in rows)
 
 
-def _cap_width(fonts: Fonts, text: str, ui: float) -> int:
+def cap_width(fonts: Fonts, text: str, ui: float) -> int:
+    """Return the width of a key's cap with the gap beside it, pixels."""
     width = fonts.width(text, 14 * ui, bold=True) + round(18 * ui)
     return max(width, round(30 * ui)) + round(6 * ui)
 
 
-def _cap(surface: pygame.Surface, painter: Painter, text: str, x: int, y: int, ui: float) -> int:
+def draw_cap(
+    surface: pygame.Surface, painter: Painter, text: str, x: int, y: int, ui: float
+) -> int:
     """Draw a key's cap; return where the next one begins."""
     theme = painter.theme
-    width = _cap_width(painter.fonts, text, ui)
+    width = cap_width(painter.fonts, text, ui)
     plate = pygame.Rect(x, 0, width - round(6 * ui), round(26 * ui))
     plate.centery = y
     painter.panel(surface, plate.move(0, round(2 * ui)), theme.key_edge, 6 * ui)

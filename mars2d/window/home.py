@@ -84,14 +84,9 @@ class Home:
         own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]
         new = Card("New drawing", "Draw a scenario with the mouse.", ("edit",), sign="+")
         games = [
-            Card(
-                game.task,
-                f"{game.task}: drive the robot {game.human} with the arrow keys.",
-                ("demo", game.example, "--human", game.human),
-                self._thumbnail(game.example),
-            )
-            for game in GAMES
-            if game.example in examples()
+            self._example_card(name, "play", *(("--role", role) if role else ()))
+            for name, role in GAMES.items()
+            if name in examples()
         ]
         of_courses = [
             Shelf(course, [self._example_card(name) for name in names])
@@ -99,8 +94,8 @@ class Home:
         ]
         return [Shelf("Your own", [new, *own]), Shelf("Play", games), *of_courses]
 
-    def _example_card(self, name: str) -> Card:
-        return Card(*title_of(name), ("demo", name), self._thumbnail(name))
+    def _example_card(self, name: str, verb: str = "demo", *more: str) -> Card:
+        return Card(*title_of(name), (verb, name, *more), self._thumbnail(name))
 
     def _thumbnail(self, name: str) -> Path:
         looks = "dark" if self.painter.theme.dark else "light"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,8 @@ __all__ = ["VARIABLE", "Memory"]
 
 VARIABLE = "MARS2D_MEMORY"
 """The environment variable that names the folder; if it is empty, nothing is remembered."""
+WINDOWS = "windows.json"
+"""The file of how windows looked, and of the files last opened."""
 RECENT = 8
 """How many files are remembered."""
 SIZE = (1280, 720)
@@ -28,9 +31,9 @@ PICTURE = (320, 200)
 
 
 class Memory:
-    """A small file in the folder of the user's settings.
+    """Small files in the folder of the user's settings.
 
-    It is a help, not data: one that can't be read is empty, one that can't be written stays.
+    They are a help, not data: one that can't be read is empty, one that can't be written stays.
     """
 
     def __init__(self) -> None:
@@ -41,12 +44,14 @@ class Memory:
     @property
     def recent(self) -> list[Path]:
         """The files last opened that are still there, the last one first."""
-        paths = [Path(each) for each in self._read().get("recent", []) if isinstance(each, str)]
+        paths = [
+            Path(each) for each in self.read(WINDOWS).get("recent", []) if isinstance(each, str)
+        ]
         return [path for path in paths if path.is_file()][:RECENT]
 
     def preferences(self, *, dark: bool | None = None, text: float | None = None) -> Preferences:
         """Return how windows looked last; what is given here counts more."""
-        known, usual = self._read(), Preferences()
+        known, usual = self.read(WINDOWS), Preferences()
         try:
             last = Preferences(
                 dark=known.get("dark", usual.dark), text=known.get("text", usual.text)
@@ -58,7 +63,7 @@ class Memory:
     @property
     def size(self) -> tuple[int, int]:
         """The size of the last window, points."""
-        match self._read().get("size"):
+        match self.read(WINDOWS).get("size"):
             case [int(width), int(height)] if 400 <= width <= 8000 and 300 <= height <= 8000:
                 return width, height
         return SIZE
@@ -66,17 +71,12 @@ class Memory:
     @property
     def panels(self) -> list[str]:
         """The names of the panels that were open in the last window."""
-        known = self._read().get("panels", [])
+        known = self.read(WINDOWS).get("panels", [])
         return [name for name in known if isinstance(name, str)] if isinstance(known, list) else []
 
     def keep(self, **looks: Any) -> None:
         """Remember how a window looks."""
-        if self._folder is None:
-            return
-        with suppress(InputError, OSError):
-            self._folder.mkdir(parents=True, exist_ok=True)
-            with atomic_write(self._folder / "windows.json") as file:
-                file.write(json.dumps(self._read() | looks, indent=1).encode())
+        self.write(WINDOWS, self.read(WINDOWS) | looks)
 
     def opened(self, path: Path, picture: pygame.Surface | None = None) -> None:
         """Remember that a file was opened, and its picture."""
@@ -94,14 +94,24 @@ class Memory:
             return None
         return self._folder / f"{hashlib.sha256(str(path).encode()).hexdigest()[:16]}.png"
 
-    def _read(self) -> dict[str, Any]:
+    def read(self, name: str) -> dict[str, Any]:
+        """Return what a file of the folder holds; nothing if it can't be read."""
         if self._folder is None:
             return {}
         try:
-            known = json.loads((self._folder / "windows.json").read_text(encoding="utf-8"))
+            known = json.loads((self._folder / name).read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return {}
         return known if isinstance(known, dict) else {}
+
+    def write(self, name: str, known: Mapping[str, Any]) -> None:
+        """Write a file of the folder, if it can be written."""
+        if self._folder is None:
+            return
+        with suppress(InputError, OSError):
+            self._folder.mkdir(parents=True, exist_ok=True)
+            with atomic_write(self._folder / name) as file:
+                file.write(json.dumps(known, indent=1).encode())
 
 
 def _small(picture: pygame.Surface) -> pygame.Surface:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -31,6 +32,7 @@ SIZE, LINE = 14.0, 20.0
 """The heights of letters and lines, points."""
 
 HINT = "← looks back   R restarts   Esc leaves"
+AGAIN = "R plays again   Esc leaves"
 MEND = "correct the file and save it"
 
 
@@ -180,9 +182,9 @@ class Ending:
     of the file do not change them.
     """
 
-    def __init__(self, player: Player) -> None:
-        """Start without an error."""
-        self._player = player
+    def __init__(self, player: Player, game: Callable[[], object | None] = lambda: None) -> None:
+        """Start without an error. game: returns the game that people play, if they do."""
+        self._player, self._game = player, game
         self._error: Mars2dError | None = None
         self._excerpt: Excerpt | None = None
 
@@ -195,7 +197,8 @@ class Ending:
             return Banner(str(player.error), hint, error=True, excerpt=excerpt)
         if not player.over:
             return None
-        return Banner(player.frame.over_message or "The experiment is over.", HINT)
+        hint = HINT if self._game() is None else AGAIN
+        return Banner(player.frame.over_message or "The experiment is over.", hint)
 
     def _excerpt_of(self, error: Mars2dError) -> Excerpt | None:
         if error is not self._error:

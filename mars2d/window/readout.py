@@ -70,6 +70,9 @@ def state_of(frame: Frame, body: int) -> list[Row]:
         speeds = drive.actuators(command[:, None])[:, 0].tolist()
         pairs = zip(drive.wheel_names, speeds, ("", "m/s"), strict=True)
         rows.append(("wheels", [(name, _number(speed, unit)) for name, speed, unit in pairs]))
+    radius = drive.turning_radius(float(np.hypot(vx, vy)))
+    if radius:
+        rows.append(("turns", [("least radius", _number(radius, "m"))]))
     return rows
 
 

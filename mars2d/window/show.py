@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.interrupt import noted_interrupts
@@ -33,23 +33,27 @@ def show_experiment(
     seed: int = 0,
     watchers: Sequence[Watcher] = (),
     preferences: Preferences | None = None,
-    human: int | None = None,
+    humans: Sequence[int] = (),
     log: Log | None = None,
     *,
     asks: bool = False,
     viewpoint: Viewpoint | None = None,
+    play: bool = False,
+    settings: Mapping[str, Any] | None = None,
 ) -> Record:
     """Run an experiment in a window until it is closed, and return the record.
 
     speed: simulated seconds per second, "max", or 0 for one step a key press. preferences: how the
-    window looks. human: the robot to drive by hand; the run then waits for the person to start it.
-    log: writes each control step to a file; it is closed at the end. asks: whether the
-    window asks before it closes if a run that hands have changed is to be saved. viewpoint: where
-    the window looks, and where it has looked in the end. Raises InputError
-    without a display, and the error of a law after the window is closed.
+    window looks. humans: the robots that people drive by hand; the run begins with a countdown.
+    log: writes each control step to a file; it is closed at the end. asks: whether the window asks
+    before it closes if a run that hands have changed is to be saved. viewpoint: where the window
+    looks, and where it has looked in the end. play: whether people may choose their roles in a
+    game. settings: in which the experiment differs from its file; scores are kept for each. Raises
+    InputError without a display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
     from mars2d.window.memory import Memory
+    from mars2d.window.play import game_of
     from mars2d.window.window import Window
 
     source: Timeline | None = None
@@ -62,10 +66,12 @@ def show_experiment(
         window.asks = asks
         if viewpoint is not None:
             window.viewpoint.look_as(viewpoint)
-        drivers = _to_be_driven(experiment) if human is None else [human]
-        if drivers:
-            window.wait_for(drivers[0])
-        window.say_who_stands_still()
+        drivers = list(humans) or _to_be_driven(experiment)
+        if drivers or play:
+            known = game_of(experiment, {**(settings or {}), **_seeded(seed)})
+            window.play(memory, known, drivers[:MOST_PEOPLE])
+        else:
+            window.say_who_stands_still()
         try:
             window.run()
         except Mars2dError as error:
@@ -104,6 +110,11 @@ def _to_be_driven(experiment: Experiment) -> list[int]:
     """Return the robots whose law is that a person drives them."""
     robots = experiment.scenario.robots
     return [i for i, robot in enumerate(robots) if isinstance(robot.controller, ByHand)]
+
+
+def _seeded(seed: int) -> dict[str, int]:
+    """Return the seed as a setting: another one may begin elsewhere."""
+    return {"seed": seed} if seed else {}
 
 
 def _remember(memory: Memory, experiment: Experiment, window: Window) -> None:

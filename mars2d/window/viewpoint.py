@@ -55,6 +55,11 @@ class Viewpoint:
         self.camera = self._fitted()
 
     @property
+    def room(self) -> pygame.Rect:
+        """The part of the picture in which the workspace is seen, beside all panels."""
+        return self._room
+
+    @property
     def makes_room(self) -> bool:
         """Whether the workspace is seen beside panels, which cover none of it."""
         return self._fits and self._room != self.layout.plot

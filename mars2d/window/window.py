@@ -32,6 +32,7 @@ from mars2d.window.context import (
     entries_of_runs,
 )
 from mars2d.window.controls import Controls
+from mars2d.window.countdown import Countdown
 from mars2d.window.desktop import desktop_scale, opening_size
 from mars2d.window.director import RECORDING, Director
 from mars2d.window.display import (
@@ -46,15 +47,18 @@ from mars2d.window.ghosts import ghosts
 from mars2d.window.grab import CLICK, Grab
 from mars2d.window.help import Help
 from mars2d.window.inspector import Inspector
+from mars2d.window.memory import Memory
 from mars2d.window.menu import Entry
 from mars2d.window.mouse import Mouse
 from mars2d.window.notes import Ending, Notes, Progress, draw_progress
 from mars2d.window.parameter_panel import ParameterPanel
 from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
+from mars2d.window.play import Play
 from mars2d.window.player import Player
 from mars2d.window.reload import Reload
 from mars2d.window.rest import Rest
 from mars2d.window.saving import Saver
+from mars2d.window.score_panel import ScorePanel
 from mars2d.window.source import Source
 from mars2d.window.toolbar import Toolbar, layer_entries
 from mars2d.window.viewpoint import Viewpoint
@@ -75,6 +79,8 @@ LEAP = 10
 """How many steps PgDn and PgUp do, unless a number was typed."""
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
+SEEN = 4.0
+"""The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
 RESERVE = 0.004
 """The time of a picture that is not used to prepare for going back, seconds."""
 TOGGLED = tuple(layer.name for layer in LAYERS if layer.key)
@@ -111,11 +117,15 @@ class Window:
         self.grab = Grab(self.director.change, partial(self.notes.say, kind="warning"))
         self.saver = Saver(self.notes, _stem(source))
         self.editor: Editor | None = None
+        self.game: Play | None = None  # where people play
+        self._before: Countdown | None = None
+        self._score: ScorePanel | None = None
+        self._unseen = False  # whether a game has not been drawn yet
         timeline = self.director.timeline
         self._controls = Controls(self.player)
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
-        self._ending = Ending(self.player)
+        self._ending = Ending(self.player, lambda: self.game)
         self._cast = _cast(source)
         self._open = False
         self._passing, self._awaited = False, ""  # whether laws may be asked; the line waited for
@@ -285,7 +295,10 @@ class Window:
     def _moves(self) -> bool:
         """Whether the next picture may differ from this one though nobody does anything."""
         player, followed = self.player, self.viewpoint.following is not None
-        acts = self.grab.busy or self._drives or self.saver.filming or self.editor is not None
+        acts = self.grab.busy or self.saver.filming or self.editor is not None
+        acts |= self._drives and self.game is None
+        if self.game is not None:
+            acts |= self.game.counting > 0
         return acts or followed or player.playing or player.busy or len(self.notes) > 0
 
     def _show_picture(self, screen: pygame.Surface) -> None:
@@ -311,11 +324,22 @@ class Window:
         if self.editor is not None:
             return
         self._read_again()
+        if self.game is not None:
+            self._go_near()
+            if self.game.pass_time(seconds):
+                self._rest.stir()
         self.director.steer(seconds)
         self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.parameters.tick()
         self.player.pass_time(seconds)
         self.viewpoint.step(self.player.frame, seconds)
+
+    def _go_near(self) -> None:
+        """Let the camera follow the robots of a game that are small in its first picture."""
+        smallest = min(robot.radius for robot in self.player.source.scenario.robots)
+        if self._unseen and smallest * self.camera.scale < SEEN:
+            self.viewpoint.follow(None)
+        self._unseen = False
 
     def _read_again(self) -> None:
         """Continue with the experiment's files if they were saved."""
@@ -337,7 +361,7 @@ class Window:
         if cast == self._cast:
             return
         self._cast, self.selected, self.viewpoint.following = cast, None, None
-        self.director.driver.release()
+        self.director.release()
         self.grab.cancel()
         self.grab.leave()
 
@@ -388,6 +412,10 @@ class Window:
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
+        if self._before is not None and notes:
+            self._before.draw(
+                surface, self.viewpoint.room, layout.plot, self.camera, frame, self._pointer
+            )
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
@@ -414,30 +442,49 @@ class Window:
     def _hints(self) -> Sequence[tuple[str, str]]:
         """Return the keys that are useful now, and their effects."""
         go_on, (drive, slowly, *rest) = ("Space", "go on"), HAND_HINTS
+        if self.game is not None:
+            return self._game_hints(self.game)
         if self._drives:
             return (go_on, drive, *rest) if self.player.paused else (drive, slowly, *rest)
         if self.player.manual:
             return MANUAL_HINTS
         return (go_on, *HINTS[1:]) if self.player.paused else HINTS
 
+    def _game_hints(self, game: Play) -> Sequence[tuple[str, str]]:
+        """Return the keys that are useful in a game now, and their effects."""
+        if not game.seats:
+            return (*((str(each.number), each.title) for each in game.choices), ("Esc", "leave"))
+        if game.counting:
+            return ("Space", "start at once"), ("F1", "help")
+        pause = "go on" if self.player.paused else "pause"
+        if "score" not in self.dock.plates:  # there is no room for the panel with the keys
+            keys = [(" ".join(seat.keys), seat.role or "drive") for seat in game.seats]
+            return (*keys, ("Space", pause), ("R", "begin again"))
+        return ("Space", pause), ("R", "begin again"), ("Shift", "slowly"), ("F1", "help")
+
     def _status(self) -> Status:
         if self._keyboard.number:
             return Status(f"{self._keyboard.number} ...", "waiting")
         text, kind = self.player.status()
+        if self.game is not None and self.game.counting:
+            return Status("get ready", "waiting")
+        if self.game is not None and self.player.playing and kind == "running":
+            return Status(text, "hand")
         if self._drives and kind in ("running", "waiting") and not self.player.over:
-            return Status(f"{text}  {self.director.driver.status}", "hand")
+            return Status(f"{text}  {self.director.status}", "hand")
         return Status(text, kind)
 
     def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the panels, away from the selected body where the arena makes no room for them."""
         spot = None if self.viewpoint.makes_room else self._selected_pixel(frame)
-        free = self._seen_arena(frame) if self._drives else None
+        drives = self._drives and self.viewpoint.following is None
+        free = self._seen_arena(frame) if drives else None
         self.dock.draw(surface, frame, spot, self._pointer, free=free)
 
     @property
     def _drives(self) -> bool:
         """Whether a robot is driven by hand."""
-        return self.director.driver.robot is not None
+        return bool(self.director.driven)
 
     def _seen_arena(self, frame: Frame) -> pygame.Rect:
         """Return where the workspace is seen, which a driver needs to see, pixels."""
@@ -456,12 +503,14 @@ class Window:
     def _handle(self, event: pygame.Event) -> None:
         if event.type == pygame.QUIT:
             self._close()
-        elif self.director.driver.handle(event):
+        elif self.director.handle(event):
             pass
         elif self.editor is not None:
             self.editor.handle(event)
             if self.editor.dialogs.done:
                 self._close_editor(self.editor)
+        elif self._before is not None and self._before.handle(event):
+            pass
         elif self.toolbar.handle(event):
             self._meet()
         elif not self.help.is_open and self.dock.handle(event):
@@ -536,6 +585,9 @@ class Window:
         self.notes.clear()
         self.player.restart()
         self._meet()
+        if self.game is not None and self._score is not None:
+            self._score.is_open = True
+            self.game.begin()
 
     def _loop_or_not(self) -> None:
         """Begin again at the end, or no longer."""
@@ -641,12 +693,15 @@ class Window:
             self.help.close()
         elif self.grab.busy:
             self.grab.cancel()
-        elif self.director.driver.robot is not None:
+        elif self._drives and self.game is None:
             self.director.let_go()
         elif self.selected is not None:
             self.selected = None
         elif self.notes.failed:
             self.notes.clear()
+        elif self.game is not None and self.player.playing:
+            self.player.pause()
+            self.notes.say("paused: Space goes on, R begins again, Esc leaves")
         else:
             self._close()
 
@@ -689,7 +744,9 @@ class Window:
     def _drive_or_not(self) -> None:
         """Drive the selected robot by hand, or the first one; or stop driving."""
         scenario = self.player.source.scenario
-        if self.director.driver.robot is not None:
+        if self.game is not None:
+            self.notes.say("people drive until the end of the game; R begins again, Esc leaves")
+        elif self._drives:
             self.director.let_go()
         elif self.selected is not None and self.selected >= len(scenario.robots):
             self.notes.say(f"{scenario.bodies[self.selected].name} has no drive", "warning")
@@ -714,14 +771,17 @@ class Window:
         stands = "stand" if more else "stands"
         self.notes.say(f"{name}{more} {stands} still: {name} lacks {want}", "warning")
 
-    def wait_for(self, robot: int) -> None:
-        """Let a person drive a robot, and wait for the person to start."""
-        self.player.pause()
-        self.selected = robot
-        self.director.drive(robot)
-        name = self.player.source.scenario.robots[robot].name
-        self.notes.clear()
-        self.notes.say(f"Space starts; arrow keys or WASD drive {name}")
+    def play(self, memory: Memory, game: str, robots: Sequence[int] = ()) -> None:
+        """Make it a game, with people at these robots, or with roles that they choose.
+
+        memory: keeps the scores. game: its name for the scores.
+        """
+        self.game = Play(self.player, self.director, memory, game)
+        self._before = Countdown(self._painter, self.game)
+        self._score = ScorePanel(self._painter, self.game)
+        self.dock.panels = [*self.dock.panels, self._score]
+        self._unseen = True
+        self.game.begin(robots)
 
     def _open_editor(self) -> None:
         """Open the editor on the scenario as it is now."""

@@ -66,6 +66,11 @@ class Operator:
         if index not in self._held:
             self._held.append(index)
 
+    @property
+    def held(self) -> Sequence[int]:
+        """The robots that stand still until the end, by index."""
+        return tuple(self._held)
+
     def steer(self, robot: str | int, command: ArrayLike | None) -> None:
         """Give a robot this command (2,) from now on in place of its law's; None: its law's again.
 

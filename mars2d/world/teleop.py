@@ -1,16 +1,13 @@
-"""Driving by hand: from a stick to the command of a drive, and the robot that is driven."""
+"""Driving by hand: from a stick to the command of a drive."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from mars2d.addons.contest import Contest
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.arithmetic import norm
-from mars2d.core.errors import InputError, nearest
-from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Stick", "command_of", "ramped", "robot_of"]
+__all__ = ["Stick", "command_of", "ramped"]
 
 RISE, FALL = 4.0, 8.0
 """The speeds at which a stick follows the keys, outwards and back, full deflections per s."""
@@ -47,26 +44,3 @@ def _towards(value: float, wanted: float, duration: float) -> float:
     outwards = abs(wanted) > abs(value) and wanted * value >= 0
     step = duration * (RISE if outwards else FALL)
     return min(max(wanted, value - step), value + step)
-
-
-def robot_of(scenario: Scenario, who: str | int, field: str = "human =") -> int:
-    """Return the index of the robot that `who` names: its name, its index, or a role of a game.
-
-    Of several robots in a role it is the first. Raises InputError, which begins with `field` and
-    ends with the nearest name, if there is none.
-    """
-    names = [str(robot.name) for robot in scenario.robots]
-    roles: dict[str, int] = {}
-    for game in scenario.addons:
-        if isinstance(game, Contest):
-            first = (team[0] for team in game.teams(scenario))
-            roles |= {role: index for (role, _), index in zip(game.roles, first, strict=True)}
-    if isinstance(who, str) and who in names:
-        return names.index(who)
-    if isinstance(who, str) and who in roles:
-        return roles[who]
-    if str(who).isdecimal() and int(who) < len(names):
-        return int(who)
-    raise InputError(
-        f"{field} {who}: there is no such robot or role{nearest(who, {*names, *roles})}"
-    )

@@ -227,8 +227,8 @@ def test_robots_that_are_not_there_or_in_two_roles_are_refused(roles, words):
         (0, "> 0"),
         (-1.0, "> 0"),
         (np.inf, "finite"),
-        (None, "'contact', or a distance"),
-        (True, "'contact', or a distance"),
+        (None, "'contact', 'sight', or a distance"),
+        (True, "'contact', 'sight', or a distance"),
     ],
 )
 def test_captures_that_can_not_be_are_refused(capture, words):

@@ -8,7 +8,7 @@ from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Ring
 from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.scenario.registry import members
-from mars2d.world.teleop import robot_of
+from mars2d.scenario.roles import robots_named
 from mars2d.world.verify import rerun
 from tests.worlds import finished
 
@@ -126,7 +126,7 @@ def test_what_all_contests_derive_from_is_no_add_on_to_be_listed():
 
 
 def test_a_person_may_drive_a_role():
-    assert robot_of(bout([0.0] * 4), "blue") == 2
+    assert robots_named(bout([0.0] * 4), "blue", "human =") == (2,)
 
 
 # -- what is refused ----------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from math import atan, cos, pi, sin, sqrt, tan
 
 import numpy as np
@@ -14,6 +15,7 @@ from mars2d import (
     Car,
     Differential,
     Drive,
+    Dubins,
     Holonomic,
     InputError,
     LawError,
@@ -174,8 +176,92 @@ def test_a_car_that_is_too_fast_keeps_its_curvature():
     assert slow.tolist() == turn.tolist() == [0.5, 0.3]
 
 
+spins = st.floats(0.05, 5)
+
+
+@given(v=anything, omega=anything, limit=limits, most=spins)
+def test_omega_is_clipped_first_and_then_each_rim(v, omega, limit, most):
+    drive = Unicycle(max_linear_speed=limit, max_angular_speed=most)
+    wheels = Differential(max_linear_speed=limit, max_angular_speed=most, wheel_radius=0.03)
+    slow = np.array([[v], [np.clip(omega, -most, most)]])
+    expected = Unicycle(max_linear_speed=limit).saturate(slow)
+    found = drive.saturate(np.array([[v], [omega]]))
+    assert found == pytest.approx(expected, rel=1e-9, abs=1e-9)
+    assert abs(found[1, 0]) <= most * (1 + 1e-9)
+    turned = wheels.saturate(np.array([[v - 0.1 * omega], [v + 0.1 * omega]]) / 0.03)
+    assert wheels.twist(turned)[::2] == pytest.approx(expected, rel=1e-9, abs=1e-9)
+
+
+@given(v=anything, delta=anything, most=spins)
+def test_a_car_steers_less_the_faster_it_goes_and_keeps_its_speed(v, delta, most):
+    drive = Car(max_linear_speed=2, max_steering=1.2, max_angular_speed=most, wheelbase=0.3)
+    command = drive.saturate(np.array([[v], [delta]]))
+    speed, _, omega = drive.twist(command).ravel()
+    free = Car(max_linear_speed=2, max_steering=1.2, wheelbase=0.3)
+    wanted = free.twist(free.saturate(np.array([[v], [delta]]))).ravel()
+    assert speed == wanted[0]
+    assert omega == pytest.approx(np.clip(wanted[2], -most, most), rel=1e-9, abs=1e-12)
+
+
+@given(v=anything, omega=anything)
+def test_a_dubins_vehicle_goes_at_its_speed_whatever_it_is_told(v, omega):
+    drive = Dubins(max_linear_speed=0.4, max_angular_speed=0.8)
+    found = drive.saturate(np.array([[v], [omega]]))
+    assert found.ravel().tolist() == [0.4, pytest.approx(np.clip(omega, -0.8, 0.8))]
+
+
+@pytest.mark.parametrize(
+    ("drive", "command", "radius"),
+    [
+        (Unicycle(max_linear_speed=1, max_angular_speed=0.5), (0.4, 9.0), 0.8),
+        (Differential(command="twist", max_linear_speed=1, max_angular_speed=0.5), (0.4, 9), 0.8),
+        (Car(max_angular_speed=0.5), (0.4, 9.0), 0.8),
+        (Car(max_steering=0.1), (0.4, 9.0), 0.2 / tan(0.1)),
+        (Car(max_steering=0.1, max_angular_speed=0.1), (0.4, 9.0), 4.0),
+        (Dubins(max_linear_speed=0.4, max_angular_speed=0.5), (0.0, 9.0), 0.8),
+    ],
+    ids=repr,
+)
+def test_the_tightest_circle_has_the_turning_radius(drive, command, radius):
+    record = driven(free(drive, sampling_time=0.05), [command] * 200)
+    x, y = record.pose[:, :2, 0].T
+    assert drive.turning_radius(0.4) == pytest.approx(radius, rel=1e-12)
+    assert np.hypot(x, y - radius) == pytest.approx(radius, rel=1e-9)
+
+
+def test_drives_that_turn_on_the_spot_or_not_at_all_have_no_turning_radius():
+    for drive in (Unicycle(), Differential(), Holonomic(), Crab()):
+        assert drive.turning_radius(0.3) == 0
+
+
+def test_a_ramp_turns_a_car_no_quicker_than_it_may():
+    drive = Car(max_angular_speed=0.3, max_acceleration=0.5, max_steering_rate=1.0)
+    record = driven(free(drive, sampling_time=0.5), [(0.5, 0.0), (0.0, 0.6), (0.5, 0.6)] * 5)
+    turned = np.abs(np.diff(record.pose[:, 2, 0])) / 0.5
+    assert turned.max() <= 0.3 + 1e-9
+    assert turned.max() > 0.2
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Unicycle(max_angular_speed=0), "expected a number >= 0.001 and <= 1000 [rad/s]"),
+        (lambda: Holonomic(max_angular_speed=1), "a holonomic robot keeps its heading"),
+        (lambda: Dubins(max_acceleration=1), "expected None: its speed never changes"),
+        (lambda: Dubins(max_angular_speed=None), "Dubins.max_angular_speed = None"),
+    ],
+)
+def test_a_bound_that_makes_no_sense_is_refused(make, words):
+    with pytest.raises(InputError, match=re.escape(words)):
+        make()
+
+
 DRIVES = [
     Unicycle(max_acceleration=0.7),
+    Unicycle(max_acceleration=0.7, max_angular_speed=1.3),
+    Differential(max_angular_speed=1.3),
+    Car(max_acceleration=0.7, max_steering_rate=0.9, max_angular_speed=0.8),
+    Dubins(max_angular_speed=1.3),
     Differential(max_acceleration=0.7),
     Differential(command="twist", max_acceleration=0.7, wheel_semiaxis=0.13),
     Holonomic(max_acceleration=0.7),

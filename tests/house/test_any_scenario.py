@@ -93,6 +93,8 @@ def drives(draw: st.DrawFn, size: float, speed: float, mass: float) -> Data:
     if kind == "Car":
         drive |= {"wheelbase": size * draw(scaled(0.5, 2))}
         drive |= some(draw, max_steering=scaled(0.1, 1.2), max_steering_rate=scaled(0.1, 10))
+    if kind != "Holonomic":
+        drive |= some(draw, max_angular_speed=scaled(0.1, 10))
     drive |= some(draw, max_acceleration=scaled(0.01, 100), noise=shares)
     return drive
 

@@ -58,7 +58,7 @@ PIP = {*SET_UP, 'pip install ".[video,data,log,cluster]"'}
 
 MEASURED = {
     "speed_growth.png", "paper_page.png", "window_branch.png", "replay.png", "league.png",
-    "home.png",
+    "home.png", "play_roles.png", "play_end.png",
 }  # fmt: skip
 """Pictures that no block makes: `benchmarks/growth.py` takes minutes, a page needs a browser, a
 window somebody at the keys."""
@@ -160,6 +160,7 @@ class Reader:
         needs_window = words[1:2] == ["replay"] and not made
         needs_window |= getattr(arguments, "speed", None) == 0
         needs_window |= bool(getattr(arguments, "human", None)) and not arguments.headless
+        needs_window |= words[1:2] == ["play"] and "mars2d: " not in expected and len(words) > 2
         verb = words[1] if len(words) > 1 else ""
         if verb in ("run", "demo") and not (needs_window or arguments.headless):
             words.append("--headless")  # where it would open a window

@@ -85,6 +85,28 @@ def test_then_names_decide():
     assert [s.law for s in standings] == ["a", "b", "c", "x"]
 
 
+def test_equal_points_share_a_place_in_table_page_and_csv(tmp_path):
+    winners = {"a": ["pursuer", "evader"], "b": ["evader", "pursuer"], "c": ["evader"] * 2}
+    winners["d"] = ["pursuer"] * 2
+    matches = [
+        played(2 * k + j, law, rival, won[j], 9.0 - k)
+        for k, (law, won) in enumerate(winners.items())
+        for j, rival in enumerate("xy")
+    ]
+    result = tournament(*matches)
+    hunters = {s.law: s.place for s in result.standings if s.role == "pursuer"}
+    assert hunters == {"d": 1, "b": 2, "a": 2, "c": 4}
+    assert [row["place"] for row in result.standing_rows()] == [1, 2, 2, 4, 1, 1]
+    lines = league_text(result).splitlines()
+    assert [line.split()[:2] for line in lines[1:5]] == [
+        ["1", "d"], ["2", "b"], ["2", "a"], ["4", "c"],
+    ]  # fmt: skip
+    csv = result.save_csv(tmp_path / "league.csv", "league").read_text().splitlines()
+    assert [line.split(",")[1] for line in csv[1:5]] == ["1", "2", "2", "4"]
+    page = result.save_html(tmp_path / "league.html").read_text()
+    assert page.count("<td>2</td><th") == 2
+
+
 def test_laws_that_play_both_roles_stand_in_one_table_with_the_time_that_they_hunted():
     matches = [played(1, "a", "b", "pursuer", 2.0), played(2, "b", "a", "evader")]
     first, second = league(matches, ROLES)

@@ -319,7 +319,7 @@ def test_a_match_can_be_played_again_alone(evening, command):
     digest = evening.result.matches[10].digest
     assert code == 0
     first, how, same, *output = printed.splitlines()
-    assert first == "match 11: pursuer quick, evader still, seed 0"
+    assert first == "match 11: pursuer quick (blue), evader still (orange), seed 0"
     assert how.startswith("red catches blue after")
     assert how.endswith(f"digest {digest[:16]}")
     assert same == "the same as before, to the last bit"
@@ -398,7 +398,7 @@ def test_shipped_laws_are_found_beside_their_example(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["random_walk", "--players", "evaders"], "random_walk: a tournament needs one add-on that says who has won, as Game({'pursuer': ['red'], 'evader': ['blue']}); this experiment has none"),  # noqa: E501
+        (["random_walk", "--players", "evaders"], "random_walk: a game needs one add-on that says who has won, as Game({'pursuer': ['red'], 'evader': ['blue']}); this experiment has none"),  # noqa: E501
         (["chase.py", "--role", "pursuer"], "--role pursuer: expected ROLE=FILES, as --role pursuer=laws/*.py"),  # noqa: E501
         (["chase.py", "--role", "hunter=pursuers"], "there is no role 'hunter'; known: evader, pursuer"),  # noqa: E501
         (["chase.py", "--role", "pursuer=pursuers"], "no laws for the role 'evader': name them by --role evader=FILES, or by --players FILES those that play every role"),  # noqa: E501

@@ -9,6 +9,7 @@ from mars2d import Robot, Scenario
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.scenario.experiment import Experiment
+from mars2d.window.memory import Memory
 from mars2d.window.player import MAX_GAP
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
@@ -53,8 +54,8 @@ class Observed(Window):
                 "over": self.grab.over,
                 "busy": self.grab.busy,
                 "selected": self.selected,
-                "driving": self.director.driver.robot,
-                "status": self.director.driver.status,
+                "driving": next(iter(self.director.driven), None),
+                "status": self.director.status,
                 "robots": shown.pose.round(4).T.tolist(),
                 "props": shown.prop_pose.round(4).T.tolist(),
                 "pulls": len(self.director.timeline.world.hands.pulls),
@@ -68,7 +69,7 @@ class Observed(Window):
 def main():
     window = Observed(Timeline(Experiment(SCENARIO)), float(sys.argv[1]), (800, 600))
     if len(sys.argv) > 2:
-        window.wait_for(int(sys.argv[2]))
+        window.play(Memory(), "hands", [int(sys.argv[2])])
     window.run()
 
 

@@ -1,8 +1,9 @@
 """The window that the tests start as a process of its own: it tells what it shows.
 
-Arguments: speed, then options as JSON: `experiment` or `record`, a file, and `human`, a robot; or
+Arguments: speed, then options as JSON: `experiment` or `record`, a file, or
 else fields of Circling. `dark`, `text` and `silent`, without notes, are how it looks; `windows` is
-how many come one after the other; `asks`: whether a changed run is asked for at the end.
+how many come one after the other; `asks`: whether a changed run is asked for at the end. `people`:
+the robots that people play, none for roles that they choose.
 """
 
 import json
@@ -16,6 +17,7 @@ from mars2d.record.record import load
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.display import Preferences
+from mars2d.window.memory import Memory
 from mars2d.window.source import Playback
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
@@ -74,7 +76,7 @@ def state_of(window):
         "pulls": 0 if timeline is None else len(timeline.world.hands.pulls),
         "over_body": window.grab.over,
         "busy": window.grab.busy,
-        "driving": director.driver.robot,
+        "driving": next(iter(director.driven), None),
         "selected": window.selected,
         "following": window.viewpoint.following is not None,
         "scale": round(window.camera.scale, 3),
@@ -96,6 +98,7 @@ def state_of(window):
         "loop": player.loop,
         "full": pygame.display.is_fullscreen(),
         "filming": window.saver._film is not None,
+        "game": None if window.game is None else game_of(window),
         "editor": None if window.editor is None else editor_of(window.editor),
     }
 
@@ -114,6 +117,19 @@ def sliders_of(panel):
 
 def marks_of(window):
     return window._controls.time_state().marks
+
+
+def game_of(window):
+    game = window.game
+    return {
+        "counting": game.counting > 0,
+        "seats": [seat.robot for seat in game.seats],
+        "result": None if game.result is None else game.result.words,
+        "news": None if game.result is None else game.result.news,
+        "choices": {number: at.center for number, at in window._before.places.items()},
+        "tally": game.tally(game.seats[0].role).in_words if game.seats else "",
+        "panel": [*window.dock.plates.get("score", ())],
+    }
 
 
 def editor_of(editor):
@@ -147,15 +163,15 @@ def source_of(options):
 def main():
     speed, options = sys.argv[1], json.loads(sys.argv[2])
     silent = options.pop("silent", False)
-    windows, human = options.pop("windows", 1), options.pop("human", None)
+    windows, people = options.pop("windows", 1), options.pop("people", None)
     asks = options.pop("asks", False)
     look = Preferences(dark=options.pop("dark", False), text=options.pop("text", 1.0))
     for _ in range(windows):
         source = source_of({**options})
         window = Observed(source, speed if speed == "max" else float(speed), (800, 600), look)
         window.silent, window.asks = silent, asks
-        if human is not None:
-            window.wait_for(human)
+        if people is not None:
+            window.play(Memory(), "observed", people)
         try:
             window.run()
         except LawError as error:

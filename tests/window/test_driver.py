@@ -8,11 +8,13 @@ from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scena
 from mars2d.addons import Game
 from mars2d.cli import arguments as shared
 from mars2d.cli.command_line import BAD_INPUT, main
-from mars2d.cli.verbs import demo, run
+from mars2d.cli.runs import speed_by_hand
+from mars2d.cli.verbs import play, run
+from mars2d.scenario.roles import robots_named
 from mars2d.window import driver as driver_module
 from mars2d.window import show
-from mars2d.window.driver import Driver
-from mars2d.world.teleop import Stick, command_of, ramped, robot_of
+from mars2d.window.driver import ARROWS, LETTERS, Driver
+from mars2d.world.teleop import Stick, command_of, ramped
 
 UP, DOWN, LEFT, RIGHT = (
     pygame.KSCAN_UP, pygame.KSCAN_DOWN, pygame.KSCAN_LEFT, pygame.KSCAN_RIGHT
@@ -238,6 +240,37 @@ def test_unplugged_it_stops_and_plugged_in_again_it_drives(driver, controller):
     assert settled(driver, Holonomic()) == pytest.approx((0.0, -0.5))
 
 
+def test_two_people_have_keys_and_controllers_of_their_own(monkeypatch):
+    monkeypatch.setattr(pygame.joystick, "init", lambda: None)
+    both = [Controller(0), Controller(1)]
+    monkeypatch.setattr(driver_module.pygame.joystick, "Joystick", lambda number: both[number])
+    one, two = Driver(ARROWS, 0, 2), Driver(LETTERS, 1, 2)
+    people = {one: Holonomic(), two: Holonomic()}
+    one.take(0, "red")
+    two.take(1, "blue")
+
+    def happens(event):
+        return [person.handle(event) for person in people]
+
+    def commands():
+        return [settled(person, drive) for person, drive in people.items()]
+
+    assert happens(key(UP)) == [True, False]
+    assert happens(key(A)) == [False, True]
+    assert commands() == [(0.0, 0.5), (-0.5, 0.0)]
+    happens(key(UP, down=False))
+    happens(key(A, down=False))
+    for number, who in ((0, one), (1, two)):
+        happens(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=number))
+        assert "controller" in who.status
+        happens(
+            pygame.event.Event(
+                pygame.JOYHATMOTION, instance_id=10 + number, hat=0, value=(0, 1 - 2 * number)
+            )
+        )
+    assert commands() == [(0.0, 0.5), (0.0, -0.5)]
+
+
 def test_nobody_is_driven_by_a_controller_alone(driver, controller):
     driver.release()
     tilt(driver, controller, 0.0, -1.0)
@@ -257,12 +290,25 @@ GAME = Game({"pursuer": ["red"], "evader": ["green", "blue"]})
     [("red", 0), ("blue", 1), ("2", 2), (2, 2), ("pursuer", 0), ("evader", 2)],
 )
 def test_a_robot_is_named_by_its_name_its_index_or_a_role(who, index):
-    assert robot_of(Scenario(robots=ROBOTS, addons=[GAME]), who) == index
+    assert robots_named(Scenario(robots=ROBOTS, addons=[GAME]), who, "human =") == (index,)
+
+
+def test_who_names_a_role_gets_its_next_robot():
+    scenario = Scenario(robots=ROBOTS, addons=[GAME])
+    assert robots_named(scenario, ["evader", "evader"], "--role") == (2, 1)
+    for named, words in [
+        (["pursuer", "pursuer"], "--role pursuer: somebody drives its robot already"),
+        (["evader", "green"], "--role green: somebody drives its robot already"),
+        (["0", "1", "2"], "--role 0, 1, 2: two people at most"),
+    ]:
+        with pytest.raises(InputError, match=words):
+            robots_named(scenario, named, "--role")
+    assert robots_named(scenario, None, "--role") == ()
 
 
 def test_a_robots_own_name_comes_before_a_role():
     robots = [*ROBOTS, Robot(name="evader", pose=(0, 3, 0))]
-    assert robot_of(Scenario(robots=robots, addons=[GAME]), "evader") == 3
+    assert robots_named(Scenario(robots=robots, addons=[GAME]), "evader", "human =") == (3,)
 
 
 @pytest.mark.parametrize(
@@ -275,7 +321,7 @@ def test_a_robots_own_name_comes_before_a_role():
 )
 def test_nobody_of_that_name_is_an_error_with_the_nearest(who, words):
     with pytest.raises(InputError) as raised:
-        robot_of(Scenario(robots=ROBOTS, addons=[GAME]), who)
+        robots_named(Scenario(robots=ROBOTS, addons=[GAME]), who, "human =")
     assert str(raised.value).startswith(words)
 
 
@@ -287,40 +333,59 @@ def shown(monkeypatch):
     """What the window was opened with, in place of the window."""
     found = []
 
-    def show_experiment(experiment, speed, seed, *_, human=None, **__):
-        found.append((speed, human))
+    def show_experiment(experiment, speed, seed, *_, humans=(), **__):
+        found.append((speed, humans))
         raise InputError("that is all")
 
     monkeypatch.setattr(show, "show_experiment", show_experiment)
-    for module in (shared, run):
+    for module in (shared, run, play):
         monkeypatch.setattr(module, "has_display", lambda: True)
     return found
 
 
 @pytest.mark.parametrize(
-    ("arguments", "speed", "human"),
+    ("arguments", "speed", "humans"),
     [
-        ([], 20.0, None),
-        (["--human", "evader"], 4.0, 1),
-        (["--human", "0", "--speed", "7"], 7.0, 0),
-        (["--human", "red", "--set", "animation.playback_speed=2.0"], 2.0, 0),
-        (["--human", "red", "--set", "animation.playback_speed=max"], 4.0, 0),
-        (["--human", "red", "--set", "animation.playback_speed=0"], 4.0, 0),
+        ([], 20.0, ()),
+        (["--human", "evader"], 10.0, (1,)),
+        (["--human", "evader", "--human", "0"], 4.0, (1, 0)),
+        (["--human", "0", "--speed", "7"], 7.0, (0,)),
+        (["--human", "red", "--set", "animation.playback_speed=max"], 4.0, (0,)),
     ],
 )
-def test_somebody_who_drives_is_not_in_a_hurry(shown, arguments, speed, human, capsys):
+def test_somebody_who_drives_is_not_in_a_hurry(shown, arguments, speed, humans, capsys):
     assert main(["run", "pursuit_corners", *arguments]) == BAD_INPUT
     assert "that is all" in capsys.readouterr().err
-    assert shown == [(speed, human)]
+    assert shown == [(speed, humans)]
 
 
-def test_a_demo_can_be_driven_too(shown, monkeypatch):
-    monkeypatch.setattr(demo, "has_display", lambda: True)
-    assert main(["demo", "pursuit_corners", "--human", "blue"]) == BAD_INPUT
-    assert shown == [(4.0, 1)]
+@pytest.mark.parametrize(
+    ("roles", "humans"),
+    [
+        (["--role", "evader"], (1,)),
+        (["--role", "evader", "--role", "pursuer"], (1, 0)),
+        (["--role", "pursuer,evader"], (0, 1)),
+        ([], ()),
+    ],
+)
+def test_play_seats_people_in_their_order(shown, roles, humans):
+    assert main(["play", "corner_game", *roles]) == BAD_INPUT
+    assert shown == [(4.0, humans)]
 
 
-@pytest.mark.parametrize("verb", ["run", "demo"])
+def test_the_quickest_robot_of_a_person_crosses_the_arena_in_five_seconds():
+    slow, quick = (
+        Robot(name=n, drive=Holonomic(max_linear_speed=v), pose=(x, 0, 0))
+        for n, v, x in [("a", 0.5, 0), ("b", 2.0, 2)]
+    )
+    scenario = Scenario(robots=[slow, quick])  # 10 m
+    assert speed_by_hand(scenario, [0]) == 4.0
+    assert speed_by_hand(scenario, [0, 1]) == speed_by_hand(scenario) == 1.0
+    creeping = slow.replace(drive=Holonomic(max_linear_speed=0.01))
+    assert speed_by_hand(Scenario(robots=[creeping], stop_time=500)) == 10.0
+    assert speed_by_hand(Scenario(robots=[creeping], stop_time=30)) == 2.0
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -329,15 +394,15 @@ def test_a_demo_can_be_driven_too(shown, monkeypatch):
         (["--human", "1", "--headless"], "--human 1: driving by hand needs a window, not --head"),
     ],
 )
-def test_where_nobody_can_drive_this_is_said_at_once(monkeypatch, capsys, verb, arguments, words):
+def test_where_nobody_can_drive_this_is_said_at_once(monkeypatch, capsys, arguments, words):
     monkeypatch.setattr(shared, "has_display", lambda: False)
-    assert main([verb, "pursuit_corners", *arguments]) == BAD_INPUT
+    assert main(["run", "pursuit_corners", *arguments]) == BAD_INPUT
     assert words in capsys.readouterr().err
 
 
 def test_from_python_a_robot_is_driven_in_a_window(shown):
     with pytest.raises(InputError, match="that is all"):
         mars2d.run("pursuit_corners", speed=3, human="pursuer")
-    assert shown == [(3.0, 0)]
+    assert shown == [(3.0, (0,))]
     with pytest.raises(InputError, match="human = nobody: there is no such robot or role"):
         mars2d.run("pursuit_corners", human="nobody")

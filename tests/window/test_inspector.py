@@ -117,6 +117,8 @@ def test_a_robots_numbers_are_those_of_its_drive(world):
     assert green["command"] == ["vx 0.10", "vy \N{MINUS SIGN}0.20 m/s"]
     assert "wheels" not in green
     assert car["command"] == ["v 0.30 m/s", "δ 11°"]
+    assert car["turns"] == ["least radius 0.29 m"]
+    assert "turns" not in red, "it turns on the spot"
     assert list(words(frame, 4)) == ["pose", "heading", "moves"], "a prop has no command"
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mars2d.core.description import Description, flag, number
 from mars2d.core.quantity import Quantity
 
-__all__ = ["Drive", "Wheeled", "reached"]
+__all__ = ["Drive", "Turning", "Wheeled", "reached"]
 
 Float = NDArray[np.float64]
 
@@ -121,6 +121,10 @@ class Drive(Description):
             return most * across, most * ahead
         return most * ahead, -STICK_TURN * across
 
+    def turning_radius(self, speed: float) -> float:  # noqa: ARG002
+        """Return the least radius of its arcs at a speed [m/s], metres; 0: it turns on the spot."""
+        return 0.0
+
     @property
     def quantities(self) -> tuple[Quantity, ...]:
         """The two numbers of a command, for figures and tables; by default they are not known."""
@@ -193,14 +197,33 @@ def reached(takes: Float, start: float, end: float) -> Float:
     return np.asarray((done[1] - done[0]) / (end - start))
 
 
-class Wheeled(Drive):
+class Turning(Drive):
+    """The base of drives that turn.
+
+    At the speed v its arcs have a radius of v / `max_angular_speed` at least, as those of a Dubins
+    vehicle have.
+    """
+
+    max_angular_speed: float | None = number(
+        default=None, low=1e-3, high=1e3, unit="rad/s", optional=True,
+        doc="bound of how quickly it turns, left and right; None: none of its own",
+    )  # fmt: skip
+
+    def turning_radius(self, speed: float) -> float:
+        """Return the least radius of its arcs at a speed [m/s], metres; 0: it turns on the spot."""
+        return 0.0 if self.max_angular_speed is None else abs(speed) / self.max_angular_speed
+
+
+class Wheeled(Turning):
     """The base of drives of two wheels on one axle, each of them an actuator.
 
     Commands are (v [m/s], omega [rad/s]), and actuators the speeds of the wheels' rims,
-    v -+ wheel_semiaxis * omega [m/s]. With `noise` s, the semiaxis b and p = s^2 / T, v and omega
-    are in a control step of T seconds off by the variances p (v^2 + b^2 omega^2) / 2 and
-    p (v^2 + b^2 omega^2) / (2 b^2): the velocity motion model with alpha_1 = alpha_4 = p / 2,
-    alpha_2 = p b^2 / 2, alpha_3 = p / (2 b^2).
+    v -+ wheel_semiaxis * omega [m/s]. `max_angular_speed` cuts omega and leaves v; then each rim is
+    cut by itself, which never makes omega larger.
+
+    With `noise` s, the semiaxis b and p = s^2 / T, v and omega are in a control step of T seconds
+    off by the variances p (v^2 + b^2 omega^2) / 2 and p (v^2 + b^2 omega^2) / (2 b^2): the velocity
+    motion model with alpha_1 = alpha_4 = p / 2, alpha_2 = p b^2 / 2, alpha_3 = p / (2 b^2).
 
     Source of the model: Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 5.3.
     """
@@ -230,19 +253,32 @@ class Wheeled(Drive):
 
     def steered(self, across: float, ahead: float) -> tuple[float, float]:
         """Return the command that a stick asks for; it slows down as far as it needs to turn."""
-        most = self.max_linear_speed
-        rim = min(STICK_TURN * self.wheel_semiaxis, most)
+        most, turn = self.max_linear_speed, min(STICK_TURN, self.max_angular_speed or STICK_TURN)
+        rim = min(turn * self.wheel_semiaxis, most)
         turn, way = -rim * across, ahead * (most - rim * abs(across))
         first, second = self.command_for(np.array([[way - turn], [way + turn]])).ravel().tolist()
         return first, second
 
     def saturate(self, command: Float) -> Float:
-        """Return commands (2, n) with each rim's speed clipped to +-max_linear_speed."""
+        """Return commands (2, n) with omega, then each rim's speed, clipped to its bound."""
+        if self.max_angular_speed is not None:
+            command = self._turning_slowly(command, self.max_angular_speed)
         rims, limit = self.actuators(command), self.max_linear_speed
         over = np.abs(rims) > limit * (1 + ROUNDING)
         if not np.count_nonzero(over):
             return command
         return np.where(over.any(axis=0), self.command_for(rims.clip(-limit, limit)), command)
+
+    def _turning_slowly(self, command: Float, most: float) -> Float:
+        """Return commands (2, n) with omega clipped to +-most [rad/s]."""
+        rims = self.actuators(command)
+        middle, half = (rims[0] + rims[1]) / 2, (rims[1] - rims[0]) / 2
+        limit = most * self.wheel_semiaxis
+        over = np.abs(half) > limit + ROUNDING * (limit + self.max_linear_speed)
+        if not np.count_nonzero(over):
+            return command
+        half = half.clip(-limit, limit)
+        return np.where(over, self.command_for(np.array([middle - half, middle + half])), command)
 
     def twist(self, command: Float) -> Float:
         """Return (v, 0, omega)."""

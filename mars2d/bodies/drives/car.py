@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from mars2d.bodies.drives.base import ROUNDING, Drive, Float
-from mars2d.core.arithmetic import cosines_sines
+from mars2d.bodies.drives.base import ROUNDING, Float, Turning
+from mars2d.core.arithmetic import angles_of, cosine_sine, cosines_sines
 from mars2d.core.description import number
 from mars2d.core.quantity import Quantity
 
 __all__ = ["Car"]
 
 
-class Car(Drive):
+class Car(Turning):
     """A car with steered front wheels, commanded by (v [m/s], steering angle delta [rad]).
 
     x' = v cos(theta), y' = v sin(theta), theta' = v tan(delta) / wheelbase: the bicycle model. The
     pose is that of the middle of the rear axle, v its speed; it turns about a point wheelbase /
     tan(delta) to the left. Speed and steering are limited each by itself, so a car that is told to
-    go too fast keeps its curvature. `noise` is that of the speed in shares of the speed, and that
-    of tan(delta) in shares of max_steering: straight ahead, that of the steering angle.
+    go too fast keeps its curvature; `max_angular_speed` cuts the steering angle, and the speed
+    stays. `noise` is that of the speed in shares of the speed, and that of tan(delta) in shares of
+    max_steering: straight ahead, that of the steering angle.
 
     Source: K. M. Lynch and F. C. Park, Modern Robotics (2017), section 13.3.1.
     """
@@ -50,12 +51,35 @@ class Car(Drive):
         return self.max_linear_speed * ahead, -self.max_steering * across
 
     def saturate(self, command: Float) -> Float:
-        """Return commands (2, n), the speed clipped to +-max_linear_speed, the angle likewise."""
+        """Return commands (2, n), the speed clipped to +-max_linear_speed, the angle likewise.
+
+        Then the angle is cut to that at which this speed turns it at max_angular_speed.
+        """
         limit = np.array([[self.max_linear_speed], [self.max_steering]])
         over = np.abs(command) > limit * (1 + ROUNDING)
+        if np.count_nonzero(over):
+            command = np.where(over, command.clip(-limit, limit), command)
+        return self._turning_slowly(command)
+
+    def ramp(self, command: Float, last: Float, start: float, end: float) -> Float:
+        """Return the commands (2, n) of `Drive.ramp`, none of which turns too quickly."""
+        return self._turning_slowly(super().ramp(command, last, start, end))
+
+    def _turning_slowly(self, command: Float) -> Float:
+        """Return commands (2, n) that turn it at max_angular_speed at most; v stays."""
+        if self.max_angular_speed is None:
+            return command
+        v, delta = command
+        most = angles_of(np.full(v.shape, self.max_angular_speed * self.wheelbase), np.abs(v))
+        over = np.abs(delta) > most * (1 + ROUNDING)
         if not np.count_nonzero(over):
             return command
-        return np.where(over, command.clip(-limit, limit), command)
+        return np.array([v, np.where(over, delta.clip(-most, most), delta)])
+
+    def turning_radius(self, speed: float) -> float:
+        """Return the least radius of its arcs at a speed [m/s], metres: that of the steering."""
+        c, s = cosine_sine(self.max_steering)
+        return max(self.wheelbase * c / s, super().turning_radius(speed))
 
     def disturb(self, command: Float, normal: Float) -> Float:
         """Return commands (2, n), the speed off by a share of itself.

@@ -13,6 +13,7 @@ __all__ = ["VERBS"]
 NAMES = (
     "demo",
     "run",
+    "play",
     "edit",
     "compare",
     "replay",

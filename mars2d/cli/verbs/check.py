@@ -27,6 +27,9 @@ from mars2d.scenario.map_option import reading_options
 from mars2d.scenario.options import parse_setting, settings_in_words
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
+from mars2d.study.tournament.match import play
+from mars2d.study.tournament.schedule import trial_matches
+from mars2d.study.tournament.tournament import LIMITS
 from mars2d.testing.file import trials
 from mars2d.testing.finding import Finding
 from mars2d.world.verify import ask_again, other_versions, rerun
@@ -67,12 +70,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="KEY=VALUE",
         help="how a map is read; with --laws, a field of the experiment, if not as in the record",
     )
+    parser.add_argument(
+        "--for", dest="game", metavar="GAME", help="with a law: play it in this game, with --role"
+    )
+    parser.add_argument("--role", metavar="ROLE", help="with --for: the role that the law plays")
     parser.add_argument("--figure", type=Path, metavar="OUT", help="draw a map: .png, .pdf, .svg")
 
 
 def execute(arguments: argparse.Namespace) -> None:
     """Describe a file and check it for mistakes: code, a scenario, a record or a map."""
     path = Path(arguments.file)
+    if arguments.game is not None or arguments.role is not None:
+        _check_in_game(path, arguments)
+        return
     if path.suffix.lower() in maps.SUFFIXES:
         check_outputs(arguments, {"figure": figure.SUFFIXES})
         _check_map(path, dict(map(parse_setting, arguments.set)), arguments.figure)
@@ -95,6 +105,36 @@ def execute(arguments: argparse.Namespace) -> None:
             f"({', '.join(formats.SUFFIXES)}) or a map ({', '.join(maps.SUFFIXES)})"
             f"{maps.advice(path)}"
         )
+
+
+def _check_in_game(path: Path, arguments: argparse.Namespace) -> None:
+    """Let a law play a few matches of a game, as a tournament does; refuse one that forfeits."""
+    if arguments.game is None or arguments.role is None:
+        there, missing = ("--for", "--role ROLE") if arguments.game else ("--role", "--for GAME")
+        raise InputError(
+            f"{there} needs {missing}: the game, and the role that the law plays in it"
+        )
+    settings = dict(map(parse_setting, arguments.set))
+    matches = trial_matches(arguments.game, arguments.role, path, settings)
+    won = 0
+    for match in matches:
+        played = play(match, LIMITS, replays=False)
+        law = match.laws[arguments.role]
+        tell(f"{law}, seed {match.seed}: {one_line(played.message)}")
+        for role, text in played.output.items():
+            tell(f"{match.laws[role]} printed:\n{text.rstrip()}")
+        if played.error:
+            raise InputError(f"{arguments.game}: {played.error}")
+        for verdict in played.verdicts.values():
+            raise InputError(
+                f"{verdict.text}: as {arguments.role} of {arguments.game} it would forfeit its "
+                f"matches ({verdict.kind})"
+            )
+        won += played.winner == arguments.role
+    tell(
+        f"sound: won {won} of {len(matches)} matches as {arguments.role} of {arguments.game}, "
+        "and forfeited none"
+    )
 
 
 def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> None:

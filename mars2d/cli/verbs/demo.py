@@ -6,11 +6,9 @@ import argparse
 from pathlib import Path
 
 from mars2d.cli.arguments import (
-    add_human,
     add_preferences,
     add_run_arguments,
     add_theory,
-    human_of,
     preferences_of,
     theory_of,
 )
@@ -41,7 +39,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", nargs="?", metavar="NAME", help="an example (default: list all)")
     add_run_arguments(parser)
     add_theory(parser)
-    add_human(parser)
     add_preferences(parser)
 
 
@@ -56,10 +53,10 @@ def execute(arguments: argparse.Namespace) -> None:
     if name not in known:
         raise InputError(f"{name}: there is no such example{likely(name, known) or LISTED}")
     experiment = open_experiment(known[name], theory_of(arguments), seed=check_seed(arguments.seed))
-    human, look = human_of(arguments, experiment), preferences_of(arguments)
+    look = preferences_of(arguments)
     try:
         if not arguments.headless and has_display():
-            record = show(experiment, None, arguments.seed, look, human)
+            record = show(experiment, None, arguments.seed, look)
         else:
             record = _make_pictures(experiment, name, arguments.seed)
     except Interrupted:

@@ -17,7 +17,7 @@ from mars2d.cli.arguments import (
     add_run_arguments,
     add_speed,
     add_theory,
-    human_of,
+    humans_of,
     options_of,
     preferences_of,
     theory_of,
@@ -81,7 +81,7 @@ def execute(arguments: argparse.Namespace) -> None:
     _check_times(arguments, experiment)
     scenario = experiment.scenario
     check_film(arguments, scenario, scenario.last_iteration * scenario.sampling_time)
-    human_of(arguments, experiment)
+    humans_of(arguments, experiment)
     for remark in remarks.before(experiment):
         warn(remark)
     bounds = remarks.Bounds()
@@ -144,17 +144,18 @@ def _wants_window(arguments: argparse.Namespace) -> bool:
 def _run_in_window(
     arguments: argparse.Namespace, experiment: Experiment, watcher: Watcher
 ) -> tuple[Record, Film | None]:
-    human, look = human_of(arguments, experiment), preferences_of(arguments)
+    people, look = humans_of(arguments, experiment), preferences_of(arguments)
     log = formats.log_to(arguments.record)
     record = show(
         experiment,
         arguments.speed,
         arguments.seed,
         look,
-        human,
+        people,
         log,
         [watcher],
         kept=arguments.record is not None,
+        settings=options_of(arguments),
     )
     return record, None
 

@@ -10,16 +10,22 @@ from mars2d.cli.arguments import add_preferences, add_workers, preferences_of, w
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError, counted, one_line
+from mars2d.core.files import atomic_write
+from mars2d.core.scene import color_word
 from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.roles import contest_of
 from mars2d.study.isolation.limits import Limits
-from mars2d.study.plan import parse_all
+from mars2d.study.plan import Plan, parse_all, settings_of
 from mars2d.study.tournament.folder import played_before
 from mars2d.study.tournament.league import PAGE, Tournament
 from mars2d.study.tournament.league_text import league_text, matches
 from mars2d.study.tournament.match import Match, Played, replayed
+from mars2d.study.tournament.page.rules import rules_page
+from mars2d.study.tournament.rules import Rules
 from mars2d.study.tournament.schedule import Schedule, schedule
 from mars2d.study.tournament.tournament import LIMITS, TournamentInterrupted, play_schedule
 from mars2d.study.work import worker_count
@@ -65,6 +71,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="folder of the tables and the page (default: tournament_SCENARIO)",
     )
     add("--no-replays", action="store_true", help="a small page, for very many matches")
+    add("--rules", type=Path, metavar="OUT.html", help="write the game's rules as a page")
     add("--match", type=int, metavar="N", help="play only this match, again")
     add("--view", action="store_true", help="with --match: show it in a window")
     add("--record", type=Path, metavar="OUT", help="with --match: save all its data")
@@ -75,10 +82,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(arguments: argparse.Namespace) -> None:
     """Let the laws of files play each other; print the league, and write a page with replays."""
     _check(arguments)
-    limits = _limits(arguments)
+    limits, roles = _limits(arguments), _roles(arguments)
+    if arguments.rules is not None:
+        _write_rules(arguments, limits)
+        if not (roles or arguments.players):
+            return
     planned = schedule(
         arguments.scenario,
-        _roles(arguments),
+        roles,
         [file for files in arguments.players for file in files],
         seeds=arguments.seeds,
         first_seed=arguments.first_seed,
@@ -97,7 +108,7 @@ def _check(arguments: argparse.Namespace) -> None:
     for name in ("view", "record"):
         if getattr(arguments, name) and arguments.match is None:
             raise InputError(f"--{name} needs --match N")
-    check_outputs(arguments, {"record": formats.SUFFIXES})
+    check_outputs(arguments, {"record": formats.SUFFIXES, "rules": (".html", ".htm")})
     worker_count(arguments.workers)
     if arguments.view and not has_display():
         require_pygame("a window")
@@ -111,6 +122,20 @@ def _limits(arguments: argparse.Namespace) -> Limits:
         "memory": arguments.memory,
     }
     return replace(LIMITS, **{name: value for name, value in given.items() if value is not None})
+
+
+def _write_rules(arguments: argparse.Namespace, limits: Limits) -> None:
+    """Write the page of the game's rules, and print its path."""
+    points = Plan(settings_of(parse_all(arguments.set)), (arguments.first_seed,)).points()
+    options = dict(next(iter(points)))
+    if arguments.stop_time is not None:
+        options["stop_time"] = arguments.stop_time
+    experiment = open_experiment(arguments.scenario, options, seed=arguments.first_seed)
+    contest = contest_of(experiment.scenario, arguments.scenario)
+    rules = replace(Rules.of(experiment, contest), limits=limits)
+    with atomic_write(arguments.rules) as file:
+        file.write(rules_page(rules).encode("utf-8", errors="replace"))
+    tell(f"rules: {arguments.rules}")
 
 
 def _roles(arguments: argparse.Namespace) -> dict[str, list[str]]:
@@ -176,7 +201,7 @@ def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     if not 1 <= arguments.match <= count:
         raise InputError(f"--match {arguments.match}: expected a number from 1 to {count}")
     match = planned.matches[arguments.match - 1]
-    tell(_described(match))
+    tell(f"match {match.number}: {_described(match, planned.rules)}")
     played, record = replayed(match, limits)
     steps = counted(played.steps, "step")
     tell(f"{one_line(played.message)}. {steps}, digest {played.digest[:16]}")
@@ -186,13 +211,22 @@ def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     if arguments.record is not None:
         record.save(arguments.record)
     if arguments.view:
-        _view(arguments, record)
+        _view(arguments, record, _who(match, planned.rules, " against "))
 
 
-def _described(match: Match) -> str:
-    laws = ", ".join(f"{role} {law}" for role, law in match.laws.items())
+def _described(match: Match, rules: Rules | None) -> str:
     options = "".join(f", {name} = {value}" for name, value in match.options.items())
-    return f"match {match.number}: {laws}, seed {match.seed}{options}"
+    return f"{_who(match, rules, ', ')}, seed {match.seed}{options}"
+
+
+def _who(match: Match, rules: Rules | None, between: str) -> str:
+    """Return which law plays which role, and the colours of its robots."""
+    colors = {} if rules is None else rules.colors
+    words = {role: ", ".join(dict.fromkeys(map(color_word, of))) for role, of in colors.items()}
+    return between.join(
+        f"{role} {law}" + (f" ({words[role]})" if words.get(role, role) != role else "")
+        for role, law in match.laws.items()
+    )
 
 
 def _compared(played: Played, planned: Schedule, path: Path, limits: Limits) -> str:
@@ -206,8 +240,9 @@ def _compared(played: Played, planned: Schedule, path: Path, limits: Limits) -> 
     return f"not as before: {before.message}. Digest {before.digest[:16]}"
 
 
-def _view(arguments: argparse.Namespace, record: Record) -> None:
+def _view(arguments: argparse.Namespace, record: Record, title: str) -> None:
     from mars2d.window.show import show_record
 
     speed = record.scenario.animation.playback_speed
-    show_record(record, speed, preferences_of(arguments))
+    titled = replace(record, scenario=record.scenario.replace(title=title))
+    show_record(titled, speed, preferences_of(arguments))

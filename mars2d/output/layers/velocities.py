@@ -1,4 +1,7 @@
-"""How fast everything moves: arrows of velocity, and arcs of how far it turns in a second."""
+"""How fast everything moves: arrows of velocity, and arcs of how far it turns in a second.
+
+Robots with a least turning radius have the circles that they can't turn into.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.scene import Arrow, Scene
+from mars2d.core.scene import Arrow, Scene, faded
 from mars2d.output.layers.forces import bounding_circle
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -35,6 +38,10 @@ HEAD = 0.5
 
 FEW_ROBOTS, CROWD = 6, 30
 """With more robots, arrows are shorter and thinner; with more bodies, they have no edge."""
+
+
+TIGHTEST = faded(VELOCITY, 0.45)
+"""The colour of the circles of the least turning radius."""
 
 
 class SpeedScale(NamedTuple):
@@ -69,9 +76,12 @@ def velocities(frame: Frame) -> Scene:
     """Return the mean velocities of the control step that led to a frame.
 
     An arrow goes from the middle of a body to where it would be after some time, the same for all.
-    An arc beside it goes from its heading to what that will be after a second.
+    An arc beside it goes from its heading to what that will be after a second. Below, two circles
+    show how tightly a robot can turn at its speed, where its drive bounds this.
     """
     scene, velocity = Scene(), frame.velocity
+    if len(frame.scenario.robots) <= CROWD:
+        _tightest_turns(scene, frame)
     scale = speed_scale(frame.scenario)
     poses = np.hstack([frame.pose, frame.prop_pose])
     turning = np.argsort(-np.abs(velocity[2]), kind="stable")[:MAX_ARCS]
@@ -88,6 +98,16 @@ def velocities(frame: Frame) -> Scene:
     for (ax, ay), (bx, by) in zip(tails.T.tolist(), tips.T.tolist(), strict=True):
         scene.shapes.append(Arrow((ax, ay), (bx, by), VELOCITY, edge, scale.width))
     return scene
+
+
+def _tightest_turns(scene: Scene, frame: Frame) -> None:
+    """Draw the circles of the least radius, left and right of each robot that has one."""
+    for i, robot in enumerate(frame.scenario.robots):
+        x, y, theta = frame.pose[:, i].tolist()
+        radius = robot.drive.turning_radius(float(np.hypot(*frame.velocity[:2, i])))
+        for side in (-radius, radius) if radius else ():
+            center = x - side * np.sin(theta), y + side * np.cos(theta)
+            scene.circle(center, radius, stroke=TIGHTEST, width=1.0)
 
 
 def _arc(scene: Scene, center: Float, radius: float, heading: float, turn: float) -> None:

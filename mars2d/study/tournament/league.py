@@ -6,7 +6,7 @@ import csv
 import html
 import io
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 from pathlib import Path
 from statistics import fmean
@@ -18,6 +18,7 @@ from mars2d.core.files import atomic_write
 from mars2d.study.statistics import Interval, proportion
 from mars2d.study.table import cell, word_cell
 from mars2d.study.tournament.match import Played
+from mars2d.study.tournament.rules import Rules
 from mars2d.study.tournament.schedule import Schedule
 
 if TYPE_CHECKING:
@@ -52,7 +53,8 @@ class Standing:
     result. forfeits: matches lost because the law failed. points: 1 for a win, 1/2 for a draw.
     share: of all points that it could have won, with Wilson's confidence interval. capture_time:
     the mean over matches in which the evaders were caught, seconds; if laws play all roles, only
-    over those in which it was the hunter. None if there are none.
+    over those in which it was the hunter. None if there are none. place: in its table, from 1;
+    laws with equal points per match share a place, and the next ones come after all of them.
     """
 
     law: str
@@ -65,6 +67,7 @@ class Standing:
     points: float
     share: Interval
     capture_time: float | None
+    place: int = 0
 
 
 def one_table(played: Iterable[Played], roles: Sequence[str]) -> bool:
@@ -80,7 +83,8 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     """Return the standings, best first: the laws of the first role, then those of the second.
 
     If a law plays more than one role, there is one table for all laws. Laws are ordered by points
-    per match, then by mean capture time (short for hunters, long for evaders), then by name.
+    per match, then by mean capture time (short for hunters, long for evaders), then by name; their
+    place is that of their points.
     """
     if one_table(played, roles):
         tables = [("", tuple(roles))]
@@ -90,8 +94,21 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     for title, within in tables:
         laws = dict.fromkeys(each.match.laws[role] for each in played for role in within)
         table = [_standing(law, title, within, roles, played) for law in laws]
-        standings += sorted(table, key=lambda standing: _order(standing, roles))
+        standings += _placed(sorted(table, key=lambda standing: _order(standing, roles)))
     return standings
+
+
+def _placed(table: Sequence[Standing]) -> list[Standing]:
+    """Return sorted standings with their places; equal points per match give equal places."""
+    rates = [_rate(standing) for standing in table]
+    return [
+        replace(standing, place=rates.index(rate) + 1)
+        for standing, rate in zip(table, rates, strict=True)
+    ]
+
+
+def _rate(standing: Standing) -> float:
+    return standing.points / max(standing.played, 1)
 
 
 def _standing(
@@ -137,7 +154,7 @@ def is_draw(played: Played) -> bool:
 def _order(standing: Standing, roles: Sequence[str]) -> tuple[float, float, str]:
     time = inf if standing.capture_time is None else standing.capture_time
     evades = standing.role in roles[1:]
-    return -standing.points / max(standing.played, 1), -time if evades else time, standing.law
+    return -_rate(standing), -time if evades else time, standing.law
 
 
 def head_to_head(played: Iterable[Played], roles: Sequence[str]) -> Mapping[tuple[str, str], float]:
@@ -160,7 +177,7 @@ class Tournament:
 
     title, experiment: those of the scenario. roles: those of its contest. matches: their results,
     in order. standings: best first, role by role if each law plays only one. settings: the options
-    in which rounds differ.
+    in which rounds differ. rules: of the game, for people.
     """
 
     title: str
@@ -169,6 +186,7 @@ class Tournament:
     matches: tuple[Played, ...] = field(repr=False)
     standings: tuple[Standing, ...]
     settings: tuple[str, ...] = ()
+    rules: Rules | None = field(default=None, repr=False)
 
     @classmethod
     def of(cls, schedule: Schedule, matches: Iterable[Played]) -> Tournament:
@@ -181,6 +199,7 @@ class Tournament:
             matches=done,
             standings=tuple(league(done, schedule.roles)),
             settings=schedule.settings,
+            rules=schedule.rules,
         )
 
     def rows(self) -> tuple[dict[str, Any], ...]:
@@ -210,28 +229,24 @@ class Tournament:
 
     def standing_rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each law: its place in its table, and its results."""
-        places: dict[str, int] = {}
-        rows = []
-        for standing in self.standings:
-            places[standing.role] = places.get(standing.role, 0) + 1
-            rows.append(
-                {
-                    "role": standing.role,
-                    "place": places[standing.role],
-                    "law": standing.law,
-                    "played": standing.played,
-                    "won": standing.won,
-                    "drawn": standing.drawn,
-                    "lost": standing.lost,
-                    "forfeits": standing.forfeits,
-                    "points": standing.points,
-                    "share": standing.share.mean,
-                    "share_low": standing.share.low,
-                    "share_high": standing.share.high,
-                    "capture_time": standing.capture_time,
-                }
-            )
-        return tuple(rows)
+        return tuple(
+            {
+                "role": standing.role,
+                "place": standing.place,
+                "law": standing.law,
+                "played": standing.played,
+                "won": standing.won,
+                "drawn": standing.drawn,
+                "lost": standing.lost,
+                "forfeits": standing.forfeits,
+                "points": standing.points,
+                "share": standing.share.mean,
+                "share_low": standing.share.low,
+                "share_high": standing.share.high,
+                "capture_time": standing.capture_time,
+            }
+            for standing in self.standings
+        )
 
     def to_frame(self, table: str = "matches") -> DataFrame:
         """Return a table of pandas: "matches", one row a match, or "league", one row a law."""

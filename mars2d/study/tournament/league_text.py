@@ -49,7 +49,7 @@ def _tables(tournament: Tournament) -> str:
     tables = []
     for role, standings in groupby(tournament.standings, key=lambda standing: standing.role):
         rows: list[tuple[str, ...]] = [("", role or "law", *COLUMNS)]
-        rows += [(f"{k}", *_row(standing)) for k, standing in enumerate(standings, 1)]
+        rows += [(f"{standing.place}", *_row(standing)) for standing in standings]
         shown = [
             k
             for k in range(len(rows[0]))

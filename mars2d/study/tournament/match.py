@@ -9,18 +9,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mars2d.addons.contest import Contest, Outcome
-from mars2d.core.errors import InputError, LawError
+from mars2d.core.errors import LawError
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.roles import contest_of
 from mars2d.study.isolation.limits import Limits, Verdict
-from mars2d.study.measures import contests_of
 from mars2d.world.loop import simulate
 
 if TYPE_CHECKING:
     from mars2d.study.isolation import Guard
 
-__all__ = ["Match", "Played", "contest_of", "play", "replayed"]
+__all__ = ["Match", "Played", "play", "replayed"]
 
 
 @dataclass(frozen=True)
@@ -29,7 +28,7 @@ class Match:
 
     number: in the tournament, from 1. experiment: a file, or the name of an example. options: those
     of its round, as for `mars2d.run`. laws: the name of each role's law, as tables show it. files:
-    the paths of these laws.
+    the paths of these laws; a role without one is played by the experiment's own law.
     """
 
     number: int
@@ -69,21 +68,6 @@ class Played:
         return cls(match, message=f"no result: {error}", error=error)
 
 
-def contest_of(scenario: Scenario, name: str) -> Contest:
-    """Return a scenario's contest. Raises InputError if there is none, or several.
-
-    name: the experiment's name in messages.
-    """
-    contests = contests_of(scenario)
-    if len(contests) != 1:
-        found = "has none" if not contests else f"has {len(contests)}"
-        raise InputError(
-            f"{name}: a tournament needs one add-on that says who has won, as "
-            f"Game({{'pursuer': ['red'], 'evader': ['blue']}}); this experiment {found}"
-        )
-    return contests[0]
-
-
 def play(match: Match, limits: Limits, replays: bool) -> Played:
     """Play a match, with each law in a process of its own, and return its result.
 
@@ -104,7 +88,7 @@ def _played(match: Match, limits: Limits, replays: bool) -> tuple[Played, Record
     experiment = open_experiment(match.experiment, match.options, seed=match.seed)
     contest = contest_of(experiment.scenario, match.experiment)
     teams = dict(zip(_roles(contest), contest.teams(experiment.scenario), strict=True))
-    laws = {role: (Path(match.files[role]), team) for role, team in teams.items()}
+    laws = {role: (Path(file), teams[role]) for role, file in match.files.items()}
     with Guard(experiment.scenario, laws, match.seed, limits) as guard:
         record = _record(experiment, guard, match.seed)
     verdicts = dict(guard.verdicts)

@@ -13,8 +13,10 @@ from typing import Any
 
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.roles import contest_of
 from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
-from mars2d.study.tournament.match import Match, contest_of
+from mars2d.study.tournament.match import Match
+from mars2d.study.tournament.rules import Rules
 
 __all__ = ["Files", "Schedule", "entrants", "law_code", "law_files", "names_of", "schedule"]
 
@@ -22,6 +24,9 @@ IMPORT = re.compile(rb"(?:^|[;:])\s*(?:from|import)\s+([a-zA-Z0-9_., \t]+)", re.
 
 Files = str | Path | Sequence[str | Path]
 """One or several files of laws, folders or patterns."""
+
+TRIALS = 3
+"""How many matches try a single law."""
 
 EXPECTED = "expected files of laws (.py), a folder of them, or a pattern as laws/*.py"
 
@@ -31,7 +36,8 @@ class Schedule:
     """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
 
     title, experiment: those of the scenario. roles: those of its contest, in order. settings: the
-    options in which rounds differ. files: those that were read for the experiment itself.
+    options in which rounds differ. files: those that were read for the experiment itself. rules: of
+    the game, in the first round.
     """
 
     title: str
@@ -40,6 +46,7 @@ class Schedule:
     settings: tuple[str, ...]
     matches: tuple[Match, ...]
     files: frozenset[Path] = frozenset()
+    rules: Rules | None = None
 
 
 def schedule(
@@ -65,13 +72,14 @@ def schedule(
     always = {} if stop_time is None else {"stop_time": stop_time}
     rounds = [{**point, **always} for point in plan.points()]
     opened = open_experiment(experiment, rounds[0], seed=plan.seeds[0])
-    parts = contest_of(opened.scenario, str(experiment)).roles
+    contest = contest_of(opened.scenario, str(experiment))
+    parts = contest.roles
     names = tuple(role for role, _ in parts)
     for options in (probe | always for probe in plan.probes()):  # before any match, not after many
         scenario = open_experiment(experiment, options, seed=plan.seeds[0]).scenario
-        contest = contest_of(scenario, str(experiment))
-        contest.teams(scenario)
-        if tuple(role for role, _ in contest.roles) != names:
+        other = contest_of(scenario, str(experiment))
+        other.teams(scenario)
+        if tuple(role for role, _ in other.roles) != names:
             raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
     _check_names(plan.settings, names)
     beside = None if opened.path is None else opened.path.parent
@@ -104,7 +112,41 @@ def schedule(
         settings=tuple(plan.settings),
         matches=matches,
         files=opened.files,
+        rules=Rules.of(opened, contest),
     )
+
+
+def trial_matches(
+    experiment: str, role: str, laws: Files, options: Mapping[str, Any]
+) -> tuple[Match, ...]:
+    """Return a few matches of each law in a role, whose rivals are the experiment's own laws.
+
+    Raises InputError for a role or a file that is not there, and for a law of another role.
+    """
+    opened = open_experiment(experiment, options)
+    names = tuple(name for name, _ in contest_of(opened.scenario, experiment).roles)
+    if role not in names:
+        raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
+    beside = None if opened.path is None else opened.path.parent
+    files = _all_files(laws, beside)
+    check_meant(role, files, names)
+    each = itertools.product(files, range(TRIALS))
+    return tuple(
+        Match(number, experiment, options, seed, {role: file.stem}, {role: str(file)})
+        for number, (file, seed) in enumerate(each, 1)
+    )
+
+
+def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
+    """Refuse laws in a folder that is named for another role, as `corner_evaders` is."""
+    for file in files:
+        words = {word.removesuffix("s") for word in re.split(r"[^a-z]+", file.parent.name.lower())}
+        meant = [each for each in roles if each.lower().removesuffix("s") in words]
+        if meant and role not in meant:
+            raise InputError(
+                f"{file.parent.name}/{file.name}: by its folder it plays {meant[0]}, not {role}; "
+                f"if it is to play {role}, copy it to another folder"
+            )
 
 
 def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
@@ -205,7 +247,9 @@ def entrants(
     every = _all_files(players, beside)
     found = {}
     for role in roles:
-        laws = tuple(dict.fromkeys((*_all_files(given.get(role, ()), beside), *every)))
+        own = _all_files(given.get(role, ()), beside)
+        check_meant(role, own, roles)
+        laws = tuple(dict.fromkeys((*own, *every)))
         if not laws:
             raise InputError(
                 f"no laws for the role {role!r}: name them by --role {role}=FILES, "

@@ -90,6 +90,45 @@ OF_RUN = [
 ]  # fmt: skip
 
 OF_OTHERS = [
+    ("a game that is not there", "mars2d play corner_gam", "did you mean 'corner_game'?"),
+    (
+        "a role that is not there",
+        "mars2d play corner_game --role evadr",
+        "--role evadr",
+        "did you mean 'evader'?",
+    ),
+    ("a role that two would play", "mars2d play sumo --role red,red", "--role red", "already"),
+    ("three people", "mars2d play sumo --role red,blue,red", "two people at most"),
+    ("a game without a display", "mars2d play sumo --role red", "play sumo", "no display"),
+    ("a game that nobody wins", "mars2d play random_walk", "no roles", "--role ROBOT", "robot0"),
+    (
+        "a law for a role that is not there",
+        "mars2d check corner_pursuers/ahead.py --for corner_game --role pursuers",
+        "did you mean 'pursuer'?",
+    ),
+    (
+        "a law for a role of another folder",
+        "mars2d check corner_pursuers/ahead.py --for corner_game --role evader",
+        "corner_pursuers/ahead.py",
+        "pursuer",
+        "not evader",
+    ),
+    (
+        "laws for a role of another folder",
+        "mars2d tournament corner_game --role evader=corner_pursuers",
+        "corner_pursuers/ahead.py",
+        "pursuer",
+        "not evader",
+    ),
+    (
+        "a law for a game that is none",
+        "mars2d check a.py --for random_walk --role red",
+        "random_walk",
+        "who has won",
+    ),
+    ("a law for a game without a role", "mars2d check a.py --for corner_game", "--role ROLE"),
+    ("a law for a role without a game", "mars2d check a.py --role evader", "--for GAME"),
+    ("rules of no page", "mars2d tournament sumo --rules a.txt", "--rules a.txt", ".html"),
     ("an example that is none", "mars2d demo random_wlk", "did you mean 'random_walk'?"),
     ("a demo's seed below 0", "mars2d demo random_walk --headless --seed -1", "seed = -1"),
     ("an edit without a display", "mars2d edit random_walk", "no display"),

@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 import pytest
 
-from mars2d import Robot, Scenario, World
+from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Arrow, Line, Text
 from mars2d.output.layers.bodies import names
@@ -76,6 +76,18 @@ def test_an_arc_goes_from_the_heading_to_that_of_a_second_later(omega):
     for place, angle in ((arc.points[0], heading), (head.tip, heading + turn)):
         x, y = np.array(place) - (1, 2)
         assert (np.arctan2(y, x) - angle + pi) % (2 * pi) - pi == pytest.approx(0, abs=1e-9)
+
+
+def test_circles_show_how_tightly_a_robot_can_turn_at_its_speed():
+    frame = frame_of([(1, 2, pi / 2)], (0, 0.4, 0))
+    (robot,) = frame.scenario.robots
+    robot = robot.replace(drive=Unicycle(max_angular_speed=0.5))
+    bounded = replace(frame, scenario=frame.scenario.replace(robots=[robot]))
+    left, right, _ = velocities(bounded).shapes
+    assert [left.radius, right.radius] == pytest.approx([0.8, 0.8])
+    assert np.array([left.center, right.center]) == pytest.approx(
+        np.array([[1.8, 2.04], [0.2, 2.04]])
+    )
 
 
 def test_in_a_crowd_those_that_turn_the_most_have_arcs():

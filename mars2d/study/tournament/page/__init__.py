@@ -5,12 +5,11 @@ from __future__ import annotations
 import base64
 import zlib
 from collections.abc import Sequence
-from functools import cache
-from importlib.resources import files
 
 from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
 from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Played
+from mars2d.study.tournament.page.rules import dot_style, rules_section
 from mars2d.study.tournament.page.tables import (
     choices,
     details,
@@ -19,7 +18,7 @@ from mars2d.study.tournament.page.tables import (
     shades,
     standing_tables,
 )
-from mars2d.study.tournament.page.words import clean, escaped, facts
+from mars2d.study.tournament.page.words import clean, escaped, facts, read
 
 __all__ = ["MAX_REPLAYS_SIZE", "league_page"]
 
@@ -35,7 +34,7 @@ def league_page(tournament: Tournament) -> str:
     """
     matches = tournament.matches
     kept = _kept(matches)
-    script, style, inside = _read("league.js"), _style(), _read("inside.js")
+    script, style, inside = read("league.js"), _style(tournament), read("inside.js")
     words = {
         "policy": policy([script, inside + page_script()], [style, page_style()]),
         "title": escaped(tournament.title),
@@ -47,6 +46,7 @@ def league_page(tournament: Tournament) -> str:
         "choices": choices(tournament),
         "matches": match_table(tournament, kept),
         "details": details(tournament),
+        "rules": "" if tournament.rules is None else rules_section(tournament.rules),
         "player": _player(clean(tournament.title), inside),
         "replays": "\n".join(
             f'<script id="replay-{played.match.number}" type="text/plain">'
@@ -55,7 +55,7 @@ def league_page(tournament: Tournament) -> str:
             if played.replay
         ),
     }
-    return filled(_read("league.html"), words)
+    return filled(read("league.html"), words)
 
 
 def _kept(matches: Sequence[Played]) -> int:
@@ -74,10 +74,5 @@ def _player(title: str, inside: str) -> str:
     return " ".join(base64.b64encode(zlib.compress(part.encode(), 9)).decode() for part in parts)
 
 
-def _style() -> str:
-    return colors() + shades() + _read("league.css")
-
-
-@cache
-def _read(name: str) -> str:
-    return files(__package__).joinpath(name).read_text(encoding="utf-8")
+def _style(tournament: Tournament) -> str:
+    return colors() + shades() + dot_style(tournament.rules) + read("league.css")

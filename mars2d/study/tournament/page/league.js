@@ -173,7 +173,8 @@ async function show(row) {
   const { match } = row.dataset, rows = chosen(), at = rows.indexOf(row);
   const players = all("[data-role]", row).map((cell) => {
     const name = document.createElement(cell.classList.contains("won") ? "strong" : "span");
-    name.append(cell.firstChild.cloneNode(true), ` as ${cell.dataset.role}`);
+    const copies = [...cell.childNodes].map((each) => each.cloneNode(true));
+    name.append(...copies, ` as ${cell.dataset.role}`);
     return name;
   });
   find("showTitle").replaceChildren(`${match}. `, players[0], " against ", players[1]);

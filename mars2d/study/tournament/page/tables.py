@@ -10,6 +10,7 @@ from mars2d.core.errors import counted
 from mars2d.output.raster.theme import DARK, LIGHT, mixed
 from mars2d.study.tournament.league import DRAW, WIN, Standing, Tournament, is_draw
 from mars2d.study.tournament.match import Played
+from mars2d.study.tournament.page.rules import dots
 from mars2d.study.tournament.page.words import (
     DASH,
     clean,
@@ -20,6 +21,7 @@ from mars2d.study.tournament.page.words import (
     rounds_of,
     time_cell,
 )
+from mars2d.study.tournament.rules import Rules
 
 __all__ = ["choices", "details", "match_table", "matrix", "shades", "standing_tables"]
 
@@ -33,7 +35,7 @@ STANDING_COLUMNS = (
 def standing_tables(tournament: Tournament) -> str:
     """Return a league table for each role, or one for all laws."""
     return "\n".join(
-        _standing_table(role, list(standings))
+        _standing_table(role, list(standings), tournament.rules)
         for role, standings in groupby(tournament.standings, key=lambda standing: standing.role)
     )
 
@@ -48,20 +50,21 @@ def header(columns: Sequence[str]) -> str:
     return f"<thead><tr>{cells}</tr></thead>"
 
 
-def _standing_table(role: str, standings: list[Standing]) -> str:
+def _standing_table(role: str, standings: list[Standing], rules: Rules | None) -> str:
     caption = f"As {escaped(role)}" if role else "All laws"
-    rows = "\n".join(_standing_row(place, standing) for place, standing in enumerate(standings, 1))
+    colored = f"{dots(rules, role)} {caption}" if role else caption
+    rows = "\n".join(_standing_row(standing) for standing in standings)
     return (
         f'<div class="wide" role="region" tabindex="0" aria-label="League table: {caption}">\n'
-        f'<table class="league"><caption>{caption}</caption>\n{header(STANDING_COLUMNS)}\n'
+        f'<table class="league"><caption>{colored}</caption>\n{header(STANDING_COLUMNS)}\n'
         f"<tbody>\n{rows}\n</tbody></table></div>"
     )
 
 
-def _standing_row(place: int, standing: Standing) -> str:
+def _standing_row(standing: Standing) -> str:
     mean = standing.share.mean
     cells = [
-        f"<td>{place}</td>",
+        f"<td>{standing.place}</td>",
         f'<th scope="row">{named(standing.law)}</th>',
         f'<td class="points">{standing.points:g}</td>',
         f'<td data-value="{mean:.9g}" class="share">{_share(standing)}</td>',
@@ -205,7 +208,8 @@ def match_table(tournament: Tournament, kept: int) -> str:
             f'data-start="{escaped(start)}" data-without="{_without(played, at < kept)}"'
             f"{' data-forfeit' if played.verdicts else ''}>"
             f'<th scope="row">{WATCH}{played.match.number}</button></th>'
-            f'<td data-value="{which}">{escaped(rounds[which])}</td>{_cells(played, roles)}</tr>'
+            f'<td data-value="{which}">{escaped(rounds[which])}</td>'
+            f"{_cells(played, tournament.rules, roles)}</tr>"
         )
     names = [role[:1].upper() + role[1:] for role in roles]
     columns = ("Match", "Round", "Seed", *names, "Winner", "Capture time", "How it ended")
@@ -246,12 +250,13 @@ def details(tournament: Tournament) -> str:
     return "\n".join(found)
 
 
-def _cells(played: Played, roles: Sequence[str]) -> str:
+def _cells(played: Played, rules: Rules | None, roles: Sequence[str]) -> str:
     """Return the cells of a match from its seed on."""
     cells = [f"<td>{played.match.seed}</td>"]
     for role in roles:
+        law = named(played.match.laws[role])
         won = ' class="won"' if played.winner == role else ""
-        cells.append(f'<td{won} data-role="{escaped(role)}">{named(played.match.laws[role])}</td>')
+        cells.append(f'<td{won} data-role="{escaped(role)}">{dots(rules, role)}{law}</td>')
     cells.append(f"<td>{_winner(played)}</td>")
     cells.append(time_cell(played.capture_time, 2))
     cells.append(f'<td class="ending">{_ending(played)}</td>')

@@ -9,6 +9,8 @@ from __future__ import annotations
 import html
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from importlib.resources import files
 from itertools import compress
 from math import isfinite
 from pathlib import Path
@@ -25,6 +27,7 @@ __all__ = [
     "facts",
     "laws_of",
     "named",
+    "read",
     "round_of",
     "rounds_of",
     "time_cell",
@@ -35,6 +38,12 @@ DASH = "\N{EN DASH}"
 
 UNFIT = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 """Characters that a page can't hold or show: control characters and lone surrogates."""
+
+
+@cache
+def read(name: str) -> str:
+    """Return a template, script or style of this folder."""
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
 def clean(text: object) -> str:

@@ -1,0 +1,5 @@
+"""Straight: drives straight on."""
+
+
+def control(robot):  # noqa: ARG001
+    return 0, 0

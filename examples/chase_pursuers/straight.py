@@ -1,0 +1,5 @@
+"""Straight: pure pursuit, always heads for where the evader is."""
+
+
+def control(robot):
+    return 100 * (robot.neighbours[0].position - robot.position)  # m/s: its drive limits this

@@ -1,0 +1,67 @@
+"""Hide and seek: who is seen has lost; a pillar is between, and the seeker is the bulkier one.
+
+Question: how much quicker must a seeker be to see who hides behind a pillar? Try your own laws:
+mars2d run hide_and_seek --set hider=my_law.py --set mu=1.1 --seed 3
+Setting: distributed, sensors only: both know their own pose. The seeker sees who is in its line of
+sight; the hider hears the seeker, through the pillar. The hider goes 0.5 m/s, the seeker mu times
+that. An evader is seen when the pillar does not cut the line between the middles of both.
+Source: our own geometry; Bhattacharya and Hutchinson, IJRR 30(14), 2011, have the game at corners.
+Prediction: at D and h from the pillar's middle they see each other if the angle between them is
+less than acos(R / D) + acos(R / h). It falls by mu v / D - v / h a second: never if mu < D / h.
+"""
+
+from math import acos, atan2, cos, pi, sin
+
+import numpy as np
+
+from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d.addons import Game, Map, Theory
+from mars2d.sensors import Pose, RangeBearing
+
+SPEED, PILLAR, NEAR, FAR, VIOLET = 0.5, 1.5, 1.75, 2.05, "#7b3294"  # m/s, of the hider; m
+SEEKER, HIDER = "seekers/circle.py", "hiders/opposite.py"
+
+
+def circle(angle, radius):
+    return radius * cos(angle), radius * sin(angle)
+
+
+def scenario(mu: float = 1.4, seeker: str = SEEKER, hider: str = HIDER, seed: int = 0):
+    def shadow(scene, frame):
+        x, y = frame.pose[:2, 0]
+        half = acos(min(1, PILLAR / np.hypot(x, y)))
+        for side in (-half, half):
+            touch = np.array(circle(atan2(y, x) + side, PILLAR))
+            scene.line([touch, touch + 2 * (touch - (x, y))], stroke=VIOLET, width=1.5)
+
+    apart = np.random.default_rng(seed).uniform(2.3, 3.1)
+    eyes, ears = (RangeBearing(range=20, through_walls=hears) for hears in (False, True))
+    slow, quick = (Holonomic(max_linear_speed=speed) for speed in (SPEED, mu * SPEED))
+    red = Robot(name="red", diameter=1.0, drive=quick, sees="sensors", sensors=[Pose(), eyes])
+    blue = red.replace(name="blue", diameter=0.4, drive=slow, sensors=[Pose(), ears])
+    red, blue = red.replace(controller=load_law(seeker)), blue.replace(controller=load_law(hider))
+    game = Game({"seeker": ["red"], "hider": ["blue"]}, capture="sight")
+    return Scenario(
+        title="Hide and seek",
+        robots=[red.at(FAR, 0, 0), blue.at(*circle(apart, NEAR))],
+        on_exit="wall",
+        stop_time=60.0,
+        addons=[Map([[circle(k * pi / 24, PILLAR) for k in range(48)]]), game, Theory(shadow)],
+        animation=Animation(base_colors=("red", "blue"), playback_speed=4),
+    )
+
+
+def times(record):
+    """When the hider is seen by the formula, at most the stop time, and in the run [s]."""
+    red, blue = (robot.drive.max_linear_speed for robot in record.scenario.robots)
+    falls, end = red / FAR - blue / NEAR, record.scenario.stop_time
+    angle = atan2(*record.pose[0, 1::-1, 1]) - acos(PILLAR / FAR) - acos(PILLAR / NEAR)
+    return min(end, angle / falls) if falls > 0 else end, record.time[-1]
+
+
+def miss(record):
+    return -np.subtract(*times(record))
+
+
+def checks(record):
+    yield Prediction("the hider is not seen for", *times(record), 1.0, "s")

@@ -1,0 +1,5 @@
+"""Straight: heads for where the attacker is, as fast as it can."""
+
+
+def control(robot):
+    return 100 * (robot.neighbours[0].position - robot.position)  # m/s: its drive limits this

@@ -1,0 +1,11 @@
+"""Widest: always runs to the middle of the gap that is the widest now."""
+
+import numpy as np
+
+
+def control(robot):
+    x, y = np.transpose([other.position - robot.position for other in robot.neighbours])
+    bearings = np.sort(np.arctan2(y, x))
+    gaps = np.diff(np.append(bearings, bearings[0] + 2 * np.pi))
+    way = bearings[gaps.argmax()] + gaps.max() / 2
+    return 100 * np.cos(way), 100 * np.sin(way)

@@ -1,0 +1,97 @@
+"""The roles of a game: its contest, and the robots that play a role."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mars2d.addons.contest import Contest
+from mars2d.core.errors import InputError, likely, nearest
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["contest_of", "contests_of", "robots_named", "role_of", "roles_of"]
+
+REFEREE = "Game({'pursuer': ['red'], 'evader': ['blue']})"
+"""An add-on that makes a game, as messages show it."""
+
+MOST_PEOPLE = 2
+"""How many people one keyboard has keys for."""
+
+
+def contests_of(scenario: Scenario) -> list[Contest]:
+    """Return a scenario's contests: the add-ons that decide who has won."""
+    return [addon for addon in scenario.addons if isinstance(addon, Contest)]
+
+
+def contest_of(scenario: Scenario, name: str) -> Contest:
+    """Return a scenario's contest. Raises InputError if there is none, or several, or no outcome.
+
+    name: the experiment's name in messages.
+    """
+    contests = contests_of(scenario)
+    if len(contests) != 1:
+        found = "has none" if not contests else f"has {len(contests)}"
+        raise InputError(
+            f"{name}: a game needs one add-on that says who has won, as {REFEREE}; "
+            f"this experiment {found}"
+        )
+    contest = contests[0]
+    if type(contest).outcome is Contest.outcome:
+        meant = likely("outcome", vars(type(contest)))
+        raise InputError(
+            f"{name}: {type(contest).__name__} has no outcome(record), which says who has won"
+            f"{meant}"
+        )
+    return contest
+
+
+def roles_of(scenario: Scenario) -> dict[str, tuple[int, ...]]:
+    """Return the robots of each role of all contests, by index."""
+    return {
+        role: team
+        for contest in contests_of(scenario)
+        for (role, _), team in zip(contest.roles, contest.teams(scenario), strict=True)
+    }
+
+
+def role_of(scenario: Scenario, robot: int) -> str:
+    """Return the role that a robot, by its index, plays; "" for none."""
+    return next((role for role, team in roles_of(scenario).items() if robot in team), "")
+
+
+def robots_named(
+    scenario: Scenario, named: str | int | Sequence[str | int] | None, field: str
+) -> tuple[int, ...]:
+    """Return the robots, by index, that people drive: each by a name, an index, or a role.
+
+    Who names a role gets its first robot that nobody has yet. Raises InputError, which begins with
+    `field` and ends with the nearest name, if there is none, if two would drive one robot, and for
+    more than `MOST_PEOPLE`.
+    """
+    people = () if named is None else (named,) if isinstance(named, (str, int)) else tuple(named)
+    if len(people) > MOST_PEOPLE:
+        raise InputError(
+            f"{field} {', '.join(map(str, people))}: two people at most, one by the arrow keys, "
+            "the other by W, A, S and D"
+        )
+    taken: list[int] = []
+    for who in people:
+        team = _named(scenario, who, field)
+        free = [robot for robot in team if robot not in taken]
+        if not free:
+            all_of = "its robot" if len(team) == 1 else f"each of its {len(team)} robots"
+            raise InputError(f"{field} {who}: somebody drives {all_of} already")
+        taken.append(free[0])
+    return tuple(taken)
+
+
+def _named(scenario: Scenario, who: str | int, field: str) -> tuple[int, ...]:
+    """Return the robots that a name, an index or a role stands for."""
+    names, roles = [str(robot.name) for robot in scenario.robots], roles_of(scenario)
+    if isinstance(who, str) and who in names:
+        return (names.index(who),)
+    if isinstance(who, str) and who in roles:
+        return roles[who]
+    if str(who).isdecimal() and int(who) < len(names):
+        return (int(who),)
+    known = nearest(who, {*names, *roles})
+    raise InputError(f"{field} {who}: there is no such robot or role{known}")

@@ -1,0 +1,197 @@
+"""The add-on Game where evaders have a goal, are seen, are helped, or where some are enough."""
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Holonomic, InputError, Robot, Scenario, World
+from mars2d.addons import Game, Map
+from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.sensors import RangeBearing
+from mars2d.world.verify import rerun
+from tests.worlds import finished
+
+GOAL = [(2, -5), (5, -5), (5, 5), (2, 5)]
+
+
+def going(vx):
+    return lambda _: (vx, 0.0)
+
+
+def race(speeds, hunter=0.0, *, stop_time=10.0, workspace=None, starts=None, **game):
+    """Evaders side by side go to the right [m/s] towards the goal; a hunter runs on y = 0."""
+    robot = Robot(drive=Holonomic(max_linear_speed=2.0), diameter=0.2)
+    names = [f"b{k}" for k in range(len(speeds))]
+    team = [
+        robot.replace(name=name, controller=going(speed)).at(x, 0.5 * k + 0.5)
+        for k, (name, speed, x) in enumerate(
+            zip(names, speeds, starts or [0.0] * len(speeds), strict=True)
+        )
+    ]
+    roles = {"guard": ["red"], "attacker": names}
+    fields = {"capture": 0.6, "goal": GOAL, **game}
+    return Scenario(
+        robots=[robot.replace(name="red", controller=going(hunter)).at(-4, 0), *team],
+        addons=[Game(roles, **fields)],
+        workspace=workspace,
+        stop_time=stop_time,
+    )
+
+
+# -- a goal -------------------------------------------------------------------------------------
+
+
+def test_an_evader_whose_middle_is_in_the_goal_is_safe_stands_still_and_has_won():
+    world = finished(race([0.5]))
+    game = world.addons.game
+    assert world.over_message == "b0 has reached the goal after 4 s: attacker wins"
+    assert (game.winner, game.safe, game.free, game.caught) == ("attacker", (1,), (), ())
+    assert game.score == {"guard": 0, "attacker": 1}
+    assert np.isnan(game.outcome(world.record).capture_time)
+
+
+def test_who_is_not_at_the_goal_in_time_has_lost():
+    world = finished(race([0.1]))
+    assert world.over_message == "time is over after 10 s: guard wins"
+    assert world.addons.game.outcome(world.record).winner == "guard"
+
+
+def test_some_are_safe_and_others_caught_and_it_goes_on_until_it_is_decided():
+    # red is 0.6 m from b0 and b1 at about 2 s; b1, in the goal before, is safe
+    scenario = race([0.0, 1.0, 0.0], 2.0, starts=[-1.0, 1.5, -2.0], wanted=2, capture=0.8)
+    world = finished(scenario)
+    game = world.addons.game
+    assert game.safe == (2,)
+    assert world.record.command[10:, 0, 2].tolist() == [0.0] * (len(world.record) - 10)
+    assert game.caught == (1,)
+    assert game.winner == "guard"  # two were needed, one more is free at the end
+    assert world.over_message == "time is over after 10 s: guard wins"
+
+
+def test_the_evaders_have_won_when_too_many_are_safe():
+    world = finished(race([1.0, 0.8, 0.0], wanted=2))
+    assert world.over_message == "2 of 3 have reached the goal after 2.5 s: attacker wins"
+
+
+def test_the_hunters_have_won_when_they_have_as_many_as_they_want():
+    world = finished(race([0.0, 0.0], 1.0, goal=None, wanted=1, capture=0.7))
+    assert world.over_message == "red catches b0, the 1st of 2, after 3.6 s: guard wins"
+    assert world.addons.game.score == {"guard": 1, "attacker": 1}
+    few = finished(race([0.0, 0.0], 0.0, goal=None, wanted=1))
+    assert few.over_message == "2 of 2 were not caught in 10 s: attacker wins"
+
+
+def test_who_is_caught_before_the_goal_is_not_safe_when_it_is_pushed_in():
+    scenario = race([0.0, 0.0], 1.0, starts=[1.7, -3.0], stop_time=8.0)
+    red, blue, other = scenario.robots
+    robots = [red.at(-4, 0.5), blue.replace(mass=0.2), other.at(-3, 4)]
+    game = Game({"guard": ["red"], "attacker": ["b0", "b1"]}, goal=GOAL)
+    world = finished(scenario.replace(robots=robots, addons=[game]))
+    assert world.record.pose[-1, 0, 1] > 2.0
+    for found in (world.addons.game, world.addons.game.outcome(world.record)):
+        assert [capture.evader for capture in found.captures] == [1]
+        assert found.winner == "guard"
+    assert world.addons.game.safe == ()
+
+
+def test_a_loaded_record_tells_the_same_draws_the_same_and_runs_again(tmp_path):
+    world = finished(race([0.0, 1.0, 0.0], 2.0, starts=[-1.0, 1.5, -2.0], wanted=2, capture=0.8))
+    game = world.addons.game
+    loaded = mars2d.load(world.record.save(tmp_path / "race.npz"))
+    kept = loaded.scenario.addons[0]
+    assert kept == world.scenario.addons[0]
+    outcome = kept.outcome(loaded)
+    assert (outcome.score, outcome.winner) == (game.score, game.winner)
+    assert outcome.captures == game.captures
+    assert rerun(loaded) is None
+    drawn = []
+    for frame in (world.frame, loaded.frame(-1)):
+        drawn.append(Scene())
+        kept.draw(drawn[-1], frame)
+    live, replayed = (scene.shapes for scene in drawn)
+    assert [str(shape) for shape in live] == [str(shape) for shape in replayed]
+    kinds = [type(shape) for shape in live]
+    assert kinds == [Circle] + [Circle, Line, Line, Text] + [Circle, Text]  # reach, caught, safe
+    floor = Scene()
+    kept.paint(floor, ())
+    assert len(floor.shapes) == 1
+
+
+# -- sight --------------------------------------------------------------------------------------
+
+PILLAR = Map([[(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]])
+
+
+def looking(speed, walls=PILLAR):
+    """A hider behind a pillar goes up; a seeker with eyes stands on the other side."""
+    robot = Robot(drive=Holonomic(), diameter=0.2, sensors=[RangeBearing(range=20)])
+    red = robot.replace(name="red", controller=going(0.0)).at(-2, 0)
+    blue = robot.replace(name="blue", controller=lambda _: (0.0, speed)).at(2, 0)
+    game = Game({"seeker": ["red"], "hider": ["blue"]}, capture="sight")
+    return Scenario(robots=[red, blue], addons=[walls, game], stop_time=10.0)
+
+
+def test_who_is_seen_is_caught_as_soon_as_no_obstacle_is_between():
+    world = finished(looking(0.25))
+    # the line from (-2, 0) to (2, y) clears the corner (-0.5, 0.5) from y = 4 / 3 on
+    assert world.addons.game.capture_times == pytest.approx([4 / 3 / 0.25], abs=0.1)
+    assert world.over_message == "red sees blue after 5.4 s: seeker wins"
+    assert world.addons.game.outcome(world.record).winner == "seeker"
+    scene = Scene()
+    world.scenario.addons[1].draw(scene, world.record.frame(-1))
+    assert [type(shape) for shape in scene.shapes] == [Line, Circle, Line, Line, Text]
+
+
+def test_the_referee_sees_what_the_sensor_sees():
+    world = finished(looking(0.25))
+    seen = np.isfinite(world.record.sensors["range_bearing"][:, 0, 1, 0])
+    assert world.addons.game.capture_times == (world.record.time[seen.argmax()],)
+    assert 0 < seen.argmax() == len(seen) - 1
+
+
+def test_who_is_not_seen_all_the_time_has_won():
+    assert finished(looking(0.0)).over_message == "blue was not seen in 10 s: hider wins"
+    assert finished(looking(0.0, Map([]))).over_message.startswith("red sees blue after 0 s")
+
+
+# -- somebody else is hunted --------------------------------------------------------------------
+
+
+def test_only_the_hunted_are_caught_and_the_second_role_helps_them():
+    scenario = race([0.0, 0.0], 1.0, goal=None, capture=0.7)
+    game = Game({"guard": ["red"], "attacker": ["b0"]}, capture=1.1, hunted=["b1"])
+    world = finished(scenario.replace(addons=[game]))
+    assert world.over_message.startswith("red catches b1 after")
+    assert world.addons.game.caught == (2,)
+    assert scenario.replace(addons=[game]).addons[0].teams(scenario) == ((0,), (1,))
+
+
+# -- what is refused ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"goal": [(0, 0), (1, 1)]}, r"Game.goal = .*: expected a polygon's vertices"),
+        ({"goal": 3}, "Game.goal = 3"),
+        ({"wanted": 0}, "Game.wanted = 0: expected a whole number from 1"),
+        ({"hunted": []}, r"Game.hunted = .*nobody has this role"),
+        ({"capture": "sigth"}, "did you mean 'sight'"),
+    ],
+)
+def test_games_that_can_not_be_are_refused_in_words(fields, words):
+    with pytest.raises(InputError, match=words):
+        Game({"guard": ["red"], "attacker": ["b0"]}, **fields)
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"wanted": 3}, "Game.wanted = 3: expected at most 2, as there are 2 robots to catch"),
+        ({"hunted": ["red"]}, "Game.hunted: red is a hunter"),
+        ({"hunted": ["pink"]}, "Game.hunted: there is no robot 'pink'"),
+    ],
+)
+def test_robots_that_do_not_fit_are_refused_in_words(fields, words):
+    with pytest.raises(InputError, match=words):
+        World(race([0.0, 0.0], **fields))

@@ -1,0 +1,129 @@
+"""The rules of a game in words, and the page that shows them to a class."""
+
+from dataclasses import replace
+
+import pytest
+
+from mars2d import Robot, Scenario
+from mars2d.addons import Game, Ring
+from mars2d.cli.command_line import main
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.roles import contest_of
+from mars2d.study.tournament.page.rules import rules_page
+from mars2d.study.tournament.rules import Rules
+from tests.browser import Tab
+
+EVIL = "<script>alert(1)</script> & \"quoted\" 'too'"
+
+
+def rules_of(game, **options):
+    opened = open_experiment(game, options)
+    return Rules.of(opened, contest_of(opened.scenario, str(game)))
+
+
+def test_rules_are_those_of_the_games_file():
+    rules = rules_of("corner_game", mu=0.8)
+    hunter, evader = rules.roles
+    assert rules.game == "corner_game"
+    assert rules.story.startswith("Corner pursuit as a game")
+    assert (hunter.name, hunter.robots, hunter.aim) == ("pursuer", ("red",), "catch blue")
+    assert hunter.drive == "Holonomic, at most 0.4 m/s"
+    assert hunter.command == "(vx [m/s], vy [m/s])"
+    assert "positions" in hunter.sees
+    assert evader.aim == "stay free for 200 s"
+    assert rules.counts.startswith("A capture is when the pursuer touches the evader.")
+    assert rules.arena.startswith("x from -5 m to 5 m")
+    assert "Walls stand round it." in rules.arena
+    assert rules.time == "200 s at most; a law is asked every 0.1 s."
+    assert rules.colors == {"pursuer": ("#d62728",), "evader": ("#1f77b4",)}
+
+
+def test_without_forces_the_rules_say_so():
+    assert "go through each other" in rules_of("corner_game", physics="ideal").arena
+    assert "1.5 m from the middle" in rules_of("sumo").counts
+
+
+@pytest.mark.parametrize(
+    ("fields", "hunter", "evader", "counted"),
+    [
+        ({}, "catch b and c", "stay free for 100 s", "touches one of 2. Who is caught stands"),
+        ({"capture": 0.4}, "catch b and c", "stay free for 100 s", "comes within 0.4 m of one of"),
+        ({"capture": "sight"}, "see b and c", "stay out of sight", "sees one of 2, with no obst"),
+        ({"wanted": 1}, "catch 1 of 2", "stay free", "wolf wins with the capture. If time"),
+        (
+            {"goal": [(4, 4), (5, 4), (5, 5)]},
+            "catch b and c before 1 of 2 is in the goal",
+            "reach the goal uncaught",
+            "The sheep wins when 1 of 2 is in the goal uncaught. If time is over before, the wolf",
+        ),
+    ],
+)
+def test_a_pursuit_says_what_is_counted(fields, hunter, evader, counted):
+    robots = [Robot(name=name, pose=(k, 0, 0)) for k, name in enumerate("abc")]
+    game = Game({"wolf": ["a"], "sheep": ["b", "c"]}, **fields)
+    scenario = Scenario(robots=robots, addons=[game])
+    assert game.aim("wolf", scenario) == hunter
+    assert game.aim("sheep", scenario).startswith(evader)
+    assert counted in game.counts
+
+
+def test_a_bout_of_teams_says_who_is_to_go():
+    robots = [Robot(name=name, pose=(k, 0, 0)) for k, name in enumerate("abcdef")]
+    ring = Ring({"red": ["a"], "blue": ["b", "c", "d", "e", "f"]}, radius=9)
+    scenario = Scenario(robots=robots, addons=[ring])
+    assert ring.aim("red", scenario) == "shove all 5 out of the ring"
+    assert ring.aim("blue", scenario) == "shove a out of the ring"
+    assert "the role whose robots are all out has lost" in ring.counts
+
+
+def test_tables_of_a_docstring_keep_their_columns():
+    page = rules_page(rules_of("corner_game"))
+    assert "<p>Question: who catches whom" in page
+    assert "<pre>            away            corners" in page
+
+
+@pytest.mark.parametrize("size", [(1280, 900), (390, 800)])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_page_needs_nothing_else_and_fits_at_any_width(browser, tmp_path, size, scheme):
+    path = tmp_path / "rules.html"
+    rules = rules_of("sumo")
+    evil = replace(rules, story=f"{EVIL}\n\nNews: {EVIL}", counts=EVIL, title=EVIL)
+    path.write_text(rules_page(evil), encoding="utf-8")
+    tab = Tab(browser, size, color_scheme=scheme)
+    tab.page.goto(path.as_uri())
+    assert tab.page.locator("h1").inner_text() == f"{EVIL}: the rules"
+    assert tab.page.locator(".story p").all_inner_texts() == [EVIL, f"News: {EVIL}"]
+    assert tab.page.evaluate("document.documentElement.scrollWidth") <= size[0]
+    assert tab.page.locator(".start img").evaluate("image => image.naturalWidth") > 100
+    color = tab.page.locator(".dot").first.evaluate("dot => getComputedStyle(dot).backgroundColor")
+    assert (color == "rgb(214, 39, 40)") == (scheme == "light")
+    assert tab.complaints == []
+    assert tab.asked == [path.as_uri()]
+    tab.close()
+
+
+def test_the_command_writes_the_page_without_any_law(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["tournament", "sumo", "--rules", "rules.html", "--tick-limit", "3"]) == 0
+    assert capsys.readouterr().out.strip() == "rules: rules.html"
+    assert "more than 3 s for one step" in (tmp_path / "rules.html").read_text(encoding="utf-8")
+    assert [path.name for path in tmp_path.iterdir()] == ["rules.html"]
+
+
+def test_a_tournament_shows_the_rules_and_the_colours_of_its_roles(browser, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    command = ["tournament", "corner_game", "--seeds", "1", "--stop-time", "2"]
+    roles = ["--role", "pursuer=corner_pursuers", "--role", "evader=corner_evaders/away.py"]
+    assert main([*command, *roles]) == 0
+    tab = Tab(browser, (1280, 900))
+    tab.page.goto((tmp_path / "tournament_corner_game" / "league.html").as_uri())
+    tab.page.get_by_text("The rules").click()
+    tab.page.get_by_text("Catch blue.").wait_for()
+    tab.page.locator("tr[data-match='2'] .watch").click()
+    colors = tab.page.locator("#showTitle .dot").evaluate_all(
+        "dots => dots.map(dot => getComputedStyle(dot).backgroundColor)"
+    )
+    assert colors == ["rgb(214, 39, 40)", "rgb(31, 119, 180)"]
+    assert "as pursuer against" in tab.page.locator("#showTitle").inner_text()
+    assert tab.complaints == []
+    tab.close()

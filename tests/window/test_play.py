@@ -1,0 +1,340 @@
+"""Games that people play: roles, the countdown, the end, the scores, with real keys."""
+
+import json
+
+import pygame
+import pytest
+
+from mars2d.core.errors import InputError
+from mars2d.output.raster.layout import TEXT_SIZES
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.roles import contest_of
+from mars2d.window.display import Preferences
+from mars2d.window.memory import Memory
+from mars2d.window.play import COUNTDOWN, game_of
+from mars2d.window.scores import Scores, Tally
+from mars2d.window.window import Window
+from mars2d.world.timeline import Timeline
+from tests.window.person import needs_screen
+
+CATCH = """
+from mars2d import Holonomic, Robot, Scenario, load_law
+from mars2d.addons import Game
+
+
+def scenario(pursuer="hunts.py", stop_time=60.0):
+    fast = Robot(name="red", pose=(-1, 0, 0), drive=Holonomic(max_linear_speed=1.0))
+    slow = Robot(name="blue", pose=(1, 0, 0), drive=Holonomic(max_linear_speed=0.5))
+    return Scenario(
+        title="Catch",
+        robots=[fast.replace(controller=load_law(pursuer), sees="positions"), slow],
+        on_exit="wall",
+        stop_time=stop_time,
+        addons=[Game({"pursuer": ["red"], "evader": ["blue"]})],
+    )
+"""
+HUNTS = "def control(robot):\n    return 5 * (robot.neighbours[0].position - robot.position)\n"
+RESTS = "def control(robot):\n    return 0.0, 0.0\n"
+
+
+@pytest.fixture
+def memory(tmp_path, monkeypatch):
+    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
+    return Memory()
+
+
+@pytest.fixture
+def catch(tmp_path):
+    """Return a game's file: red catches blue after two seconds, where nobody drives."""
+    (tmp_path / "hunts.py").write_text(HUNTS)
+    (tmp_path / "rests.py").write_text(RESTS)
+    path = tmp_path / "catch.py"
+    path.write_text(CATCH)
+    return path
+
+
+def opened(source, memory, people=(), size=(1280, 720), text=1.0, **options):
+    experiment = open_experiment(source, options)
+    window = Window(Timeline(experiment), 1.0, size, Preferences(text=text))
+    window.play(memory, game_of(experiment, options), people)
+    return window
+
+
+def run_to_the_end(window):
+    """Let the countdown and the game go by, without a clock."""
+    for _ in range(40):
+        window.game.pass_time(0.1)
+    assert window.player.playing
+    timeline = window.director.timeline
+    while not timeline.over:
+        window.director.steer(0.1)
+        timeline.advance()
+    window.player.settle()
+    assert window.game.pass_time(0.1)
+
+
+# -- scores ---------------------------------------------------------------------------------------
+
+
+def test_a_tally_knows_the_quickest_win_and_the_longest_loss():
+    tally = Tally()
+    for won, time in [(False, 3.0), (True, 9.0), (False, 5.0), (True, 7.0), (None, 20.0)]:
+        tally = tally.after(won, time)
+    assert tally == Tally(played=5, won=2, drawn=1, quickest=7.0, longest=5.0)
+    assert tally.in_words == "won 2 of 5, 1 drawn, quickest in 7.0 s"
+    survived = Tally().after(True, None)  # until time was over
+    assert survived.in_words == "won 1 of 1"
+    assert survived.after(False, 4.0).in_words == "won 1 of 2, held out 4.0 s"
+    assert Tally().in_words == ""
+
+
+def test_scores_are_kept_by_game_and_role(memory):
+    Scores(memory, "corner_game").add("evader", won=False, time=12)
+    Scores(memory, "corner_game, mu = 0.8").add("evader", won=True, time=None)
+    again = Memory()
+    assert Scores(again, "corner_game").of("evader") == Tally(played=1, longest=12.0)
+    assert Scores(again, "corner_game").of("pursuer") == Tally()
+    assert Scores(again, "corner_game, mu = 0.8").of("evader").won == 1
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"g": 3}', '{"g": {"r": {"played": "x"}}}', "\0"])
+def test_a_file_of_scores_that_can_not_be_read_is_empty(memory, tmp_path, text):
+    Scores(memory, "g").add("r", won=True, time=1.0)
+    (tmp_path / "memory" / "scores.json").write_text(text)
+    assert Scores(memory, "g").of("r") == Tally()
+    Scores(memory, "g").add("r", won=True, time=2.0)
+    assert Scores(memory, "g").of("r").quickest == 2.0
+
+
+def test_without_a_memory_nothing_is_kept_and_nothing_fails(monkeypatch):
+    monkeypatch.setenv("MARS2D_MEMORY", "")
+    scores = Scores(Memory(), "g")
+    scores.add("r", won=True, time=1.0)
+    assert scores.of("r") == Tally()
+
+
+def test_a_file_of_ones_own_is_known_by_its_path_and_its_settings(catch):
+    experiment = open_experiment(catch, {})
+    assert game_of(experiment, {}) == str(catch)
+    assert game_of(experiment, {"stop_time": 9, "mu": 1}) == f"{catch}, mu = 1, stop_time = 9"
+
+
+# -- the end of a game ----------------------------------------------------------------------------
+
+
+def test_who_is_caught_has_lost_and_a_rematch_begins_with_a_countdown(memory, catch):
+    window = opened(catch, memory, [1])
+    assert window.game.counting == COUNTDOWN
+    assert not window.player.playing
+    run_to_the_end(window)
+    assert window.game.result.words == "You lose"
+    assert window.game.result.winners == (0,)
+    lasted = window.director.timeline.record.time[-1]
+    assert window.game.tally("evader") == Tally(played=1, longest=lasted)
+    window._restart()
+    assert window.game.result is None
+    assert window.game.counting == COUNTDOWN
+    assert window.player.frame.time == 0
+    run_to_the_end(window)
+    assert window.game.tally("evader").played == 2
+
+
+def test_who_stays_free_has_won_and_a_better_time_is_news(memory, catch):
+    window = opened(catch, memory, [1], pursuer="rests.py", stop_time=3.0)
+    run_to_the_end(window)
+    assert window.game.result.words == "You win"
+    assert window.game.tally("evader") == Tally(played=1, won=1)
+    window = opened(catch, memory, [1])
+    Scores(memory, game_of(open_experiment(catch), {})).add("evader", won=False, time=0.1)
+    run_to_the_end(window)
+    assert window.game.result.news.startswith("Your best: ")
+
+
+def test_a_game_that_hands_have_changed_does_not_count(memory, catch):
+    window = opened(catch, memory, [1])
+    window.director.change(lambda world: world.hands.place("red", (-2, 1, 0)))
+    run_to_the_end(window)
+    assert window.game.result.news.startswith("Not counted")
+    assert window.game.tally("evader") == Tally()
+
+
+def test_two_people_have_a_tally_of_their_own(memory, catch):
+    window = opened(catch, memory, [1, 0])  # the hunter's person does nothing
+    assert [seat.role for seat in window.game.seats] == ["evader", "pursuer"]
+    assert [seat.keys[0] for seat in window.game.seats] == ["↑", "W"]
+    run_to_the_end(window)
+    assert window.game.result.words == "Evader wins"
+    assert window.game.tally("pursuer") == Tally(played=1)
+    assert opened(catch, memory, [1]).game.tally("evader") == Tally()
+
+
+def test_a_law_that_fails_ends_no_game(memory, catch):
+    (catch.parent / "hunts.py").write_text("def control(robot):\n    return 1 / robot.time, 0\n")
+    window = opened(catch, memory, [1])
+    for _ in range(40):
+        window.game.pass_time(0.1)
+    window.player.pass_time(0.2)
+    assert window.player.failed
+    assert not window.game.pass_time(0.1)
+    assert window.game.result is None
+
+
+def test_a_draw_is_said(memory):
+    window = opened("sumo", memory, [0, 1], stop_time=0.1)
+    run_to_the_end(window)
+    assert window.game.result.words == "A draw"
+    assert window.game.tally("red").drawn == 1
+
+
+# -- what is seen ---------------------------------------------------------------------------------
+
+
+def test_the_panel_says_how_it_stands(memory):
+    game = opened("corner_game", memory, [1]).game
+    frame = game._player.frame
+    red, blue = frame.pose[:2].T
+    assert game.distance(frame) == pytest.approx(((red - blue) ** 2).sum() ** 0.5)
+    assert game.played_by("pursuer") == "straight"
+    assert game.played_by("evader") == "you"
+    assert game.score() == {}  # with one robot each it says nothing
+    assert [(each.number, each.title) for each in game.choices] == [
+        (1, "pursuer"), (2, "evader"), (3, "two people"),
+    ]  # fmt: skip
+
+
+def test_teams_have_scores_and_those_who_are_out_are_not_near(memory, tmp_path):
+    file = tmp_path / "teams.py"
+    file.write_text(
+        "from mars2d import Robot, Scenario\n"
+        "from mars2d.addons import Game\n"
+        "places = [('a', -2), ('b', -1.4), ('c', 2)]\n"
+        "robots = [Robot(name=n, pose=(x, 0, 0)) for n, x in places]\n"
+        "game = Game({'wolf': ['a'], 'sheep': ['b', 'c']}, capture=1.0)\n"
+        "scenario = Scenario(robots=robots, addons=[game])\n"
+    )
+    window = opened(file, memory, [0])
+    assert window.game.score() == {"wolf": "1 caught", "sheep": "1 free"}
+    assert window.game.distance(window.player.frame) == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize("size", [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)])
+@pytest.mark.parametrize("text", TEXT_SIZES)
+def test_the_panel_stands_beside_the_arena_of_whoever_plays(memory, size, text):
+    window = opened("corner_game", memory, [1], size, text)
+    window.game.counting = 0.0
+    surface = pygame.Surface(size, 0, 32)
+    window.draw(surface)
+    window.draw(surface)
+    assert "inspector" not in window.dock.plates  # no plot of forces for whoever plays
+    if "score" not in window.dock.plates:
+        assert text * 400 > size[0] / 2  # large letters
+        assert ("↑ ← ↓ →", "evader") in window._hints()
+        return
+    assert not window.dock.plates["score"].colliderect(window._seen_arena(window.player.frame))
+
+
+# -- files that are no games ----------------------------------------------------------------------
+
+
+def test_a_contest_without_an_outcome_is_named_with_the_word_that_was_meant(tmp_path):
+    file = tmp_path / "hill.py"
+    file.write_text(
+        "from mars2d import Robot, Scenario\n"
+        "from mars2d.addons.contest import Contest\n"
+        "class Hill(Contest):\n    def outcom(self, record):\n        return None\n"
+        "robots = [Robot(name=n, pose=(x, 0, 0)) for n, x in [('red', 0), ('blue', 2)]]\n"
+        "scenario = Scenario(robots=robots, addons=[Hill({'a': ['red'], 'b': ['blue']})])\n"
+    )
+    with pytest.raises(InputError) as raised:
+        contest_of(open_experiment(file).scenario, "hill.py")
+    assert str(raised.value) == (
+        "hill.py: Hill has no outcome(record), which says who has won; did you mean 'outcom'?"
+    )
+
+
+# -- with real keys -------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def play(open_window, tmp_path, monkeypatch):
+    """Return a function that opens a window with a game, whose scores are kept for this test."""
+    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
+
+    def start(speed, source, people=(), **options):
+        return open_window(speed, experiment=str(source), people=people, **options)
+
+    return start
+
+
+@needs_screen
+@pytest.mark.parametrize("way", ["key", "click"])
+def test_a_role_is_chosen_counted_down_and_driven(play, way):
+    person = play(1.0, "corner_game")
+    assert person.state["game"]["seats"] == []
+    person.press("space")  # begins nothing yet
+    assert person.settle()["time"] == 0
+    if way == "key":
+        person.press("2")
+    else:
+        person.do("mousemove", *person.state["game"]["choices"]["2"], "click", 1)
+    person.until(lambda s: s["game"]["seats"] == [1] and s["game"]["counting"])
+    assert person.state["time"] == 0
+    person.until(lambda s: not s["game"]["counting"] and s["time"] > 0)
+    before = person.state["robots"][1]
+    person.do("keydown", "Right")
+    person.until(lambda s: s["robots"][1][0] > before[0] + 0.3)
+    person.do("keyup", "Right")
+
+
+@needs_screen
+def test_space_starts_at_once_and_escape_pauses_before_it_leaves(play):
+    person = play(1.0, "corner_game", [1])
+    person.press("space")
+    person.until(lambda s: s["time"] > 0)
+    person.press("Escape")
+    person.says("paused: Space goes on")
+    person.press("space")
+    person.until(lambda s: s["playing"])
+    person.press("Escape")
+    person.until(lambda s: not s["playing"])
+    person.press("Escape")
+    person.process.wait(20)
+
+
+@needs_screen
+def test_two_people_drive_by_arrows_and_by_letters(play):
+    person = play(1.0, "sumo", [0, 1])
+    person.press("space")
+    person.do("keydown", "Down", "keydown", "s")  # both back off
+    person.until(lambda s: s["robots"][0][0] < -0.9 and s["robots"][1][0] > 0.9)
+    person.do("keyup", "Down", "keyup", "s")
+
+
+@needs_screen
+def test_in_the_end_r_plays_again_and_the_score_is_kept(play, catch, tmp_path):
+    person = play(5.0, catch, [1])
+    person.press("space")
+    person.until(lambda s: s["game"]["result"] == "You lose")
+    assert "R" in person.state["banner"] or "pursuer wins" in person.state["banner"]
+    assert person.state["game"]["tally"].startswith("won 0 of 1")
+    person.press("r")
+    person.until(lambda s: s["game"]["counting"] and s["time"] == 0)
+    person.press("space")
+    person.until(lambda s: s["game"]["result"] == "You lose")
+    kept = json.loads((tmp_path / "memory" / "scores.json").read_text())
+    assert kept["observed"]["evader"]["played"] == 2
+    person.press("1")  # the other role
+    person.until(lambda s: s["game"]["seats"] == [0] and s["time"] == 0)
+
+
+@needs_screen
+def test_a_law_is_saved_while_somebody_plays(play, catch):
+    person = play(1.0, catch, [1], set={"pursuer": "rests.py"})
+    person.press("space")
+    person.until(lambda s: s["time"] > 0.3)
+    (catch.parent / "rests.py").write_text(HUNTS)
+    person.says("in effect")
+    start = person.state["robots"][0]
+    person.until(lambda s: s["robots"][0][0] > start[0] + 0.2)
+    person.until(lambda s: s["game"]["result"] == "You lose")
+    assert person.state["game"]["news"].startswith("Not counted")
