@@ -59,7 +59,8 @@ def checks(record):
     if caught and straight and not record.scenario.props:
         g, near = moved[0, 1] / moved[0, 0], record.scenario.robots[0].diameter
         phi = np.arccos(np.clip(sight[0] @ step[0, :, 1] / r[0] / moved[0, 1], -1, 1))
-        if ((sight * step[:, :, 0]).sum(axis=1) > 0.99 * r * moved[:, 0]).all():  # pure pursuit
+        aimed = (sight * step[:, :, 0]).sum(axis=1) > 0.99 * r * moved[:, 0]
+        if aimed[:-1].all():  # pure pursuit
             way = (r[0] * (1 + g * cos(phi)) - near * (1 + g)) / (1 - g**2)
             yield Prediction("capture", way / SPEED, caught[0].time, 0.3, "s")
         elif (sight[1:-1] @ sight[0] > 0.995 * r[0] * r[1:-1]).all():  # constant bearing
