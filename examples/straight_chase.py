@@ -52,15 +52,14 @@ def scenario(
 
 
 def checks(record):
-    path, caught = record.pose[:, :2], record.scenario.addons[0].outcome(record).captures
+    path, caught = record.pose[:-1, :2], record.scenario.addons[0].outcome(record).captures
     step, sight = np.diff(path, axis=0), path[:-1, :, 1] - path[:-1, :, 0]
     r, moved = np.hypot(*sight.T), np.hypot(*step.transpose(1, 0, 2))
     straight = np.hypot(*step[:, :, 1].sum(axis=0)) > 0.999 * moved[:, 1].sum()  # the evader
     if caught and straight and not record.scenario.props:
         g, near = moved[0, 1] / moved[0, 0], record.scenario.robots[0].diameter
         phi = np.arccos(np.clip(sight[0] @ step[0, :, 1] / r[0] / moved[0, 1], -1, 1))
-        aimed = (sight * step[:, :, 0]).sum(axis=1) > 0.99 * r * moved[:, 0]
-        if aimed[:-1].all():  # pure pursuit
+        if ((sight * step[:, :, 0]).sum(axis=1) > 0.99 * r * moved[:, 0]).all():  # pure pursuit
             way = (r[0] * (1 + g * cos(phi)) - near * (1 + g)) / (1 - g**2)
             yield Prediction("capture", way / SPEED, caught[0].time, 0.3, "s")
         elif (sight[1:-1] @ sight[0] > 0.995 * r[0] * r[1:-1]).all():  # constant bearing

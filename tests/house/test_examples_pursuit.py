@@ -55,10 +55,7 @@ def test_isaacs_boundary_is_the_nearest_pass_of_two_who_do_what_they_can():
             np.hypot(g * t - 1 + np.cos(t), y - np.sin(t))[: np.searchsorted(t, asin(y)) + 1].min()
             for y in np.linspace(0.02, g, 200)
         ]
-        least = (
-            open_module("homicidal_chauffeur").least(g) / open_module("homicidal_chauffeur").RADIUS
-        )
-        assert max(gaps) == pytest.approx(least, abs=1e-4)
+        assert max(gaps) == pytest.approx(game.least(g) / game.RADIUS, abs=1e-4)
         assert np.argmax(gaps) == len(gaps) - 1, "the best is y = g"
 
 
