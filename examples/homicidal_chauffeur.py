@@ -40,7 +40,8 @@ def scenario(
         for side in (1, -1):
             at = RADIUS * (ahead[: len(across)] + side * 1j * across) * np.exp(1j * theta)
             scene.line(np.transpose([x + at.real, y + at.imag]), stroke="#7b3294", width=3)
-            scene.circle((x - side * RADIUS * sin(theta), y + side * RADIUS * cos(theta)), RADIUS)
+            middle = x - side * RADIUS * sin(theta), y + side * RADIUS * cos(theta)
+            scene.circle(middle, RADIUS, stroke="#7b329480")
 
     way, heading = np.random.default_rng(seed).uniform(0, 2 * pi, 2)
     hold = {"force_limited": accel > 0, "max_force": accel or 1.0, "max_torque": 100.0}

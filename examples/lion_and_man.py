@@ -6,8 +6,9 @@ Source: R. Rado's problem, with A. S. Besicovitch's man, in J. E. Littlewood, A 
 Miscellany, 1953; L. Alonso, A. S. Goldstein and E. M. Reingold, Lion and Man: Upper and Lower
 Bounds, ORSA Journal on Computing 4, 1992: comes the lion as near as c, it takes a time of the order
 of (R / v) log(R / c); as a point, it never catches a point that runs as Besicovitch says.
-Prediction: from a man who runs round the edge the lion on his radius is r = R sin(v t / R) from the
-middle, on a circle of half the radius: it is c behind him after (R / v) asin(1 - c / R).
+Prediction: a man runs round the middle at the distance R, and the lion keeps on his radius. Then it
+is R sin(v t / R) from the middle, on a circle half as large, and c behind him after the time
+(R / v) asin(1 - c / R).
 """
 
 from math import asin, cos, pi, sin
@@ -23,16 +24,16 @@ AROUND = np.linspace(0, 2 * pi, 120, endpoint=False)
 
 def scenario(
     lion: str = "lions/radius.py",
-    man: str = "men/edge.py",
+    man: str = "men/circle.py",
+    start: float = 0.9,  # where he is, in shares of the radius
     reach: float = 0.2,  # m
     accel: float = 0.0,  # m/s^2, what feet hold, 0: any
     seed: int = 0,
 ):
     def half(scene, frame):
         x, y = frame.scenario.initial_pose[:2, 1]
-        middle = np.array([-y, x]) / np.hypot(x, y) * RADIUS / 2
-        scene.circle(middle, RADIUS / 2, stroke="#7b3294", width=2)
-        scene.circle((0, 0), RADIUS, stroke="#7b3294")
+        for middle, part in (((-y / 2, x / 2), 0.5), ((0, 0), 1)):
+            scene.circle(middle, part * np.hypot(x, y), stroke="#7b3294", width=2)
 
     way, hold = np.random.default_rng(seed).uniform(0, 2 * pi), {"force_limited": accel > 0}
     feet = Holonomic(max_linear_speed=SPEED, max_force=accel or 5.0, **hold)
@@ -40,11 +41,10 @@ def scenario(
         name="lion", sees="positions", diameter=reach, drive=feet, controller=load_law(lion)
     )
     blue = red.replace(name="man", controller=load_law(man))
-    share = 1.0 if "edge" in man else 0.5  # of the radius, where he starts
     edge = (RADIUS + reach / 2) / cos(pi / len(AROUND))
     return Scenario(
         title="Lion and man",
-        robots=[red.at(0, 0), blue.at(*share * RADIUS * np.array([cos(way), sin(way)]))],
+        robots=[red.at(0, 0), blue.at(start * RADIUS * cos(way), start * RADIUS * sin(way))],
         workspace=edge * np.transpose([np.cos(AROUND), np.sin(AROUND)]), on_exit="wall",
         sampling_time=0.05, stop_time=200.0,
         addons=[Game({"lion": ["lion"], "man": ["man"]}), Theory(half)],
@@ -55,10 +55,10 @@ def scenario(
 def checks(record):
     caught = record.scenario.addons[0].outcome(record).captures
     lion, man = record.pose[:, :2].transpose(2, 0, 1)
-    on_radius = lion[1:-1, 0] * man[1:-1, 1] - lion[1:-1, 1] * man[1:-1, 0]
-    if caught and np.hypot(*man.T).min() > 0.99 * RADIUS and np.abs(on_radius).max() < 0.1 * RADIUS:
-        reach = record.scenario.robots[0].diameter
-        meal = RADIUS / SPEED * asin(1 - reach / RADIUS)
+    reach, far = record.scenario.robots[0].diameter, np.hypot(*man.T)
+    cross = np.abs(lion[1:-1, 0] * man[1:-1, 1] - lion[1:-1, 1] * man[1:-1, 0])
+    if caught and np.ptp(far) < 0.02 * RADIUS and (cross < 0.1 * RADIUS).all():  # on his radius
+        meal = far[0] / SPEED * asin(1 - reach / far[0])
         yield Prediction("meal", meal, caught[0].time, 0.1, "s")
-        away = np.abs(np.hypot(*lion.T) - RADIUS * np.sin(SPEED * record.time / RADIUS))
-        yield Prediction("lion off its radius at most", 0, away[:-1].max(), 0.05, "m")
+        off = np.hypot(*lion.T) - far[0] * np.sin(SPEED * record.time / far[0])
+        yield Prediction("lion beside the formula", 0, np.abs(off[:-1]).max(), 0.05, "m")

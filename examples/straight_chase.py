@@ -52,7 +52,7 @@ def scenario(
 
 
 def checks(record):
-    path, caught = record.pose[:, :2], record.scenario.addons[0].outcome(record).captures
+    path, caught = record.pose[:-1, :2], record.scenario.addons[0].outcome(record).captures
     step, sight = np.diff(path, axis=0), path[:-1, :, 1] - path[:-1, :, 0]
     r, moved = np.hypot(*sight.T), np.hypot(*step.transpose(1, 0, 2))
     straight = np.hypot(*step[:, :, 1].sum(axis=0)) > 0.999 * moved[:, 1].sum()  # the evader

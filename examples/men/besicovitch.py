@@ -11,7 +11,7 @@ RADIUS = 4.0  # m, of the arena
 
 def control(robot):
     x, y = robot.position
-    room, n = 0.9 * (RADIUS**2 - x * x - y * y), 0
+    room, n = 0.9 * max(RADIUS**2 - x * x - y * y, 0), 0
     while True:
         x, y = robot.position
         lx, ly = robot.neighbours[0].position
@@ -19,7 +19,8 @@ def control(robot):
         side = -1.0 if x * ly - y * lx > 0 else 1.0  # away from the lion
         n += 1
         way = (room / n**1.5 / 2.612) ** 0.5  # the sum of n^-1.5 is 2.612
-        ahead = 0.0
-        while ahead < way:
+        while True:
             yield -100 * side * y / far, 100 * side * x / far
-            ahead += robot.drive.max_linear_speed * robot.sampling_time
+            way -= robot.drive.max_linear_speed * robot.sampling_time
+            if way <= 0:
+                break

@@ -12,6 +12,7 @@ from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
 from mars2d.scenario.controllers import ByHand
 from mars2d.scenario.experiment import Experiment, examples
+from mars2d.scenario.roles import MOST_PEOPLE
 from mars2d.window.display import Preferences
 from mars2d.window.source import Playback
 from mars2d.world.loop import Interrupted

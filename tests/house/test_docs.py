@@ -47,7 +47,10 @@ from mars2d.world.views import PropView, RobotView
 ROOT = Path(__file__).parents[2]
 SENSORS = sorted((ROOT / "docs" / "sensors").glob("*.md"))
 EXPERIMENTS = sorted((ROOT / "docs" / "experiments").glob("*.md"))
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS, *EXPERIMENTS]
+PURSUIT = sorted((ROOT / "docs" / "pursuit").glob("*.md"))
+DOCUMENTS = [
+    ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS, *EXPERIMENTS, *PURSUIT,
+]  # fmt: skip
 EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
 SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest -n auto']
@@ -58,10 +61,12 @@ PIP = {*SET_UP, 'pip install ".[video,data,log,cluster]"'}
 
 MEASURED = {
     "speed_growth.png", "paper_page.png", "window_branch.png", "replay.png", "league.png",
-    "home.png", "play_roles.png", "play_end.png",
+    "home.png", "play_roles.png", "play_end.png", "straight_chase_bodies.png",
+    "homicidal_chauffeur_bodies.png", "homicidal_chauffeur_boundary.png", "two_cars_bodies.png",
+    "lion_and_man_bodies.png", "encirclement_bodies.png",
 }  # fmt: skip
-"""Pictures that no block makes: `benchmarks/growth.py` takes minutes, a page needs a browser, a
-window somebody at the keys."""
+"""Pictures that no block makes: `benchmarks/growth.py` and `docs/make_pursuit.py` take minutes, a
+page needs a browser, a window somebody at the keys."""
 
 LANGUAGES = {"python", "toml", "console", "text", "matlab", ""}
 
@@ -300,6 +305,7 @@ def test_pictures_are_small_and_each_is_shown():
 
 
 EXPERIMENT_PAGES = [path for path in EXPERIMENTS if path.stem != "index"]
+PURSUIT_PAGES = [path for path in PURSUIT if path.stem != "index"]
 
 
 @pytest.mark.parametrize("page", EXPERIMENT_PAGES, ids=lambda path: path.stem)
@@ -317,6 +323,18 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
     assert experiment.checks is not None
 
 
+@pytest.mark.parametrize("page", PURSUIT_PAGES, ids=lambda path: path.stem)
+def test_a_pursuits_page_has_a_picture_the_game_with_bodies_exercises_and_their_answer(page):
+    name = page.stem
+    titles = re.findall(r"^## (.+)$", prose(page), flags=re.M)
+    assert titles == [
+        "Run it", "The game", "Theory and measurement", "With bodies", "Exercises", "Model answer",
+    ]  # fmt: skip
+    assert {f"{name}.png", f"{name}_bodies.png"} <= set(pictures(page))
+    assert f"(../../examples/solutions/{name}.py)" in page.read_text(encoding="utf-8")
+    assert open_experiment(ROOT / "examples" / "solutions" / f"{name}.py").checks is not None
+
+
 LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi"}
 """Experiments whose model answers take seconds: `pytest -m soak`."""
 
@@ -326,7 +344,7 @@ LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi
     "page",
     [
         pytest.param(page, id=page.stem, marks=[pytest.mark.soak] if page.stem in LONG else [])
-        for page in EXPERIMENT_PAGES
+        for page in (*EXPERIMENT_PAGES, *PURSUIT_PAGES)
     ],
 )
 def test_the_model_answer_of_an_experiment_checks_itself(page):
@@ -341,7 +359,8 @@ def test_each_experiments_page_is_in_their_index():
     for page in EXPERIMENT_PAGES:
         assert f"({page.name})" in index
     for answer in (ROOT / "examples" / "solutions").glob("*.py"):
-        assert answer.stem in {page.stem for page in EXPERIMENT_PAGES}, answer.name
+        pages = (*EXPERIMENT_PAGES, *PURSUIT_PAGES)
+        assert answer.stem in {page.stem for page in pages}, answer.name
 
 
 # -- tables -----------------------------------------------------------------------------------
@@ -447,7 +466,7 @@ def test_each_add_on_is_in_their_page():
 
 def test_each_example_that_checks_itself_is_a_lesson_with_a_picture():
     courses = ("contact.md", "communication.md", "information.md", "sensing.md")
-    pages = [*(ROOT / "docs" / name for name in courses), *EXPERIMENTS]
+    pages = [*(ROOT / "docs" / name for name in courses), *EXPERIMENTS, *PURSUIT]
     text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
     lessons = set(re.findall(r"^mars2d run (\w+) .*--figure", text, flags=re.M))
     checked = {name for name, path in examples().items() if open_experiment(path).checks}

@@ -37,7 +37,7 @@ DIGESTS = {
     "hide_and_seek": "b9448f5189c1ae4f7db18b567f22b3379e471cf4272387260b3fe89d15973d8f",
     "homicidal_chauffeur": "642db8c7a46ba7bd0aa5dda8089eee25cdaadc7292415f6a7a10450d889b2e95",
     "leader_following": "efd9620dea54eb94752954e3e49c91526db9b1c779a98b672c7d96fd47105c5d",
-    "lion_and_man": "a1aab5cfc50f0be6bf41abe9499ef5a75d65f8c625f089076218d119f268f68c",
+    "lion_and_man": "762cf5cbc41063c1114e5fc533dd5379475eea494f9cc007cadd79082b14a9ba",
     "many_push_one": "d44d1d8c7b6a50ffc7d1bd4ad617a1c74bbad1eb213eb7a5b1beeaf797cb3648",
     "material_pairs": "e4c1f416319b2de338f62ae0c1e4eb097009460999aed7ae38f8681ce1fe130a",
     "obstacle_avoidance": "ad0d30660f25c2824212b7dcf06367f6731bcecd733d0e30efd0d8944d3a7b19",
