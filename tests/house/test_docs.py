@@ -47,7 +47,10 @@ from mars2d.world.views import PropView, RobotView
 ROOT = Path(__file__).parents[2]
 SENSORS = sorted((ROOT / "docs" / "sensors").glob("*.md"))
 EXPERIMENTS = sorted((ROOT / "docs" / "experiments").glob("*.md"))
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS, *EXPERIMENTS]
+PURSUIT = sorted((ROOT / "docs" / "pursuit").glob("*.md"))
+DOCUMENTS = [
+    ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS, *EXPERIMENTS, *PURSUIT,
+]  # fmt: skip
 EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
 SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest -n auto']
@@ -182,6 +185,7 @@ SLOW = {
     "own_sensor_and_addon", "sensing", "speed", "studies", "tournaments",
     "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "herding",
     "leader_following", "path_planning", "pursuit_corners", "pursuit_voronoi", "rendezvous",
+    *(path.stem for path in PURSUIT),
 }  # fmt: skip
 """Documents that take seconds."""
 
@@ -316,6 +320,24 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
     assert experiment.checks is not None
 
 
+PURSUIT_PAGES = [path for path in PURSUIT if path.stem != "index"]
+
+
+@pytest.mark.parametrize("page", PURSUIT_PAGES, ids=lambda path: path.stem)
+def test_a_pursuit_page_has_a_formula_bodies_exercises_and_their_answer(page):
+    name = page.stem
+    text = page.read_text(encoding="utf-8")
+    titles = re.findall(r"^## (.+)$", prose(page), flags=re.M)
+    assert titles == ["Play it", "Formula", "With bodies", "Exercises", "Model answer"]
+    assert f"{name}.png" in pictures(page)
+    assert films(page) == [f"{name}.gif"]
+    for word in ("**Sources.**", "**Conditions.**", "**The referee counts"):
+        assert word in text
+    assert f"(../../examples/solutions/{name}.py)" in text
+    assert open_experiment(ROOT / "examples" / "solutions" / f"{name}.py").checks is not None
+    assert f"({page.name})" in (page.parent / "index.md").read_text(encoding="utf-8")
+
+
 LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi"}
 """Experiments whose model answers take seconds: `pytest -m soak`."""
 
@@ -325,7 +347,7 @@ LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi
     "page",
     [
         pytest.param(page, id=page.stem, marks=[pytest.mark.soak] if page.stem in LONG else [])
-        for page in EXPERIMENT_PAGES
+        for page in (*EXPERIMENT_PAGES, *PURSUIT_PAGES)
     ],
 )
 def test_the_model_answer_of_an_experiment_checks_itself(page):
@@ -340,7 +362,8 @@ def test_each_experiments_page_is_in_their_index():
     for page in EXPERIMENT_PAGES:
         assert f"({page.name})" in index
     for answer in (ROOT / "examples" / "solutions").glob("*.py"):
-        assert answer.stem in {page.stem for page in EXPERIMENT_PAGES}, answer.name
+        pages = (*EXPERIMENT_PAGES, *PURSUIT_PAGES)
+        assert answer.stem in {page.stem for page in pages}, answer.name
 
 
 # -- tables -----------------------------------------------------------------------------------
