@@ -48,12 +48,6 @@ GAMES = (
     Game("pursuit_voronoi", "red", "Catch the evader"),
     Game("sumo", "red", "Push blue out"),
     Game("herding", "dog", "Pen the flock"),
-    Game("guard_the_line", "attacker", "Reach the line"),
-    Game("capture_the_flag", "attacker", "Capture the flag"),
-    Game("round_a_pillar", "evader", "Run round the pillar"),
-    Game("hide_and_seek", "hider", "Stay out of sight"),
-    Game("escort", "escort", "Stay in between"),
-    Game("selfish_herd", "flock", "Be one of many"),
 )
 """The games, easiest to understand first."""
 
