@@ -1,4 +1,4 @@
-"""Make the films of the experiments' pages, docs/pictures/NAME.gif.
+"""Make the films of the pages of experiments and pursuit games, docs/pictures/NAME.gif.
 
 python docs/make_experiments.py [NAME ...]
 """
@@ -35,7 +35,7 @@ def make(name: str) -> Path:
 
 
 if __name__ == "__main__":
-    pages = (DOCS / "experiments").glob("*.md")
+    pages = [*(DOCS / "experiments").glob("*.md"), *(DOCS / "pursuit").glob("*.md")]
     names = sys.argv[1:] or sorted(page.stem for page in pages if page.stem != "index")
     for each in names:
         film = make(each)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -35,7 +36,7 @@ def dominance(
     [[6.0, 3.0, 2.0, 3.0], [0.0, 1.732050808, 0.0, -1.732050808]]
     """
     e, p = np.asarray(evader, dtype=float), np.asarray(pursuer, dtype=float)
-    ways = np.array([cosine_sine(2 * pi * k / count) for k in range(count)]).T
+    ways = _ways(count)
     apart = e - p
     a, b = 1 - 1 / ratio**2, ways[0] * apart[0] + ways[1] * apart[1] - capture / ratio
     c = apart[0] ** 2 + apart[1] ** 2 - capture**2
@@ -44,3 +45,11 @@ def dominance(
     meets = (inside >= 0) & (below > c / FAR)
     way = np.where(meets, c / np.where(meets, below, 1.0), FAR)
     return np.asarray(e[:, None] + way * ways)
+
+
+@lru_cache(maxsize=8)
+def _ways(count: int) -> Float:
+    """Return unit vectors in as many directions (2, count), counter-clockwise from the x axis."""
+    ways = np.array([cosine_sine(2 * pi * k / count) for k in range(count)]).T
+    ways.flags.writeable = False
+    return ways

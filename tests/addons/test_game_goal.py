@@ -111,7 +111,7 @@ def test_a_loaded_record_tells_the_same_draws_the_same_and_runs_again(tmp_path):
     live, replayed = (scene.shapes for scene in drawn)
     assert [str(shape) for shape in live] == [str(shape) for shape in replayed]
     kinds = [type(shape) for shape in live]
-    assert kinds == [Circle] + [Circle, Line, Line, Text] + [Circle, Text]  # reach, caught, safe
+    assert kinds == [Circle, *(Circle, Line, Line, Text), *(Circle, Text)]  # reach, caught, safe
     floor = Scene()
     kept.paint(floor, ())
     assert len(floor.shapes) == 1

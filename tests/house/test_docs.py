@@ -188,6 +188,7 @@ SLOW = {
     "own_sensor_and_addon", "sensing", "speed", "studies", "tournaments",
     "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "herding",
     "leader_following", "path_planning", "pursuit_corners", "pursuit_voronoi", "rendezvous",
+    *(path.stem for path in PURSUIT),
 }  # fmt: skip
 """Documents that take seconds."""
 
@@ -324,15 +325,18 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
 
 
 @pytest.mark.parametrize("page", PURSUIT_PAGES, ids=lambda path: path.stem)
-def test_a_pursuits_page_has_a_picture_the_game_with_bodies_exercises_and_their_answer(page):
+def test_a_pursuit_page_has_a_formula_bodies_exercises_and_their_answer(page):
     name = page.stem
+    text = page.read_text(encoding="utf-8")
     titles = re.findall(r"^## (.+)$", prose(page), flags=re.M)
-    assert titles == [
-        "Run it", "The game", "Theory and measurement", "With bodies", "Exercises", "Model answer",
-    ]  # fmt: skip
-    assert {f"{name}.png", f"{name}_bodies.png"} <= set(pictures(page))
-    assert f"(../../examples/solutions/{name}.py)" in page.read_text(encoding="utf-8")
+    assert titles == ["Play it", "Formula", "With bodies", "Exercises", "Model answer"]
+    assert f"{name}.png" in pictures(page)
+    assert {f"{name}_bodies.png", f"{name}_physics.png"} & {*pictures(page)}
+    assert "**The referee counts" in text
+    assert re.search(r"\b(1[6-9]|20)\d\d\b|Our own geometry", text), "whose formula?"
+    assert f"(../../examples/solutions/{name}.py)" in text
     assert open_experiment(ROOT / "examples" / "solutions" / f"{name}.py").checks is not None
+    assert f"({page.name})" in (page.parent / "index.md").read_text(encoding="utf-8")
 
 
 LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi"}
