@@ -41,6 +41,9 @@ CONTROLS = {
         "K",
         "M3.5 15a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0M11.5 9a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0",
     ),
+    "scopes": Control("Scopes", "Q", "M4 4v16h16M7 15l4-6 4 4 5-8"),
+    "figure": Control("Save as a figure", "", "M4 4h16v16H4ZM7 16l4-5 3 3 3-6"),
+    "table": Control("Save the numbers as CSV", "", "M4 5h16v14H4ZM4 10h16M4 14.5h16M10 5v14"),
     "drive": Control(
         "Drive by hand",
         "H",

@@ -64,7 +64,8 @@ class Experiment:
     theory, or None. summary: the first line of the file's docstring, or empty. path: of the file,
     or None. opened: opens the experiment anew, with laws that share nothing with these; None if it
     does not come from a file alone. files: all files read for it. functions: the public functions
-    that its file defines, by name.
+    that its file defines, by name. scopes: what its window plots at first: names of columns, and
+    functions of the record that return a number for each row.
     """
 
     scenario: Scenario
@@ -76,6 +77,7 @@ class Experiment:
     opened: Callable[[], Experiment] | None = None
     files: frozenset[Path] = frozenset()
     functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
+    scopes: tuple[str | Callable[[Any], Any], ...] = ()
 
     def reopened(self) -> Experiment:
         """Return the experiment opened anew, or itself if it does not come from a file.
@@ -186,6 +188,7 @@ def _opened(
         check = getattr(module, "checks", None)
         if check is not None:
             checks.law("checks", check, "the record")
+        scopes = _scopes_of(module)
     except Mars2dError as error:
         error.where = error.where or Path(name).name
         raise
@@ -198,8 +201,22 @@ def _opened(
         if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
     }
     return Experiment(
-        scenario, law, Path(name).name, check, summary, path=lies, functions=functions
-    )
+        scenario, law, Path(name).name, check, summary, path=lies, functions=functions,
+        scopes=scopes,
+    )  # fmt: skip
+
+
+def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
+    """Return what a module's list ``scopes`` has: names of columns, and functions."""
+    given = getattr(module, "scopes", ())
+    expected = "a list of columns, as 'speed', and functions of the record"
+    if isinstance(given, (str, Mapping)) or not isinstance(given, Iterable):
+        raise wrong("scopes", given, expected)
+    scopes = tuple(given)
+    for k, each in enumerate(scopes):
+        if not isinstance(each, str):
+            checks.law(f"scopes[{k}]", each, "the record")
+    return scopes
 
 
 def _of_scenario_file(

@@ -31,14 +31,15 @@ from mars2d.window.sensorplot import TITLE, SensorPlot, plot_of
 
 __all__ = ["Inspector", "sensor_plots"]
 
-COLUMN, LEAST = 300.0, 176.0
-"""The least width of a column of sections, and the least height of the inspector, points."""
+COLUMN, LEAST, LEAST_IN_CONTACT = 300.0, 176.0, 258.0
+"""The least width of a column of sections, and the least height of the inspector, points: with the
+state, and where there are forces with their plot."""
 
 GAP = 9.0
 """The gap between two sections, points."""
 HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
 """The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
-MIN_FORCE = 76.0
+MIN_FORCE = 60.0
 """The lowest plot of forces, points."""
 CLOSE = 20.0
 """The room for the button that closes it, points."""
@@ -101,7 +102,10 @@ class Inspector(Panel):
         each = [section.height + GAP for _, section in self._look(frame)]
         columns = _columns(width)
         wanted = sum(each) if columns == 1 else (sum(each) + max(each)) / columns
-        return LEAST, max(LEAST, *each, wanted)
+        least = LEAST_IN_CONTACT if frame.scenario.physics == "contact" else LEAST
+        if columns > 1:
+            least = max(LEAST, *each)
+        return least, max(least, wanted)
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
         """Draw the inspector within a rectangle."""
