@@ -117,13 +117,17 @@ def net_forces(
     seen = (rows >= steps.start) & (rows < steps.stop)
     mine, step = contacts[seen], rows[seen] - steps.start
     force = mean_forces(mine, sampling_time)
-    found = np.zeros((len(steps), len(bodies)))
-    for k, body in enumerate(bodies):
-        sign = (mine["b"] == body).astype(float) - (mine["a"] == body)
-        at = np.flatnonzero(sign)
-        x, y = (np.bincount(step[at], sign[at] * force[at, i], len(steps)) for i in (0, 1))
-        found[:, k] = np.hypot(x, y)
-    return found
+    count = len(bodies)
+    place = np.full(max(bodies, default=0) + 1, -1)
+    place[list(bodies)] = np.arange(count)
+    net = np.zeros((2, len(steps) * count))
+    for side, sign in (("a", -1.0), ("b", 1.0)):
+        body = mine[side]
+        at = np.flatnonzero((body >= 0) & (body < len(place)))
+        at = at[place[body[at]] >= 0]
+        where = step[at] * count + place[body[at]]
+        net += [np.bincount(where, sign * force[at, i], len(net[0])) for i in (0, 1)]
+    return np.hypot(*net).reshape(len(steps), count)
 
 
 def chosen_robots(record: Record, robots: Sequence[str | int] | None) -> tuple[int, ...]:
@@ -273,7 +277,7 @@ def _force(
     dt, rows = record.scenario.sampling_time, record.contact_rows
     force = net_forces(record.contacts, rows, robots, range(len(record)), dt)
     values, unit = (force, "N") if head == "force" else (force * dt, "N s")
-    return [Signal(f"net contact {head}", unit, values, robots, "pre")]
+    return [Signal(f"contact {head}", unit, values, robots, "pre")]
 
 
 def _distance(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import ceil, pi
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import hairlines
 from mars2d.output.signals import thinned
 
-__all__ = ["Limits", "as_number", "draw_axes", "draw_curve", "limits_of", "polylines"]
+__all__ = ["Limits", "as_number", "draw_axes", "draw_crowd", "draw_curve", "limits_of", "polylines"]
 
 Float = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ def draw_axes(
     """
     ui, fonts, theme = painter.ui, painter.fonts, painter.theme
     start, end, low, high = limits
-    lines = max(2.0, min(4.0, area.height / (26 * ui)))
+    lines = max(1.0, min(3.0, area.height / (36 * ui)))
     step = round_force((high - low) / lines)
     for k in range(ceil(low / step - 1e-9), int(np.floor(high / step + 1e-9)) + 1):
         y = area.bottom - round((k * step - low) / (high - low) * area.height)
@@ -76,7 +77,7 @@ def draw_axes(
         text = f"{k * step:.4g} {unit}".strip().replace("-", "\N{MINUS SIGN}")
         image = fonts.render(text, 11 * ui, theme.muted)
         surface.blit(image, image.get_rect(midright=(area.left - round(6 * ui), y)))
-    step = round_force((end - start) / max(2.0, min(4.0, area.width / (60 * ui))))
+    step = round_force((end - start) / max(1.0, min(4.0, area.width / (66 * ui))))
     for k in range(ceil(start / step - 1e-9), int(end / step + 1e-9) + 1):
         x = area.left + round((k * step - start) / (end - start) * area.width)
         surface.fill(theme.grid, (x, area.top, 1, area.height))
@@ -135,6 +136,34 @@ def draw_curve(
             hairlines(surface, ink, points, width * painter.ui)
         else:
             pygame.draw.aacircle(surface, ink, points[0].tolist(), width * painter.ui)
+
+
+def draw_crowd(
+    surface: pygame.Surface,
+    area: pygame.Rect,
+    limits: Limits,
+    times: Float,
+    values: Float,
+    colors: Sequence[str],
+) -> None:
+    """Draw many curves (T, k) at once, thin and without steps; what is not finite is left out."""
+    lies = np.searchsorted(times, [limits.start, limits.end])
+    seen = slice(max(int(lies[0]) - 1, 0), int(lies[1]) + 1)
+    times, values = times[seen], values[seen]
+    size = max(1, 4 * len(times) // max(area.width, 1))
+    if size > 1:  # of each block its smallest and its largest value
+        starts = np.arange(0, len(times), size)
+        pair = np.fmin.reduceat(values, starts, axis=0), np.fmax.reduceat(values, starts, axis=0)
+        values = np.stack(pair, axis=1).reshape(-1, values.shape[1])
+        times = np.repeat(times[starts], 2)
+    if len(times) < 2:
+        return
+    high = (np.nan_to_num(values, nan=limits.low) - limits.low) / (limits.high - limits.low)
+    y = np.rint(area.bottom - np.clip(high, -1.0, 2.0) * area.height).astype(int).T.tolist()
+    share = (times - limits.start) / (limits.end - limits.start)
+    x = np.rint(area.left + share * area.width).astype(int).tolist()
+    for k, color in enumerate(colors):
+        pygame.draw.lines(surface, color, closed=False, points=list(zip(x, y[k], strict=True)))
 
 
 def as_number(value: float, unit: str = "") -> str:

@@ -23,7 +23,15 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.buttons import Buttons, draw_icon
 from mars2d.window.dock import Panel
 from mars2d.window.forcemeter import span_of
-from mars2d.window.plot import Limits, as_number, draw_axes, draw_curve, limits_of, polylines
+from mars2d.window.plot import (
+    Limits,
+    as_number,
+    draw_axes,
+    draw_crowd,
+    draw_curve,
+    limits_of,
+    polylines,
+)
 from mars2d.window.saving import Saver
 from mars2d.window.trace import Trace, What
 from mars2d.window.viewpoint import wheel_notches
@@ -35,16 +43,18 @@ Float = NDArray[np.float64]
 TITLE, LEFT, FOOT, GAP = 19.0, 52.0, 17.0, 7.0
 """The room for a plot's title, the numbers of its axis and those of the time axis, and the gap to
 the next plot, points."""
-LEAST, WANTED = 60.0, 124.0
+LEAST, WANTED = 58.0, 124.0
 """The least and the wanted height of a plot with its title, points."""
 HIGH = 86.0
 """The height from which on a plot has a line for the names of its curves, points."""
 SHARING = 2
 """From how many plots on the least height of the panel does not grow."""
-BAR, LINE = 30.0, 16.0
+BAR, LINE = 26.0, 16.0
 """The heights of the buttons and of a line of text, points."""
 NAMED = 6
 """The most curves of a plot whose names and numbers are written."""
+WIDTH, CROWD = 2.0, 12
+"""The width of a curve, points, and the most curves of a plot that are drawn with care."""
 REMOVE = 18.0
 """The side of the button that removes a plot, points."""
 
@@ -280,14 +290,16 @@ class Scopes(Panel):
         limits = limits_of(start, end, signal.values[seen])
         draw_axes(surface, area, self.painter, limits, times=last)
         colors = self._colors(frame.scenario, signal)
-        width = 2.0 if len(colors) <= NAMED else 1.0
         before = surface.get_clip()
         surface.set_clip(area.inflate(2, 4).clip(before))
-        for k, color in enumerate(colors):
-            lines = polylines(
-                area, limits, times, signal.values[:, k], held=signal.held, wraps=signal.wraps
-            )
-            draw_curve(surface, self.painter, lines, color, width)
+        if len(colors) > CROWD:
+            draw_crowd(surface, area, limits, times, signal.values, colors)
+        else:
+            for k, color in enumerate(colors):
+                lines = polylines(
+                    area, limits, times, signal.values[:, k], held=signal.held, wraps=signal.wraps
+                )
+                draw_curve(surface, self.painter, lines, color, WIDTH)
         surface.set_clip(before)
         remove = pygame.Rect(0, 0, round(REMOVE * ui), round(REMOVE * ui))
         remove.midright = place.right, place.top + round(TITLE / 2 * ui)
@@ -341,7 +353,8 @@ class Scopes(Panel):
         numbers = [as_number(float(value)) for value in values]
         both = [f"{name} {one}".strip() for name, one in zip(plot.names, numbers, strict=True)]
         gap = round(9 * ui)
-        for words in (both, numbers, plot.names):
+        short = (numbers, plot.names) if plot.signal.bodies else (plot.names, numbers)
+        for words in (both, *short):
             widths = [fonts.width(word, 12 * ui) + gap for word in words]
             if left + sum(widths) <= right:
                 break

@@ -361,6 +361,7 @@ class Window:
         frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
+        self._inspector.plays = self._drives
         self.viewpoint.arrange(layout, frame.scenario, self.dock.arrange(layout, frame))
         marks = self.grab.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
