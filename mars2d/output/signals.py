@@ -127,7 +127,7 @@ def net_forces(
         at = at[place[body[at]] >= 0]
         where = step[at] * count + place[body[at]]
         net += [np.bincount(where, sign * force[at, i], len(net[0])) for i in (0, 1)]
-    return np.hypot(*net).reshape(len(steps), count)
+    return np.asarray(np.hypot(*net).reshape(len(steps), count))
 
 
 def chosen_robots(record: Record, robots: Sequence[str | int] | None) -> tuple[int, ...]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.core.scene import PALETTE
+from mars2d.core.usercode import name_of
 from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.raster.painter import Painter
@@ -144,6 +145,13 @@ class Scopes(Panel):
             trace.bodies = (*trace.bodies, *(b for b in bodies if b not in trace.bodies))
         self.is_open = bool(self.traces)
         self._image = None
+
+    def renew(self, functions: Sequence[Callable[[Any], Any]]) -> None:
+        """Take functions, of a file that was read again, in place of those of the same names."""
+        named = {name_of(function): function for function in functions}
+        for trace in self.traces:
+            if not isinstance(trace.what, str):
+                trace.what = named.get(trace.name, trace.what)
 
     def meet(self, scenario: Scenario) -> None:
         """Forget the bodies that a scenario does not have."""
@@ -374,6 +382,19 @@ class Scopes(Panel):
         each = count // len(signal.bodies)
         names = [str(scenario.bodies[body].name) for body in signal.bodies]
         return [f"{name} {k}" if each > 1 else name for name in names for k in range(each)]
+
+    @property
+    def areas(self) -> dict[str, pygame.Rect]:
+        """Where the curves of each signal were drawn, by its name."""
+        corner = self._place.topleft
+        return {plot.signal.name: plot.area.move(corner) for plot in self._plots}
+
+    @property
+    def places(self) -> dict[str, pygame.Rect]:
+        """The places of all buttons, those that remove a plot by the name of its signal."""
+        corner = self._place.topleft
+        removes = {plot.signal.name: plot.remove.move(corner) for plot in self._plots}
+        return self._buttons.places | removes
 
     # -- the mouse ----------------------------------------------------------------------------
 

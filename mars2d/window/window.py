@@ -21,6 +21,7 @@ from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
+from mars2d.record.record import Record
 from mars2d.window import keys
 from mars2d.window.context import (
     entries_of_body,
@@ -329,6 +330,7 @@ class Window:
 
     def _meet(self) -> None:
         """Release and deselect all bodies if the experiment has others than before."""
+        self.scopes.renew(self._own_functions)
         cast = _cast(self.player.source)
         if cast == self._cast:
             return
@@ -538,6 +540,10 @@ class Window:
         timeline = self.director.timeline
         return () if timeline is None else timeline.experiment.scopes
 
+    @property
+    def _own_functions(self) -> list[Callable[[Record], object]]:
+        return [what for what in self._own_scopes if not isinstance(what, str)]
+
     def _begin_scopes(self) -> None:
         """Plot what the experiment's file names."""
         robots = tuple(range(len(self.player.source.scenario.robots)))
@@ -546,11 +552,14 @@ class Window:
 
     def _open_scopes(self) -> None:
         """Open the menu of what can be plotted of the selected body, or of all robots."""
-        own = [what for what in self._own_scopes if not isinstance(what, str)]
         self.toolbar.open(
             "scopes",
             lambda: entries_of_scopes(
-                self.player.frame, self.selected, self.scopes, own, self._open_distances
+                self.player.frame,
+                self.selected,
+                self.scopes,
+                self._own_functions,
+                self._open_distances,
             ),
         )
 
