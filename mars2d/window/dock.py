@@ -26,7 +26,7 @@ MARGIN, PAD, HEAD = 12.0, 14.0, 34.0
 """The gap round a panel, the margin in it, and the height of its title, points."""
 CLOSE = 26.0
 """The side of the close button, in the upper right corner of a panel, points."""
-BESIDE = 0.6
+BESIDE = 0.5
 """The smallest scale of the arena beside panels, in parts of that without any; where it would be
 smaller, panels cover a part of the picture."""
 NEAR = 30.0

@@ -44,13 +44,13 @@ Float = NDArray[np.float64]
 TITLE, LEFT, FOOT, GAP = 19.0, 52.0, 17.0, 7.0
 """The room for a plot's title, the numbers of its axis and those of the time axis, and the gap to
 the next plot, points."""
-LEAST, WANTED = 58.0, 124.0
+LEAST, WANTED = 56.0, 124.0
 """The least and the wanted height of a plot with its title, points."""
 HIGH = 86.0
 """The height from which on a plot has a line for the names of its curves, points."""
 SHARING = 2
 """From how many plots on the least height of the panel does not grow."""
-BAR, LINE = 26.0, 16.0
+BAR, LINE = 30.0, 16.0
 """The heights of the buttons and of a line of text, points."""
 NAMED = 6
 """The most curves of a plot whose names and numbers are written."""
