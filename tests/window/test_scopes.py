@@ -8,6 +8,7 @@ import pytest
 
 from mars2d import Robot, Scenario
 from mars2d.core.errors import InputError
+from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.output.signals import signals_of_bodies
@@ -16,6 +17,7 @@ from mars2d.sensors import Imu, RangeFinder
 from mars2d.window.plot import as_number, limits_of, polylines
 from mars2d.window.scopes import Scopes
 from mars2d.window.trace import Trace
+from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.window.person import PUSHING
 from tests.window.written import THEMES, Written, painter
@@ -260,6 +262,31 @@ def test_the_wheel_shows_less_time_and_more_until_it_is_all(timeline):
     assert limits.start <= timeline.frame.time < limits.end
     scoped.scopes.handle(pygame.Event(pygame.MOUSEWHEEL, y=-9, precise_y=-9.0))
     assert scoped.scopes.span is None
+
+
+def test_a_window_that_remembers_its_scopes_shows_something(pushing):
+    window = Window(Timeline(open_experiment(pushing)))
+    assert window.looks["panels"] == []
+    window.dock.open(["scopes"])
+    assert [(trace.what, trace.bodies) for trace in window.scopes.traces] == [("speed", (0, 1))]
+    assert window.looks["panels"] == ["scopes"]
+
+
+@pytest.mark.parametrize("kind", ["column", "function"])
+def test_a_mistake_stands_in_the_panel(timeline, kind):
+    scoped = Scoped(timeline)
+    scoped.scopes.switch("sped" if kind == "column" else lambda record: record.pose.nothing, ())
+    for _ in range(3):
+        timeline.advance()
+    seen = pygame.surfarray.array3d(scoped.draw()).astype(int)
+    ink = rgba(LIGHT.error.ink)[:3]
+    assert (np.abs(seen - ink).max(axis=2) < 20).any()
+    error = scoped.scopes.traces[0].error
+    if kind == "column":
+        assert error == "there is no 'sped'; did you mean 'speed'?"
+    else:
+        assert "AttributeError" in error
+        assert "test_scopes.py, line" in error
 
 
 # -- what an experiment's file names --------------------------------------------------------------
