@@ -14,7 +14,8 @@ between the control steps, drawn, converted, encoded and written.
 The window of `scans` is also seen with more on it: `overlays` are names, velocities and forces,
 `inspector` a selected robot that scans, `all, dark` both in the dark theme. Of these, and of
 `scans`, there are two rows: the pictures with a new control step, and those in between.
-`following`: the camera follows a robot. `scrubbing`: 20 robots have gone 10 000 steps; pictures of
+`following`: the camera follows a robot. `scopes`: three plots of all 100 robots follow the run, of
+speed, force and energy. `scrubbing`: 20 robots have gone 10 000 steps; pictures of
 rows at random, and of rows that are dragged through backwards; `first` is the picture before any.
 
 The yardstick `bare` is what plain pygame takes for as many robots without paths: fill the picture,
@@ -38,6 +39,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +56,7 @@ from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame
+from mars2d.record.record import COLUMNS, Record
 from mars2d.reports.bench.scenes import s2
 from mars2d.sensors import RangeFinder
 from mars2d.window.display import Preferences, be_quick
@@ -66,10 +69,16 @@ FIRST = 500
 STEPS = 200
 ROUNDS = 5
 PICTURES_A_SECOND, FPS = 60, 25
+SCOPES = "speed", "force", "kinetic"
+"""What the scopes plot, of all robots."""
 
 
-def frames(seeing: int, steps: int) -> list[Frame]:
-    """Return the frames after 500 control steps, one a step; the first so many robots scan."""
+Scene = tuple[list[Frame], Record]
+"""The frames of a run, one a control step, and its record."""
+
+
+def run(seeing: int, steps: int) -> Scene:
+    """Run 500 control steps, and so many more that are seen; the first robots scan."""
     scene = s2()
     blind = Robot(diameter=2 * scene.radius)
     scanning = Robot(diameter=2 * scene.radius, sensors=[RangeFinder(beams=180, range=5.0)])
@@ -93,7 +102,7 @@ def frames(seeing: int, steps: int) -> list[Frame]:
             world.observe()
             result.append(world.frame)
         world.step()
-    return result
+    return result, world.record
 
 
 def filmed(listed: list[Frame]) -> list[Frame]:
@@ -106,9 +115,9 @@ def filmed(listed: list[Frame]) -> list[Frame]:
 class Reel:
     """Plays frames that are there already, for a window."""
 
-    def __init__(self, listed: list[Frame]) -> None:
+    def __init__(self, scene: Scene) -> None:
         """Start with the first one."""
-        self._frames, self.row = listed, 0
+        (self._frames, self._record), self.row = scene, 0
 
     @property
     def scenario(self) -> Scenario:
@@ -119,6 +128,14 @@ class Reel:
     def frame(self) -> Frame:
         """The present one."""
         return self._frames[self.row]
+
+    @property
+    def recorded(self) -> Record:
+        """The record so far, as of a run that goes on."""
+        rows = self.frame.iteration
+        columns: dict[str, Any] = {name: getattr(self._record, name)[:rows] for name in COLUMNS}
+        sensors = {name: values[:rows] for name, values in self._record.sensors.items()}
+        return replace(self._record, **columns, sensors=sensors)
 
     @property
     def newest(self) -> int:
@@ -152,25 +169,28 @@ class Watched:
     """A window on a screen of pygame's, and how long its pictures take.
 
     each_step: one picture for each control step, else as in real time. overlays, inspector, dark,
-    following: what is seen of the window's choices.
+    following, scopes: what is seen of the window's choices.
     """
 
     def __init__(
         self,
-        listed: list[Frame],
+        scene: Scene,
         *,
         each_step: bool = False,
         overlays: bool = False,
         inspector: bool = False,
         dark: bool = False,
         following: bool = False,
+        scopes: bool = False,
     ) -> None:
         """Prepare the window."""
         look = Preferences(dark=dark)
-        window = self._window = Window(Reel(listed), 0 if each_step else 1.0, SIZE, look)
+        window = self._window = Window(Reel(scene), 0 if each_step else 1.0, SIZE, look)
         window.layers = window.layers.switched(names=overlays, velocities=overlays, forces=overlays)
         if inspector:
             window.selected = 3
+        for what in SCOPES if scopes else ():
+            window.scopes.switch(what, tuple(range(len(scene[1].scenario.robots))))
         if following:
             window.viewpoint.follow(3)
         self._each_step = each_step
@@ -301,13 +321,13 @@ def _screen(**environment: str) -> Iterator[pygame.Surface]:
 
 def measure(rounds: int, steps: int) -> dict[str, list[list[float]]]:
     """Return what each took in each round, milliseconds of each picture, in turns."""
-    scenes = {"paths": frames(0, steps), "scans": frames(SEEING, steps)}
+    scenes = {"paths": run(0, steps), "scans": run(SEEING, steps)}
     screens = {"dummy": dummy_screen}
     if shutil.which("Xvfb"):
         screens["window"] = real_screen
     watched = {
-        (name, pace): Watched(listed, each_step=pace == "each step")
-        for name, listed in scenes.items()
+        (name, pace): Watched(scene, each_step=pace == "each step")
+        for name, scene in scenes.items()
         for pace in ("real time", "each step")
     }
     more: dict[str, dict[str, bool]] = {
@@ -316,10 +336,12 @@ def measure(rounds: int, steps: int) -> dict[str, list[list[float]]]:
         "inspector": {"inspector": True},
         "all, dark": {"overlays": True, "inspector": True, "dark": True},
         "following": {"following": True},
+        "scopes": {"scopes": True},
+        "scopes, inspector": {"scopes": True, "inspector": True},
     }
     dressed = {name: Watched(scenes["scans"], **options) for name, options in more.items()}
     scrubbed = Scrubbed()
-    films = {name: filmed(listed) for name, listed in scenes.items()}
+    films = {name: filmed(listed) for name, (listed, _) in scenes.items()}
     films["still"] = [films["paths"][0]] * len(films["paths"])
     taken: dict[str, list[list[float]]] = {}
 
@@ -330,7 +352,7 @@ def measure(rounds: int, steps: int) -> dict[str, list[list[float]]]:
         for _ in range(rounds):
             for screen_name, opened in screens.items():
                 with opened() as screen:
-                    note(f"{screen_name}: bare", bare(screen, scenes["paths"][0]))
+                    note(f"{screen_name}: bare", bare(screen, scenes["paths"][0][0]))
                     for (name, pace), window in watched.items():
                         drawing, flipping, _ = window.watch(screen)
                         note(f"{screen_name}: {name}, {pace}", drawing)

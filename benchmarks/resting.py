@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import time
+from itertools import product
 
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window import rest
@@ -33,9 +34,12 @@ class Watched(Window):
             self._open = False
 
 
-def share(example: str, seconds: float, *, plays: bool, rests: bool) -> float:
-    """Return the processor's share of a window after two seconds."""
+def share(example: str, seconds: float, *, plays: bool, rests: bool, scopes: bool) -> float:
+    """Return the processor's share of a window after two seconds; scopes: with speed and force."""
     window = Watched(Timeline(open_experiment(example)))
+    robots = tuple(range(len(window.player.source.scenario.robots)))
+    for what in ("speed", "force") if scopes else ():
+        window.scopes.switch(what, robots)
     window.seconds, window.player.paused = seconds, not plays
     quiet, rest.QUIET = rest.QUIET, rest.QUIET if rests else 1e9
     try:
@@ -50,13 +54,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=5.0)
     seconds = parser.parse_args().seconds
-    print("example      plays  paused, drawn on  at rest")
-    for example in EXAMPLES:
+    print("example     scopes   plays  paused, drawn on  at rest")
+    for example, scopes in product(EXAMPLES, (False, True)):
         shares = [
-            share(example, seconds, plays=plays, rests=rests)
+            share(example, seconds, plays=plays, rests=rests, scopes=scopes)
             for plays, rests in ((True, True), (False, False), (False, True))
         ]
-        print(f"{example:10}  {shares[0]:6.1%}  {shares[1]:16.1%}  {shares[2]:7.2%}", flush=True)
+        what = "with" if scopes else "none"
+        print(
+            f"{example:10}  {what}    {shares[0]:6.1%}  {shares[1]:16.1%}  {shares[2]:7.2%}",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -47,6 +47,9 @@ CONTROLS = {
         "M4 7h7M17 7h3M4 17h3M13 17h7M11 7a3 3 0 1 0 6 0a3 3 0 1 0-6 0"
         "M7 17a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
     ),
+    "scopes": Control("Scopes", "Q", "M4 4v16h16M7 15l4-6 4 4 5-8"),
+    "figure": Control("Save as a figure", "", "M4 4h16v16H4ZM7 16l4-5 3 3 3-6"),
+    "table": Control("Save the numbers as CSV", "", "M4 5h16v14H4ZM4 10h16M4 14.5h16M10 5v14"),
     "drive": Control(
         "Drive by hand",
         "H",

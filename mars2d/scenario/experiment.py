@@ -78,7 +78,8 @@ class Experiment:
     function: that has made the scenario, or None. seed: that it was opened with, or None. plain:
     the experiment without those options that set fields and laws, if there are any. files: all
     files read for it; written: when these were written, ns. functions: the public functions that
-    its file defines, by name.
+    its file defines, by name. scopes: what its window plots at first: names of columns, and
+    functions of the record that return a number for each row.
     """
 
     scenario: Scenario
@@ -96,6 +97,7 @@ class Experiment:
     files: frozenset[Path] = frozenset()
     written: Mapping[Path, int] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
+    scopes: tuple[str | Callable[[Any], Any], ...] = ()
 
     def reopened(self) -> Experiment:
         """Return the experiment opened anew, or itself if it does not come from a file.
@@ -291,6 +293,7 @@ def _opened(
         check = getattr(module, "checks", None)
         if check is not None:
             checks.law("checks", check, "the record")
+        scopes = _scopes_of(module)
     except Mars2dError as error:
         error.where = error.where or Path(name).name
         raise
@@ -303,9 +306,23 @@ def _opened(
         if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
     }
     opened = Experiment(
-        scenario, law, Path(name).name, check, summary, lies, functions=functions, function=function
-    )
+        scenario, law, Path(name).name, check, summary, lies, functions=functions,
+        function=function, scopes=scopes,
+    )  # fmt: skip
     return opened, chart
+
+
+def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
+    """Return what a module's list ``scopes`` has: names of columns, and functions."""
+    given = getattr(module, "scopes", ())
+    expected = "a list of columns, as 'speed', and functions of the record"
+    if isinstance(given, (str, Mapping)) or not isinstance(given, Iterable):
+        raise wrong("scopes", given, expected)
+    scopes = tuple(given)
+    for k, each in enumerate(scopes):
+        if not isinstance(each, str):
+            checks.law(f"scopes[{k}]", each, "the record")
+    return scopes
 
 
 def _of_scenario_file(path: Path, control: Callable[[Any], Any] | None) -> Experiment:

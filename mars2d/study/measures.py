@@ -57,7 +57,7 @@ def path_length(record: Record) -> float | None:
     """How far the robots drove, metres: the mean over the robots."""
     if not len(record):
         return None
-    from mars2d.output.figures.columns import signals
+    from mars2d.output.signals import signals
 
     (speed,) = signals(record, ["speed"], None)
     driven = np.nansum(speed.values, axis=0) * record.scenario.sampling_time

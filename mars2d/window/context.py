@@ -35,6 +35,7 @@ def entries_of_body(frame: Frame, body: int, director: Director, actions: Action
     entries = [
         Entry(str(scenario.bodies[body].name)),
         Entry("Follow with the camera", actions["follow"], "L"),
+        Entry("Plot over time", actions["scopes"], "Q"),
         Entry("Copy its pose", lambda: director.copy(f"({x:.6g}, {y:.6g}, {theta:.6g})")),
     ]
     if director.timeline is None:

@@ -26,7 +26,7 @@ MARGIN, PAD, HEAD = 12.0, 14.0, 34.0
 """The gap round a panel, the margin in it, and the height of its title, points."""
 CLOSE = 26.0
 """The side of the close button, in the upper right corner of a panel, points."""
-BESIDE = 0.6
+BESIDE = 0.5
 """The smallest scale of the arena beside panels, in parts of that without any; where it would be
 smaller, panels cover a part of the picture."""
 NEAR = 30.0
@@ -45,7 +45,8 @@ class Panel:
     name: one word, by which the panel is opened and remembered. title: written at its top, and all
     that is seen of it where there is no room. headed: whether the dock writes the title; else the
     panel draws a head of its own, and leaves the corner at the upper right to the close button.
-    is_open: whether it is wanted. remembered: whether the next window opens it again.
+    is_open: whether it is wanted. remembered: whether the next window opens it again. pointer:
+    where the mouse is, if it is over the panel; the dock sets it before each drawing.
     """
 
     name = ""
@@ -53,6 +54,11 @@ class Panel:
     headed = True
     remembered = True
     is_open = False
+    pointer: Pixel | None = None
+
+    def open(self) -> None:
+        """Open it."""
+        self.is_open = True
 
     def close(self) -> None:
         """Close it."""
@@ -125,13 +131,13 @@ class Dock:
         """Open the panels of these names; unknown names are left out."""
         for panel in self.panels:
             if panel.remembered and panel.name in names:
-                panel.is_open = True
+                panel.open()
 
     def switch(self, name: str) -> None:
         """Open a panel, bring it to sight if it is folded, or close it."""
         panel = next(panel for panel in self.panels if panel.name == name)
         if not panel.is_open:
-            panel.is_open = True
+            panel.open()
         elif name in self._folded:
             self._bring(name)
         else:
@@ -319,6 +325,8 @@ class Dock:
                 self._draw_title(surface, plate, panel)
                 headed = round(HEAD * ui)
             top = plate.top + (headed or round(PAD / 2 * ui))
+            inside = pointer is not None and plate.collidepoint(pointer)
+            panel.pointer = pointer if inside else None
             if panel.name not in self._folded:
                 bottom = plate.bottom - round(PAD / 2 * ui)
                 panel.draw(

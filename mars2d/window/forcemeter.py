@@ -7,11 +7,10 @@ from math import floor
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.materials import GRAVITY
-from mars2d.output.layers.forces import mean_forces
-from mars2d.record.contact import CONTACT
+from mars2d.output.signals import net_forces
+from mars2d.record.contact import CONTACT, rows_of
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.scenario import Scenario
 
@@ -89,7 +88,8 @@ class Meter:
         # Rows are in order of their steps, but not within a step.
         self._rows = rows[bisect_left(rows["time"], (first - 0.5) * dt) :]
         self._scenario, self._steps, self._body = frame.scenario, steps, body
-        force = _net_force(self._rows, body, first, steps, dt)
+        rows = rows_of(self._rows, np.arange(steps + 1, dtype=float) * dt, dt)
+        force = net_forces(self._rows, rows, [body], range(first + 1, steps + 1), dt)[:, 0]
         self._reading = Reading(first * dt, force, _effort(frame, body, first))
         return self._reading
 
@@ -97,20 +97,6 @@ class Meter:
 def span_of(sampling_time: float) -> float:
     """Return the time that a reading covers, seconds."""
     return max(MIN_SECONDS, MIN_STEPS * sampling_time)
-
-
-def _net_force(rows: NDArray[np.void], body: int, first: int, last: int, dt: float) -> Float:
-    """Return the net mean force in each control step from first to last, newtons."""
-    mine = rows[(rows["a"] == body) | (rows["b"] == body)]
-    # A contact that begins at the end of a step belongs to that step; one that goes on has the
-    # time at which the step starts.
-    within = mine["time"] / dt + np.where(mine["began"], -1e-6, 1e-6)
-    step = np.ceil(within).astype(int) - 1 - first
-    seen = (step >= 0) & (step < last - first)
-    mine, step = mine[seen], step[seen]
-    force = mean_forces(mine, dt) * np.where(mine["b"] == body, 1.0, -1.0)[:, None]
-    x, y = (np.bincount(step, force[:, k], last - first) for k in (0, 1))
-    return np.hypot(x, y)
 
 
 def _effort(frame: Frame, body: int, first: int) -> Float | None:

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from math import ceil
-
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene, faded
-from mars2d.output.layers.forces import FORCE, SLIP, SLIPPING, in_newtons, round_force
-from mars2d.output.raster.brushes import rgba
+from mars2d.output.layers.forces import FORCE, SLIP, SLIPPING, in_newtons
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.strokes import hairlines
 from mars2d.record.frame import Float, Frame
 from mars2d.window.forcemeter import Bound, Reading, bound_of, span_of
+from mars2d.window.plot import Limits, draw_axes, draw_curve, polylines
 
 __all__ = ["draw_force"]
 
 MAX_OVER_BOUND = 3.0
 """The upper end of the force axis, at most, as a multiple of the bound."""
+
+LOW = 44.0
+"""The height of the area of curves from which on words stand in it, points."""
 
 HEAD, LEFT, FOOT = 22.0, 44.0, 17.0
 """The room for the title, the numbers of the force axis and those of the time axis, points."""
@@ -43,8 +43,8 @@ def draw_force(
     )  # fmt: skip
     span = span_of(frame.scenario.sampling_time)
     end = max(frame.time, span)
-    limits = end - span, end, _top(reading.force, bound)
-    _draw_axes(surface, area, painter, limits)
+    limits = Limits(end - span, end, 0.0, _top(reading.force, bound))
+    draw_axes(surface, area, painter, limits, "N")
     before = surface.get_clip()
     surface.set_clip(area.inflate(2, 4).clip(before))
     _draw_curves(surface, area, painter, frame, reading, bound, limits)
@@ -84,32 +84,6 @@ def _draw_title(
         x += image.get_width() + round(10 * ui)
 
 
-def _draw_axes(
-    surface: pygame.Surface,
-    area: pygame.Rect,
-    painter: Painter,
-    limits: tuple[float, float, float],
-) -> None:
-    """Draw the grid and the numbers of both axes."""
-    (start, end, top), ui = limits, painter.ui
-    fonts, theme = painter.fonts, painter.theme
-    step = round_force(top / 2)
-    for k in range(int(top / step + 1e-9) + 1):
-        y = area.bottom - round(k * step / top * area.height)
-        surface.fill(theme.grid_axis if k == 0 else theme.grid, (area.left, y, area.width, 1))
-        image = fonts.render(f"{k * step:.4g} N", 11 * ui, theme.muted)
-        surface.blit(image, image.get_rect(midright=(area.left - round(6 * ui), y)))
-    step = round_force((end - start) / 4)
-    for k in range(ceil(start / step - 1e-9), int(end / step + 1e-9) + 1):
-        x = area.left + round((k * step - start) / (end - start) * area.width)
-        surface.fill(theme.grid, (x, area.top, 1, area.height))
-        image = fonts.render(f"{k * step:.6g} s", 11 * ui, theme.muted)
-        place = image.get_rect(midtop=(x, area.bottom + round(3 * ui)))
-        if place.right <= area.right + round(10 * ui):
-            place.right = min(place.right, area.right)
-            surface.blit(image, place)
-
-
 def _draw_curves(
     surface: pygame.Surface,
     area: pygame.Rect,
@@ -117,53 +91,47 @@ def _draw_curves(
     frame: Frame,
     reading: Reading,
     bound: Bound | None,
-    limits: tuple[float, float, float],
+    limits: Limits,
 ) -> None:
     """Draw the force and the effort as steps, the stretches of slip, and the bound."""
-    start, end, top = limits
+    start, end, _, top = limits
     ui, theme, ink = painter.ui, painter.theme, painter.theme.shade(FORCE)
-
-    def pixels(time: Float, force: Float) -> Float:
-        x = area.left + (time - start) / (end - start) * area.width
-        return np.column_stack([x, area.bottom - np.minimum(force / top, 1.0) * area.height])
-
-    edges = reading.start + frame.scenario.sampling_time * np.arange(len(reading.force) + 1)
-    edges = np.minimum(edges, frame.time)
+    ends = reading.start + frame.scenario.sampling_time * np.arange(1, len(reading.force) + 1)
+    ends = np.minimum(ends, frame.time)  # of the control steps
+    edges = np.append(reading.start, ends)
     if reading.effort is not None and len(reading.effort) and bound is not None:
         for a, b in _stretches(reading.effort >= SLIPPING):
-            left, right = pixels(edges[[a, b]], np.zeros(2))[:, 0].round().tolist()
+            left, right = limits.pixels(area, edges[[a, b]], np.zeros(2))[:, 0].round().tolist()
             band = pygame.Surface((max(1, int(right - left)), area.height))
             band.fill(SLIP)
             band.set_alpha(70)
             surface.blit(band, (left, area.top))
-        height = bound.force * reading.effort
-        points = pixels(*_steps(edges, height, area.width))
-        hairlines(surface, rgba(theme.effort)[:3], points, 1.4 * ui)
-    scene = Scene()
-    if len(reading.force):
-        points = pixels(*_steps(edges, reading.force, area.width))
+        lines = polylines(area, limits, ends, bound.force * reading.effort, held="pre")
+        draw_curve(surface, painter, lines, theme.effort, 1.4)
+    for points in polylines(area, limits, ends, np.minimum(reading.force, top), held="pre"):
         if reading.force.any():
+            scene = Scene()
             foot = [(points[-1, 0], area.bottom), (points[0, 0], area.bottom)]
             scene.polygon(np.vstack([points, foot]) * (1, -1), fill=faded(ink, 0.18))
             painter.paint(surface, scene.shapes, PIXELS, shaded=False)
-        hairlines(surface, rgba(ink)[:3], points, 2.2 * ui)
+        draw_curve(surface, painter, [points], ink, 2.2)
     scene = Scene()
     if len(reading.force) and reading.force.max() > top:
         k = int(reading.force.argmax())
         word = f"peak {in_newtons(float(reading.force[k]))}"
         half = painter.fonts.width(word, 12 * ui) / 2 + 6 * ui
-        left, right = pixels(edges[[k, k + 1]], np.zeros(2))[:, 0].tolist()
+        left, right = limits.pixels(area, edges[[k, k + 1]], np.zeros(2))[:, 0].tolist()
         x = right + half if right + 2 * half <= area.right else left - half  # beside the peak
         scene.text((x, -area.top), word, color=ink, anchor="below", halo=theme.plate)
     if bound is not None:
-        ends = pixels(np.array([start, end]), np.full(2, bound.force)) * (1, -1)
-        scene.line(ends, stroke=theme.ink, width=1.5, style="--")
-        word = f"{bound.name} {in_newtons(bound.force)}"
+        line = limits.pixels(area, np.array([start, end]), np.full(2, bound.force)) * (1, -1)
+        scene.line(line, stroke=theme.ink, width=1.5, style="--")
+        word = f"{bound.name} {in_newtons(bound.force)}" if area.height >= LOW * ui else ""
         width = painter.fonts.width(word, 12 * ui) + 8 * ui
-        over = pixels(edges[:-1], reading.force)[reading.force > bound.force, 0]
+        over = limits.pixels(area, edges[:-1], reading.force)[reading.force > bound.force, 0]
         lefts = (area.left, area.right - width)
         left = min(lefts, key=lambda x: np.count_nonzero((over > x) & (over < x + width)))
-        place = (left + width / 2, ends[0, 1] - 2 * ui)
+        place = (left + width / 2, line[0, 1] - 2 * ui)
         scene.text(place, word, color=theme.ink, anchor="above", halo=theme.plate)
     painter.paint(surface, scene.shapes, PIXELS, shaded=False)
 
@@ -174,15 +142,6 @@ def _top(force: Float, bound: Bound | None) -> float:
     if bound is None:
         return 1.15 * peak if peak > 0 else 1.0
     return max(1.45 * bound.force, min(1.1 * peak, MAX_OVER_BOUND * bound.force))
-
-
-def _steps(edges: Float, values: Float, room: int) -> tuple[Float, Float]:
-    """Return the corners of a step curve, at most one step a pixel: the highest within each."""
-    if len(values) > room:
-        starts = np.arange(0, len(values), ceil(len(values) / room))
-        values = np.maximum.reduceat(values, starts)
-        edges = np.append(edges[starts], edges[-1])
-    return np.repeat(edges, 2)[1:-1], np.repeat(values, 2)
 
 
 def _stretches(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -31,14 +31,15 @@ from mars2d.window.sensorplot import TITLE, SensorPlot, plot_of
 
 __all__ = ["Inspector", "sensor_plots"]
 
-COLUMN, LEAST = 300.0, 176.0
-"""The least width of a column of sections, and the least height of the inspector, points."""
+COLUMN, LEAST, LEAST_IN_CONTACT = 300.0, 176.0, 268.0
+"""The least width of a column of sections, and the least height of the inspector, points: with the
+state, and where there are forces with their plot."""
 
 GAP = 9.0
 """The gap between two sections, points."""
 HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
 """The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
-MIN_FORCE = 76.0
+MIN_FORCE = 70.0
 """The lowest plot of forces, points."""
 CLOSE = 20.0
 """The room for the button that closes it, points."""
@@ -66,7 +67,8 @@ class Inspector(Panel):
     clock: seconds; the inspector is drawn anew a few times a second, and as soon as the body comes
     to touch another or parts from it, since it stands beside the arrows.
 
-    body: the one that is shown, an index of `Scenario.bodies`; None: none, and it is closed.
+    body: the one that is shown, an index of `Scenario.bodies`; None: none, and it is closed. plays:
+    whether somebody drives it, who needs no plot of forces before there are any.
     """
 
     name, title, headed, remembered = "inspector", "Inspector", False, False
@@ -78,7 +80,7 @@ class Inspector(Panel):
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         """Start with nothing drawn."""
-        self.painter, self.body = painter, body
+        self.painter, self.body, self.plays = painter, body, False
         self._clock = clock
         self._meter = Meter()
         self._image: pygame.Surface | None = None
@@ -101,7 +103,10 @@ class Inspector(Panel):
         each = [section.height + GAP for _, section in self._look(frame)]
         columns = _columns(width)
         wanted = sum(each) if columns == 1 else (sum(each) + max(each)) / columns
-        return LEAST, max(LEAST, *each, wanted)
+        least = LEAST_IN_CONTACT if frame.scenario.physics == "contact" else LEAST
+        if columns > 1:
+            least = max(LEAST, *each)
+        return least, max(least, wanted)
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
         """Draw the inspector within a rectangle."""
@@ -124,7 +129,7 @@ class Inspector(Panel):
         body, ui, theme = self.body, self.painter.ui, self.painter.theme
         if body is None:
             return []
-        of = body, touching(frame, body), frame.scenario, ui, theme
+        of = body, self.plays, touching(frame, body), frame.scenario, ui, theme
         reading = self._meter.read(frame, body)  # at each control step, else it would start over
         now = self._clock()
         late = frame is not self._frame and now - self._drawn_at >= DRAW_INTERVAL
@@ -150,7 +155,8 @@ class Inspector(Panel):
         for name, section in sections:
             if top and self._pixels(section) > height - top and column + 1 < columns:
                 column, top = column + 1, 0
-            room = height - top - (last if column == columns - 1 else 0)
+            important = section.least is not None
+            room = height - top - (last if column == columns - 1 and not important else 0)
             if section.least is not None and self._pixels(section) > room:
                 lower = room / self.painter.ui - GAP
                 section = section._replace(height=max(section.least, lower))  # noqa: PLW2901
@@ -159,7 +165,7 @@ class Inspector(Panel):
                 top += self._pixels(section)
             else:
                 left_out.append(name)
-        if left_out:
+        if left_out and top + last <= height:
             yield column, top, self._text(f"no room for {', '.join(left_out)}")
 
     def _sections(self, frame: Frame, body: int, reading: Any) -> Iterator[tuple[str, Section]]:
@@ -177,6 +183,7 @@ class Inspector(Panel):
         )
         if frame.scenario.physics == "contact":
             yield "contacts", self._line("contacts", " · ".join(contacts_of(frame, body)) or "none")
+        if frame.scenario.physics == "contact" and (reading.force.any() or not self.plays):
             yield (
                 "forces",
                 Section(

@@ -64,6 +64,9 @@ _SEE = (
     Key("names", ("i",), ("I",), "names on and off"),
     Key("velocities", ("u",), ("U",), "velocities on and off"),
     Key("layers", ("a",), ("A",), "choose what is shown"),
+    Key(
+        "scopes", ("q",), ("Q",), "choose what is plotted over time, of what is selected or of all"
+    ),
     Key("select", ("tab",), ("Tab",), "select the next robot or prop, and inspect it"),
     Key("follow", ("l",), ("L",), "let the camera follow what is selected, or all robots"),
     Key("fit", ("f", "ctrl+0"), ("F",), "fit the workspace into the window"),

@@ -38,7 +38,7 @@ class Menu:
     def __init__(self) -> None:
         """Start closed."""
         self._entries: Callable[[], Sequence[Entry]] | None = None
-        self._corner = 0, 0
+        self.corner = 0, 0
         self._places: list[tuple[Entry, pygame.Rect]] = []
         self.plate = pygame.Rect(0, 0, 0, 0)
         self.name = ""
@@ -57,7 +57,7 @@ class Menu:
         self, name: str, entries: Callable[[], Sequence[Entry]], corner: tuple[int, int]
     ) -> None:
         """Open it at a pixel; entries: returns those of now."""
-        self.name, self._entries, self._corner = name, entries, corner
+        self.name, self._entries, self.corner = name, entries, corner
 
     def close(self) -> None:
         """Close it."""
@@ -108,7 +108,7 @@ class Menu:
         boxed = any(entry.on is not None or entry.color for entry in entries)
         boxes = round((BOX + 9) * ui) if boxed else 0
         width = titles + boxes + (keys + round(24 * ui) if keys else 0) + 4 * pad
-        self.plate = pygame.Rect(self._corner, (width, row * len(entries) + 2 * pad))
+        self.plate = pygame.Rect(self.corner, (width, row * len(entries) + 2 * pad))
         self.plate.clamp_ip(bounds)
         self._places = [
             (entry, pygame.Rect(self.plate.left + pad, self.plate.top + pad + k * row,

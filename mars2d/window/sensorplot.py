@@ -20,6 +20,7 @@ from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
 from mars2d.sensors.bumper import LIT
 from mars2d.window.forcemeter import span_of
+from mars2d.window.plot import Limits, draw_curve, polylines
 
 __all__ = ["SensorPlot", "plot_of"]
 
@@ -158,34 +159,21 @@ def _line(
     """Draw number k over time, scaled to its range."""
     values = history.values[:, k]
     surface.fill(painter.theme.track, (area.left, area.bottom, area.width, 1))
-    stride = max(1, len(values) // max(1, area.width))
-    at = np.arange(len(values) - 1, -1, -stride)[::-1]  # the last one is always drawn
-    x = area.left + area.width * np.linspace(history.first, history.last, len(values))[at]
-    values = values[at]
-    finite = np.isfinite(values)
-    if not finite.any():
+    finite = values[np.isfinite(values)]
+    if not finite.size:
         return
-    low, high = float(values[finite].min()), float(values[finite].max())
+    low, high = float(finite.min()), float(finite.max())
     least = 0.02 * max(abs(low), abs(high), 0.05)
     if high - low < least:
         low, high = (low + high - least) / 2, (low + high + least) / 2
-    y = area.bottom - 2 - (values - low) / (high - low) * (area.height - 4)
-    ink = rgba(painter.theme.shade(color))[:3]
-    breaks = np.flatnonzero(~finite[1:] | ~finite[:-1] | _leaps(values, quantity)) + 1
-    for piece in np.split(np.arange(len(values)), breaks):
-        points = np.column_stack([x[piece], y[piece]])[finite[piece]]
-        if len(points) > 1:
-            hairlines(surface, ink, points, 1.6 * painter.ui)
-    if finite[-1]:
-        pygame.draw.aacircle(surface, ink, (float(x[-1]), float(y[-1])), 2.4 * painter.ui)
-
-
-def _leaps(values: Float, quantity: Quantity) -> NDArray[np.bool_]:
-    """Return where an angle jumps from one end of its range to the other."""
-    if quantity.kind != "angle":
-        return np.zeros(len(values) - 1, dtype=bool)
-    with np.errstate(invalid="ignore"):
-        return np.abs(np.diff(values)) > pi
+    limits, inner = Limits(0.0, 1.0, low, high), area.inflate(0, -4)
+    places = np.linspace(history.first, history.last, len(values))
+    lines = polylines(inner, limits, places, values, wraps=quantity.kind == "angle")
+    ink = painter.theme.shade(color)
+    draw_curve(surface, painter, lines, ink, 1.6)
+    if np.isfinite(values[-1]):
+        (point,) = limits.pixels(inner, places[-1:], values[-1:]).tolist()
+        pygame.draw.aacircle(surface, ink, point, 2.4 * painter.ui)
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,6 +33,10 @@ class Source(Protocol):
         """The contacts of all rows, as `Record.contacts`."""
 
     @property
+    def recorded(self) -> Record:
+        """The record of all rows that are done."""
+
+    @property
     def row(self) -> int:
         """The present row."""
 
@@ -65,6 +69,11 @@ class Playback:
     def scenario(self) -> Scenario:
         """What was simulated."""
         return self.record.scenario_at(self.row)
+
+    @property
+    def recorded(self) -> Record:
+        """The record."""
+        return self.record
 
     @property
     def contacts(self) -> NDArray[np.void]:

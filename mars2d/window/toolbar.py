@@ -19,7 +19,7 @@ Actions = Mapping[str, Callable[[], None]]
 Pixel = tuple[int, int]
 
 TRANSPORT = (("start", "back", "pause", "step", "newest", "loop"),)
-SEE = ("layers", "fit", "follow", "contacts")
+SEE = ("layers", "scopes", "fit", "follow", "contacts")
 CHANGE = ("parameters", "drive", "edit", "restart", "branch")
 SAVE = ("picture", "film", "python")
 LOOK = ("screen", "dark", "text", "help")

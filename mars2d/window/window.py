@@ -22,6 +22,7 @@ from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
+from mars2d.record.record import Record
 from mars2d.scenario.controllers import standing_still
 from mars2d.window import keys
 from mars2d.window.context import (
@@ -58,9 +59,12 @@ from mars2d.window.player import Player
 from mars2d.window.reload import Reload
 from mars2d.window.rest import Rest
 from mars2d.window.saving import Saver
+from mars2d.window.scope_menu import entries_of_distances, entries_of_scopes
+from mars2d.window.scopes import Scopes
 from mars2d.window.score_panel import ScorePanel
 from mars2d.window.source import Source
 from mars2d.window.toolbar import Toolbar, layer_entries
+from mars2d.window.trace import What
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -140,7 +144,6 @@ class Window:
             self._set_parameter,
             lambda: self.player.playing,
         )
-        self.dock = Dock(self._painter, [self._inspector, self.parameters])
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
         self._mouse = Mouse(
             self.player, self.viewpoint, self.grab, self._controls.handles,
@@ -169,6 +172,9 @@ class Window:
             "screen": self._fill_screen,
             "close": self._close,
             **{layer: partial(self._toggle, layer) for layer in TOGGLED},
+            "scopes": self._open_scopes,
+            "figure": lambda: self.scopes.save_figure(self.player.frame, self.saver),
+            "table": lambda: self.scopes.save_table(self.player.frame, self.saver),
             "select": self._select_next,
             "follow": self._follow_or_not,
             "fit": self.viewpoint.fit,
@@ -183,6 +189,11 @@ class Window:
             "help": self.help.turn,
             "leave": self._leave,
         }
+        self.scopes = Scopes(
+            self._painter, lambda: self.player.source.recorded, self.player.go, self._actions
+        )
+        self.dock = Dock(self._painter, [self._inspector, self.scopes, self.parameters])
+        self._begin_scopes()
         buttons = self._actions | {"branch": self._choose_branch}
         self.toolbar: Toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
 
@@ -357,11 +368,13 @@ class Window:
 
     def _meet(self) -> None:
         """Release and deselect all bodies if the experiment has others than before."""
+        self.scopes.renew(self._own_functions)
         cast = _cast(self.player.source)
         if cast == self._cast:
             return
         self._cast, self.selected, self.viewpoint.following = cast, None, None
         self.director.release()
+        self.scopes.meet(self.player.source.scenario)
         self.grab.cancel()
         self.grab.leave()
 
@@ -388,6 +401,7 @@ class Window:
         frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
+        self._inspector.plays = self._drives
         self.viewpoint.arrange(layout, frame.scenario, self.dock.arrange(layout, frame))
         marks = self.grab.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
@@ -569,6 +583,7 @@ class Window:
             "contacts": self.player.at_contact != "go on" or self.toolbar.menu.name == "contacts",
             "layers": self.toolbar.menu.name == "layers",
             "parameters": self.parameters.is_open,
+            "scopes": self.scopes.is_open,
             "drive": self._drives,
             "follow": self.viewpoint.following is not None,
             "film": self.saver.filming,
@@ -601,6 +616,44 @@ class Window:
 
     def _contact_entries(self) -> list[Entry]:
         return entries_of_contacts(self.player, self._actions)
+
+    @property
+    def _own_scopes(self) -> Sequence[What]:
+        """What the experiment's file names as its scopes."""
+        timeline = self.director.timeline
+        return () if timeline is None else timeline.experiment.scopes
+
+    @property
+    def _own_functions(self) -> list[Callable[[Record], object]]:
+        return [what for what in self._own_scopes if not isinstance(what, str)]
+
+    def _begin_scopes(self) -> None:
+        """Plot what the experiment's file names."""
+        robots = tuple(range(len(self.player.source.scenario.robots)))
+        for what in self._own_scopes:
+            self.scopes.switch(what, robots if isinstance(what, str) else ())
+
+    def _open_scopes(self) -> None:
+        """Open the menu of what can be plotted of the selected body, or of all robots."""
+        self.toolbar.open(
+            "scopes",
+            lambda: entries_of_scopes(
+                self.player.frame,
+                self.selected,
+                self.scopes,
+                self._own_functions,
+                self._open_distances,
+            ),
+        )
+
+    def _open_distances(self) -> None:
+        """Open the menu of the distances of the selected body that can be plotted."""
+        body, menu = self.selected or 0, self.toolbar.menu
+        menu.open(
+            "distances",
+            lambda: entries_of_distances(self.player.frame, body, self.scopes),
+            menu.corner,
+        )
 
     def _undo(self) -> None:
         """Undo the last thing done by hand; a drag ends."""

@@ -132,14 +132,14 @@ class Timeline:
         """The scenario at the present row."""
         if self.row == self.newest:
             return self._world.scenario
-        return self._recorded.scenario_at(self.row)
+        return self.recorded.scenario_at(self.row)
 
     @property
     def frame(self) -> Frame:
         """The frame of the present row."""
         if self.row == self.newest:
             return self._world.frame
-        frame = self._recorded.frame(self.row)
+        frame = self.recorded.frame(self.row)
         if not frame.over_message:
             return frame
         return replace(frame, over_message="", draw_addons=None)
@@ -191,8 +191,8 @@ class Timeline:
         return {name: vars(self)[name] for name in OF_A_RUN}
 
     @property
-    def _recorded(self) -> Record:
-        """The record up to the newest row, kept as long as nothing is run."""
+    def recorded(self) -> Record:
+        """The record of the present branch so far, kept as long as nothing is run."""
         world = self._world
         if self._seen is None or self._seen[:2] != (world, world.iteration):
             self._seen = world, world.iteration, world.record

@@ -16,6 +16,7 @@ from matplotlib.legend import Legend
 import mars2d
 from mars2d import Car, Holonomic, InputError, Record, Robot, Scenario, World
 from mars2d.bodies.props import Puck
+from mars2d.output.signals import as_csv, signals, signals_of_bodies
 from mars2d.sensors import Bumper, Ground, Imu, LineCamera, Proximity, RangeFinder
 
 
@@ -354,3 +355,59 @@ def test_names_are_shown_as_they_are_written():
     (ax,) = run.plot_signals("x")
     assert [text.get_text() for text in ax.get_legend().get_texts()] == [r"_$\a$"]
     ax.figure.canvas.draw()  # raises where it is taken for mathematics
+
+
+# -- contacts and distances -----------------------------------------------------------------------
+
+
+def test_force_and_impulse_are_those_of_the_contacts_in_the_step_before(record):
+    (force,), (impulse,) = (signals(record, [name], None) for name in ("force", "impulse"))
+    dt = record.scenario.sampling_time
+    np.testing.assert_allclose(impulse.values, force.values * dt)
+    assert force.values.max() > 0.1
+    for row, body in zip(*np.nonzero(force.values), strict=True):
+        net = np.zeros(2)
+        for contact in record.contacts[record.contact_rows == row]:
+            tangent = np.array([-contact["normal"][1], contact["normal"][0]])
+            on_b = contact["normal_impulse"] * contact["normal"]
+            on_b = on_b + contact["tangential_impulse"] * tangent
+            net += on_b * ((contact["b"] == body) * 1.0 - (contact["a"] == body))
+        assert np.hypot(*net) == pytest.approx(impulse.values[row, body])
+
+
+def test_signals_of_bodies_are_of_robots_and_props_alike(record):
+    n = len(record.scenario.robots)
+    (x,) = signals_of_bodies(record, "x", (0, n))
+    np.testing.assert_array_equal(x.values[:, 0], record.pose[:, 0, 0])
+    np.testing.assert_array_equal(x.values[:, 1], record.prop_pose[:, 0, 0])
+    (own,) = signals_of_bodies(record, "momentum.each", (n,))
+    expected = np.hypot(*record.momentum.linear[:, :, n].T)
+    np.testing.assert_allclose(own.values[:, 0], expected)
+    (far,) = signals_of_bodies(record, "distance.ann", (0, 1, n))
+    assert far.bodies == (1, n)
+    apart = record.pose[:, :2, 1] - record.pose[:, :2, 0]
+    np.testing.assert_allclose(far.values[:, 0], np.hypot(*apart.T))
+    with pytest.raises(InputError, match="'effort' is of robots"):
+        signals_of_bodies(record, "effort", (n,))
+    with pytest.raises(
+        InputError, match=r"there is no 'distance\.an'; did you mean 'distance\.ann'"
+    ):
+        signals_of_bodies(record, "distance.an", (1,))
+    with pytest.raises(InputError, match="a body other than ann"):
+        signals_of_bodies(record, "distance.ann", (0,))
+
+
+def test_signals_as_a_table(record):
+    found = [
+        *signals_of_bodies(record, "speed", (0, 1)),
+        *signals_of_bodies(record, "momentum", ()),
+    ]
+    lines = as_csv(record, found).splitlines()
+    assert lines[0].split(",") == [
+        "time [s]", "speed of ann [m/s]", "speed of bob [m/s]", "momentum: x [N s]",
+        "momentum: y [N s]", "angular momentum: about the origin [N m s]",
+    ]  # fmt: skip
+    assert len(lines) == len(record) + 1
+    last = [float(number) for number in lines[-1].split(",")]
+    assert last[0] == record.time[-1]
+    assert last[3:5] == record.momentum.total[-1].tolist()

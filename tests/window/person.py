@@ -57,6 +57,35 @@ def scenario():
 """
 
 
+PUSHING = """
+import numpy as np
+from mars2d import Robot, Scenario
+from mars2d.bodies.props import Box
+
+
+def push(robot):
+    return 0.2, 0.0
+
+
+def gap(record):
+    # how far blue is ahead of red, m
+    return record.pose[:, 0, 1] - record.pose[:, 0, 0]
+
+
+def scenario():
+    red = Robot(name="red", pose=(-2, 0.5, 0), controller=push)
+    blue = red.replace(name="blue", pose=(-1, -1, 0))
+    crate = Box(name="crate", pose=(-1.2, 0.5, 0), length=0.4, width=0.4, mass=0.5)
+    return Scenario(
+        title="Pushing",
+        robots=[red, blue],
+        props=[crate],
+        workspace=[(-3, -2), (3, -2), (3, 2), (-3, 2)],
+        stop_time=20.0,
+    )
+"""
+
+
 @pytest.fixture(scope="session")
 def screen():
     """Start an X server on a free display and return its name."""
@@ -247,6 +276,13 @@ def open_window(screen):
         if window.process.poll() is None:
             window.do("mouseup", 1, "mouseup", 3, "keyup", "shift")
         window.close()
+
+
+@pytest.fixture
+def pushing(tmp_path):
+    path = tmp_path / "pushing.py"
+    path.write_text(PUSHING)
+    return path
 
 
 @pytest.fixture

@@ -115,7 +115,7 @@ def test_where_there_is_little_room_the_one_opened_last_is_seen_whole():
 
 
 def test_a_panel_that_covers_the_arena_stays_off_what_is_selected():
-    seen = Seen(some(1), (500, 420))
+    seen = Seen(some(1), (470, 470))
     assert not seen.view.makes_room
     (right,) = seen.dock.plates.values()
     seen.draw(right.center)

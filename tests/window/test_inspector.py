@@ -381,6 +381,18 @@ def test_in_little_room_the_plot_of_forces_is_lower_rather_than_left_out():
     assert heights(200) == []
 
 
+def test_who_plays_sees_no_empty_plot_of_forces(world):
+    def sections(frame, *, plays):
+        inspector = Inspector(Painter(), 0)
+        inspector.plays = plays
+        return [name for name, _ in inspector._look(frame)]
+
+    start = World(world.scenario).frame
+    assert "forces" in sections(start, plays=False)
+    assert "forces" not in sections(start, plays=True)
+    assert "forces" in sections(world.frame, plays=True), "red pushes the crate"
+
+
 def test_numbers_in_messages_are_rounded_and_words_are_not():
     assert rounded('["token",1]') == '["token",1]'
     assert rounded("[0.1558127275076811,-0.0683]") == "[0.156,-0.0683]"

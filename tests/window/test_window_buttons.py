@@ -148,7 +148,8 @@ def test_a_recording_offers_nothing_that_changes_it(open_window, room, tmp_path)
     run(str(room), stop_time=1.0, show=False).save(path)
     window = open_window(0, record=str(path))
     assert not {"drive", "edit", "restart", "branch"} & window.state["buttons"].keys()
-    assert offered(window, 1, -1) == {"Follow with the camera", "Copy its pose"}
+    offers = {"Follow with the camera", "Plot over time", "Copy its pose"}
+    assert offered(window, 1, -1) == offers
 
 
 def test_a_right_click_opens_what_can_be_done_with_a_body(open_window, room):

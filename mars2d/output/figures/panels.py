@@ -20,6 +20,7 @@ from mars2d.output.figures.figure import (
 )
 from mars2d.output.figures.labels import shortened, wrapped
 from mars2d.output.figures.style import Style
+from mars2d.output.signals import thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,12 +45,10 @@ __all__ = [
     "short_number",
     "size_of",
     "spans",
-    "thinned",
     "width_of",
 ]
 
 Float = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 MAX_VERTICES = 20_000
 """The most points in a panel, over all its curves, approximately."""
@@ -288,43 +287,6 @@ def size_of(ax: Axes) -> tuple[float, float]:
     """Return the width and the height of axes, points; approximate before the layout."""
     box, points = ax.get_window_extent(), 72 / ax.figure.dpi
     return box.width * points, box.height * points
-
-
-# -- thinning of long columns ----------------------------------------------------------------------
-
-
-def thinned(values: Float, blocks: int) -> Index:
-    """Return the indices of the values (T,) to draw so that the curve looks like the whole.
-
-    The values are cut into `blocks` blocks. Each keeps its first and last value, its smallest and
-    largest, so that no peak is lost, and its first that is not finite, so that gaps stay.
-
-    >>> thinned(np.array([0.0, 1, 0, 0, 9, 0, 0, 0, -5, 0]), 1).tolist()
-    [0, 4, 8, 9]
-    """
-    count = len(values)
-    size = -(-count // blocks)
-    if count <= 5 * blocks:
-        return np.arange(count)
-    whole = count // size * size
-    parts = [_kept(values[:whole].reshape(-1, size), 0)]
-    if whole < count:
-        parts.append(_kept(values[None, whole:], whole))
-    return np.unique(np.concatenate(parts))
-
-
-def _kept(blocks: Float, start: int) -> Index:
-    """Return the indices to keep of blocks (k, size), counted from `start`."""
-    finite = np.isfinite(blocks)
-    kept = [
-        np.zeros(len(blocks), dtype=np.intp),
-        np.where(finite, blocks, np.inf).argmin(axis=1),
-        np.where(finite, blocks, -np.inf).argmax(axis=1),
-        finite.argmin(axis=1),
-        np.full(len(blocks), blocks.shape[1] - 1),
-    ]
-    first = start + np.arange(len(blocks)) * blocks.shape[1]
-    return np.asarray(np.concatenate([first + each for each in kept]))
 
 
 def spans(begin: Float, end: Float, least: float) -> tuple[Float, Float]:

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.description import real
 from mars2d.core.errors import InputError
-from mars2d.output.figures.columns import MIN_IMAGE_NUMBERS, Signal, chosen_robots, signals
 from mars2d.output.figures.extent import PANEL_LIMIT, check_rows
 from mars2d.output.figures.figure import LEGEND_LIMIT, plain_name
 from mars2d.output.figures.panels import (
@@ -30,6 +29,7 @@ from mars2d.output.figures.panels import (
     width_of,
 )
 from mars2d.output.figures.style import Style, style_of
+from mars2d.output.signals import MIN_IMAGE_NUMBERS, Signal, chosen_robots, signals, without_nothing
 from mars2d.record.interventions import Change, Place
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from mars2d.record.record import Record
 
-__all__ = ["DEFAULT", "plot_signals"]
+__all__ = ["DEFAULT", "draw_signals", "plot_signals"]
 
 Float = NDArray[np.float64]
 
@@ -64,13 +64,14 @@ def plot_signals(
 
     columns: "x", "y" [m], "theta" [rad], as recorded, not wrapped; "speed" [m/s], the mean since
     the row before, from the poses; "command", both parts, or one of them, as "command.0" or, where
-    all drives agree on its name, "command.v"; "effort"; the name of a sensor, or parts of its
-    reading, as "range_finder.90" (a beam) or "imu.ax" (a quantity); "prop.x", "prop.y",
-    "prop.theta", "prop.speed"; "energy" [J], that of all bodies and the work of what has made it,
-    "kinetic" of each body, "momentum" of all. By default x, y, theta and the command. robots:
-    those wanted, by name or index; None: all. axes: one for each panel; by default those of a new
-    figure. start, end: seconds, the part of the run that is drawn; by default all of it. style: as
-    in `Record.plot`.
+    all drives agree on its name, "command.v"; "effort"; "force" [N] and "impulse" [N s], the net
+    ones of contacts in the control step before; "distance.NAME" [m], to a body; the name of a
+    sensor, or parts of its reading, as "range_finder.90" (a beam) or "imu.ax" (a quantity);
+    "prop.x", "prop.y", "prop.theta", "prop.speed"; "energy" [J], that of all bodies and the work of
+    what has made it, "kinetic" of each body, "momentum" of all, "momentum.each" of each. By default
+    x, y, theta and the command. robots: those wanted, by name or index; None: all. axes: one for
+    each panel; by default those of a new figure. start, end: seconds, the part of the run that is
+    drawn; by default all of it. style: as in `Record.plot`.
 
     A scan, for example of a laser, is an image of a robot's readings over time and bearing; if it
     has more rows than the page has pixels, each pixel shows the nearest distance. Flags are bars
@@ -80,7 +81,6 @@ def plot_signals(
 
     Raises InputError for a record without rows, and for unknown columns, robots and times.
     """
-    look = style_of(style)
     check_rows(record)
     rows = _rows(record, start, end)
     names = [columns] if isinstance(columns, str) else list(columns or DEFAULT)
@@ -89,6 +89,27 @@ def plot_signals(
     bodies = [body for signal in found for body in signal.bodies]
     if robots is not None and all(body >= team for body in bodies):
         raise InputError("robots: all columns that were chosen are of props")
+    order = chosen_robots(record, robots)
+    return draw_signals(record, found, axes, rows=rows, order=order, style=style)
+
+
+def draw_signals(
+    record: Record,
+    found: Sequence[Signal],
+    axes: Sequence[Axes] | None = None,
+    *,
+    rows: slice = slice(None),
+    order: Sequence[int] | None = None,
+    style: str = "screen",
+) -> list[Axes]:
+    """Draw signals of some rows of a record over time, and return the axes, as `plot_signals` does.
+
+    order: robots, as the legend has them; by default that of the scenario. Raises InputError for a
+    record without rows.
+    """
+    look = style_of(style)
+    check_rows(record)
+    robots = chosen_robots(record, order)
     shown = [part for signal in found for part in _by_robot(signal)]
     if len(shown) > PANEL_LIMIT // 4:
         raise InputError(
@@ -101,8 +122,7 @@ def plot_signals(
         for ax, signal in zip(axes, shown, strict=True):
             dress_panel(ax, record, axes[-1], look, rows)
             _draw(ax, record, rows, signal, look)
-        entries = _entries(record, chosen_robots(record, robots), shown, look)
-        entries += _mark(axes, record, rows, look)
+        entries = _entries(record, robots, shown, look) + _mark(axes, record, rows, look)
         name_curves(axes[0], record.scenario.title, entries, look)
         if own:
             axes[0].figure.align_ylabels(axes)
@@ -143,6 +163,7 @@ def _draw(ax: Axes, record: Record, rows: slice, signal: Signal, look: Style) ->
     if signal.values.ndim > 2 and _is_image(signal):
         _image(ax, record, times, signal, look)
         return
+    signal = without_nothing(signal)
     values = signal.values.reshape(len(times), -1)
     each = values.shape[1] // max(1, len(signal.bodies))
     if values.dtype == np.bool_:

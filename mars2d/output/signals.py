@@ -1,7 +1,9 @@
-"""Columns of a record by name: x, speed, command.v, range_finder.90."""
+"""Signals: columns of a record by name, such as x, speed, force, command.v, range_finder.90."""
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -13,6 +15,7 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.core.quantity import Quantity
 from mars2d.output.formats.columns import POSE_UNITS
+from mars2d.output.layers.forces import mean_forces
 from mars2d.record.energy import WORK
 from mars2d.record.interventions import Change, Place
 
@@ -20,9 +23,20 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.sensors import Sensor
 
-__all__ = ["Signal", "chosen_robots", "known_columns", "signals"]
+__all__ = [
+    "Signal",
+    "as_csv",
+    "chosen_robots",
+    "known_columns",
+    "net_forces",
+    "signals",
+    "signals_of_bodies",
+    "thinned",
+    "without_nothing",
+]
 
 Float = NDArray[np.float64]
+Index = NDArray[np.intp]
 
 SPEED = "speed"
 
@@ -33,7 +47,7 @@ COLOR_UNIT = "red, green, blue"
 """The unit of colours, which are drawn in their own colours."""
 
 NOTHING = 1e-9
-"""Work of less than this share of the largest energy is not drawn."""
+"""Curves of less than this share of the largest one are not drawn."""
 
 MIN_IMAGE_NUMBERS = 6
 """The fewest numbers of one kind in a reading that is drawn as an image."""
@@ -71,7 +85,49 @@ def signals(
     readings with too many axes to draw, of which a part must be chosen.
     """
     which = chosen_robots(record, robots)
-    return [signal for name in names for signal in _named(record, name, which)]
+    props = range(len(record.scenario.robots), len(record.scenario.bodies))
+    return [
+        signal
+        for name in names
+        for signal in _named(record, name, (*which, *props) if name == "kinetic" else which)
+    ]
+
+
+def signals_of_bodies(record: Record, name: str, bodies: Sequence[int]) -> list[Signal]:
+    """Return the signals of a column name, of robots and props alike.
+
+    bodies: indices of `Scenario.bodies`; what is of all bodies together does not depend on them.
+    Raises InputError as `signals` does, and where none of the bodies has such a column.
+    """
+    return _named(record, name, tuple(bodies))
+
+
+def net_forces(
+    contacts: NDArray[np.void],
+    rows: NDArray[np.intp],
+    bodies: Sequence[int],
+    steps: range,
+    sampling_time: float,
+) -> Float:
+    """Return the net mean contact force on bodies in control steps, (steps, bodies) newtons.
+
+    contacts: (c,) of dtype CONTACT. rows: (c,), the row at the end of each contact's control step.
+    steps: the rows at the ends of the control steps.
+    """
+    seen = (rows >= steps.start) & (rows < steps.stop)
+    mine, step = contacts[seen], rows[seen] - steps.start
+    force = mean_forces(mine, sampling_time)
+    count = len(bodies)
+    place = np.full(max(bodies, default=0) + 1, -1)
+    place[list(bodies)] = np.arange(count)
+    net = np.zeros((2, len(steps) * count))
+    for side, sign in (("a", -1.0), ("b", 1.0)):
+        body = mine[side]
+        at = np.flatnonzero((body >= 0) & (body < len(place)))
+        at = at[place[body[at]] >= 0]
+        where = step[at] * count + place[body[at]]
+        net += [np.bincount(where, sign * force[at, i], len(net[0])) for i in (0, 1)]
+    return np.asarray(np.hypot(*net).reshape(len(steps), count))
 
 
 def chosen_robots(record: Record, robots: Sequence[str | int] | None) -> tuple[int, ...]:
@@ -92,7 +148,9 @@ def chosen_robots(record: Record, robots: Sequence[str | int] | None) -> tuple[i
 
 def known_columns(record: Record) -> list[str]:
     """Return the names of all columns, without their parts."""
-    names = [*POSE_UNITS, SPEED, "command", "effort", "energy", "kinetic", "momentum"]
+    names = [*POSE_UNITS, SPEED, "command", "effort", "force", "impulse"]
+    names += ["energy", "kinetic", "momentum", "momentum.each"]
+    names += [f"distance.{body.name}" for body in record.scenario.bodies]
     names += record.sensors
     if record.scenario.props:
         names += [f"prop.{part}" for part in (*POSE_UNITS, SPEED)]
@@ -107,6 +165,9 @@ def _named(record: Record, name: object, robots: tuple[int, ...]) -> list[Signal
         **dict.fromkeys((*POSE_UNITS, SPEED), _motion),
         "command": _command,
         "effort": _effort,
+        "force": _force,
+        "impulse": _force,
+        "distance": _distance,
         "energy": _energy,
         "kinetic": _kinetic,
         "momentum": _momentum,
@@ -131,7 +192,22 @@ def _motion(
     record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     _no_parts(name, head, parts)
-    return [_of_poses(record, head, head, record.pose, robots, 0)]
+    if max(robots, default=0) < len(record.scenario.robots):
+        return [_of_poses(record, head, head, record.pose, robots, 0)]
+    return [_of_poses(record, head, head, _poses(record), robots, 0)]
+
+
+def _poses(record: Record) -> Float:
+    """Return the poses of robots and props, (T, 3, N)."""
+    return np.concatenate([record.pose, record.prop_pose], axis=2)
+
+
+def _those_that_drive(record: Record, name: str, bodies: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the robots among bodies. Raises InputError if there is none."""
+    robots = tuple(body for body in bodies if body < len(record.scenario.robots))
+    if not robots:
+        raise InputError(f"columns: {name!r} is of robots, not of props")
+    return robots
 
 
 def _of_poses(
@@ -165,6 +241,7 @@ def _put_elsewhere(record: Record) -> Iterator[tuple[int, int]]:
 def _command(
     record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
+    robots = _those_that_drive(record, name, robots)
     found = {record.scenario.robots[i].drive.quantities for i in robots}
     agreed = found.pop() if len(found) == 1 else ()
     kinds = agreed or (Quantity("0", DRIVE_UNIT), Quantity("1", DRIVE_UNIT))
@@ -188,7 +265,41 @@ def _effort(
     record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     _no_parts(name, head, parts)
+    robots = _those_that_drive(record, name, robots)
     return [Signal("effort", "", record.effort[:, list(robots)], robots, "pre")]
+
+
+def _force(
+    record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
+) -> list[Signal]:
+    """Return the net contact force on each body in the control step before, or its impulse."""
+    _no_parts(name, head, parts)
+    dt, rows = record.scenario.sampling_time, record.contact_rows
+    force = net_forces(record.contacts, rows, robots, range(len(record)), dt)
+    values, unit = (force, "N") if head == "force" else (force * dt, "N s")
+    return [Signal(f"contact {head}", unit, values, robots, "pre")]
+
+
+def _distance(
+    record: Record,
+    name: str,
+    head: str,  # noqa: ARG001
+    parts: list[str],
+    robots: tuple[int, ...],
+) -> list[Signal]:
+    """Return the distances of bodies to another one: of their poses, not of their outlines."""
+    other = ".".join(parts)
+    names = [str(body.name) for body in record.scenario.bodies]
+    if other not in names:
+        hint = nearest(f"distance.{other}", [f"distance.{each}" for each in names], most=12)
+        raise InputError(f"columns: there is no {name!r}{hint}")
+    to = names.index(other)
+    bodies = tuple(body for body in robots if body != to)
+    if not bodies:
+        raise InputError(f"columns: {name!r}: expected a body other than {other}")
+    place = _poses(record)[:, :2]
+    apart = place[:, :, list(bodies)] - place[:, :, [to]]
+    return [Signal(f"distance to {other}", "m", np.hypot(apart[:, 0], apart[:, 1]), bodies)]
 
 
 def _energy(
@@ -198,28 +309,21 @@ def _energy(
     parts: list[str],
     robots: tuple[int, ...],  # noqa: ARG001
 ) -> list[Signal]:
-    """Return the kinetic energy of all bodies, and the work of all that has done any."""
+    """Return the kinetic energy of all bodies, and the work that has made it."""
     _no_parts(name, head, parts)
     energy = record.energy
     known = not np.isnan(energy.work[:1]).any()
     values = {"kinetic, of all" if known else "kinetic, by mean velocities": energy.total}
     values |= {f"work of {what}": energy.by(what) for what in WORK}
-    least = NOTHING * max(float(np.abs(each).max(initial=0)) for each in values.values())
-    shown = {
-        what: each
-        for k, (what, each) in enumerate(values.items())
-        if k == 0 or np.abs(each).max(initial=0) > least
-    }
-    curves = np.stack(list(shown.values()), axis=-1)
-    return [Signal("energy", "J", curves, (), curves=tuple(shown))]
+    curves = np.stack(list(values.values()), axis=-1)
+    return [Signal("energy", "J", curves, (), curves=tuple(values))]
 
 
 def _kinetic(
     record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     _no_parts(name, head, parts)
-    bodies = (*robots, *range(len(record.scenario.robots), len(record.scenario.bodies)))
-    return [Signal("kinetic energy", "J", record.energy.kinetic[:, list(bodies)], bodies)]
+    return [Signal("kinetic energy", "J", record.energy.kinetic[:, list(robots)], robots)]
 
 
 def _momentum(
@@ -227,11 +331,17 @@ def _momentum(
     name: str,
     head: str,
     parts: list[str],
-    robots: tuple[int, ...],  # noqa: ARG001
+    robots: tuple[int, ...],
 ) -> list[Signal]:
-    """Return the momentum of all bodies: x, y, and the angular one about the origin."""
-    _no_parts(name, head, parts)
+    """Return the momentum of all bodies: x, y, and the angular one about the origin.
+
+    With the part "each" it is the size of each body's own momentum.
+    """
     momentum = record.momentum
+    if parts == ["each"]:
+        own = momentum.linear[:, :, list(robots)]
+        return [Signal("own momentum", "N s", np.hypot(own[:, 0], own[:, 1]), robots)]
+    _no_parts(name, head, parts)
     return [
         Signal("momentum", "N s", momentum.total, (), curves=("x", "y")),
         Signal(
@@ -344,3 +454,79 @@ def _indexed(signal: Signal, index: int) -> Signal:
         signal, name=f"{signal.name}.{index}{bearing}", values=signal.values[:, :, index],
         bearings=None,
     )  # fmt: skip
+
+
+def without_nothing(signal: Signal) -> Signal:
+    """Return a signal of named curves without those that stay about 0, but for the first."""
+    if not signal.curves:
+        return signal
+    size = np.fmax(np.fmax.reduce(signal.values, axis=0, initial=0.0), 0.0)
+    size = np.fmax(size, -np.fmin.reduce(signal.values, axis=0, initial=0.0))
+    kept = [k for k in range(len(size)) if k == 0 or size[k] > NOTHING * size.max()]
+    curves = tuple(signal.curves[k] for k in kept)
+    return replace(signal, values=signal.values[:, kept], curves=curves)
+
+
+# -- as a table -----------------------------------------------------------------------------------
+
+
+def as_csv(record: Record, found: Sequence[Signal]) -> str:
+    """Return signals with curves (T, k) as a table of comma-separated values, a row for each time.
+
+    The columns are the time [s] and each curve, with its body and unit.
+    """
+    names, columns = ["time [s]"], [record.time]
+    for signal in found:
+        unit = f" [{signal.unit}]" if signal.unit else ""
+        each = signal.values.shape[1] // max(1, len(signal.bodies))
+        for k in range(signal.values.shape[1]):
+            if signal.bodies:
+                body = record.scenario.bodies[signal.bodies[k // each]]
+                part = f".{k % each}" if each > 1 else ""
+                names.append(f"{signal.name}{part} of {body.name}{unit}")
+            else:
+                same = signal.curves[k] == signal.name
+                names.append(f"{signal.name}{'' if same else f': {signal.curves[k]}'}{unit}")
+            columns.append(signal.values[:, k])
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(names)
+    writer.writerows(zip(*(column.tolist() for column in columns), strict=True))
+    return text.getvalue()
+
+
+# -- thinning of long columns ----------------------------------------------------------------------
+
+
+def thinned(values: Float, blocks: int) -> Index:
+    """Return the indices of the values (T,) to draw so that the curve looks like the whole.
+
+    The values are cut into `blocks` blocks. Each keeps its first and last value, its smallest and
+    largest, so that no peak is lost, and its first that is not finite, so that gaps stay.
+
+    >>> thinned(np.array([0.0, 1, 0, 0, 9, 0, 0, 0, -5, 0]), 1).tolist()
+    [0, 4, 8, 9]
+    """
+    count = len(values)
+    size = -(-count // blocks)
+    if count <= 5 * blocks:
+        return np.arange(count)
+    whole = count // size * size
+    parts = [_kept(values[:whole].reshape(-1, size), 0)]
+    if whole < count:
+        parts.append(_kept(values[None, whole:], whole))
+    return np.unique(np.concatenate(parts))
+
+
+def _kept(blocks: Float, start: int) -> Index:
+    """Return the indices to keep of blocks (k, size), counted from `start`."""
+    finite = np.isfinite(blocks)
+    kept = [
+        np.zeros(len(blocks), dtype=np.intp),
+        np.where(finite, blocks, np.inf).argmin(axis=1),
+        np.where(finite, blocks, -np.inf).argmax(axis=1),
+        finite.argmin(axis=1),
+        np.full(len(blocks), blocks.shape[1] - 1),
+    ]
+    first = start + np.arange(len(blocks)) * blocks.shape[1]
+    return np.asarray(np.concatenate([first + each for each in kept]))

@@ -1,0 +1,96 @@
+"""The menu of what can be plotted over time, of a body or of all robots."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from math import dist
+from typing import Any
+
+import numpy as np
+
+from mars2d.core.usercode import name_of
+from mars2d.record.frame import Frame
+from mars2d.sensors.base import Sensor
+from mars2d.window.menu import Entry
+from mars2d.window.scopes import Scopes
+from mars2d.window.trace import FEW, What
+
+__all__ = ["entries_of_distances", "entries_of_scopes"]
+
+MOTION = {"Speed": "speed", "x": "x", "y": "y", "Heading": "theta"}
+CONTACT = {"Contact force": "force", "Contact impulse": "impulse"}
+DYNAMICS = {"Kinetic energy": "kinetic", "Momentum": "momentum.each"}
+OF_ALL = {"Energy, and what has made it": "energy", "Momentum, of all": "momentum"}
+NEAREST = 14
+"""The most bodies whose distance is offered: the nearest."""
+
+
+def entries_of_scopes(
+    frame: Frame,
+    body: int | None,
+    scopes: Scopes,
+    functions: Sequence[Callable[[Any], Any]],
+    distances: Callable[[], None],
+) -> list[Entry]:
+    """Return what can be plotted of a body, an index of `Scenario.bodies`, or of all robots.
+
+    functions: those of the experiment's file that it names as its scopes. distances: opens the
+    menu of distances.
+    """
+    scenario = frame.scenario
+    bodies = tuple(range(len(scenario.robots))) if body is None else (body,)
+    who = "All robots" if body is None else str(scenario.bodies[body].name)
+
+    def entry(title: str, what: What, of: tuple[int, ...]) -> Entry:
+        return Entry(title, partial(scopes.switch, what, of), "", scopes.shows(what, of))
+
+    entries = [Entry(who)]
+    entries += [entry(title, what, bodies) for title, what in _columns(frame, body).items()]
+    if body is not None and len(scenario.bodies) > 1:
+        entries.append(Entry("Distance to ...", distances))
+    entries.append(Entry("All bodies"))
+    entries += [entry(title, what, ()) for title, what in OF_ALL.items()]
+    entries += [entry(name_of(function), function, ()) for function in functions]
+    return entries
+
+
+def entries_of_distances(frame: Frame, body: int, scopes: Scopes) -> list[Entry]:
+    """Return the bodies whose distance to a body can be plotted, the nearest first."""
+    bodies = frame.scenario.bodies
+    here = frame.body_pose(body)[:2]
+    others = [other for other in range(len(bodies)) if other != body]
+    others.sort(key=lambda other: dist(here, frame.body_pose(other)[:2]))
+    entries = [Entry(f"Distance of {bodies[body].name} to")]
+    for other in others[:NEAREST]:
+        what = f"distance.{bodies[other].name}"
+        act = partial(scopes.switch, what, (body,))
+        entries.append(Entry(str(bodies[other].name), act, "", scopes.shows(what, (body,))))
+    return entries
+
+
+def _columns(frame: Frame, body: int | None) -> dict[str, str]:
+    """Return the columns of a body or of all robots, by their titles."""
+    scenario = frame.scenario
+    found = dict(MOTION)
+    robots = scenario.robots if body is None else scenario.robots[body : body + 1]
+    drives = {robot.drive.quantities for robot in robots}
+    if len(drives) == 1:
+        parts = drives.pop() or ()
+        names = [part.name for part in parts] or ["0", "1"]
+        found |= {f"Command {name}": f"command.{name}" for name in names}
+    if robots:
+        found["Effort of the drive"] = "effort"
+    found |= (CONTACT if scenario.physics == "contact" else {}) | DYNAMICS
+    if body is not None:
+        for robot in robots:
+            found |= {sensor.key: sensor.key for sensor in _few(frame, body, robot.sensors)}
+    return found
+
+
+def _few(frame: Frame, body: int, sensors: Sequence[Sensor]) -> Iterator[Sensor]:
+    """Yield the sensors that are recorded, and read few numbers."""
+    for sensor in sensors:
+        reading = dict(frame.readings.get(sensor.key, ())).get(body)
+        if sensor.recorded and reading is not None and np.asarray(reading).size <= FEW:
+            yield sensor

@@ -1,0 +1,191 @@
+"""Traces: signals of a run that grows, of which only the new rows are computed."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import LawError, Mars2dError, shown
+from mars2d.core.usercode import called, name_of
+from mars2d.output.signals import Signal, signals_of_bodies
+from mars2d.record.columns import Column
+from mars2d.record.frame import Frame
+from mars2d.record.record import COLUMNS, Record
+
+__all__ = ["Trace", "What"]
+
+Float = NDArray[np.float64]
+
+What = str | Callable[[Any], Any]
+"""The name of a column, as `Record.plot_signals` has it, or a function of the record."""
+
+FEW = 6
+"""The most numbers of a body's reading that are drawn as curves."""
+
+
+class Trace:
+    """The signals of a column, or of a function of the user's own, while their record grows.
+
+    bodies: indices of `Scenario.bodies`. error: why there is no signal, or "".
+    """
+
+    def __init__(self, what: What, bodies: tuple[int, ...] = ()) -> None:
+        """Start with nothing read."""
+        self.what, self.bodies = what, bodies
+        self.error = ""
+        self._record: Record | None = None
+        self._kept: list[tuple[Signal, Column]] = []
+        self._rows = 0  # of the record, that are kept
+        self._of_bodies = bodies
+
+    @property
+    def name(self) -> str:
+        """The name of the column or of the function."""
+        return self.what if isinstance(self.what, str) else name_of(self.what)
+
+    def read(self, record: Record, frame: Frame) -> list[Signal]:
+        """Return the signals of all rows of a record, with curves (T, k) each.
+
+        If the frame is the row after the last one, as while a run goes on, it is the last row here.
+        """
+        self.error = ""
+        try:
+            if isinstance(self.what, str):
+                return self._column(self.what, record, frame)
+            return _own(self.name, self.what, record) if len(record) else []
+        except Mars2dError as error:
+            self.error = str(error).removeprefix("columns: ")
+            self._kept, self._rows = [], 0
+            return []
+
+    def _column(self, name: str, record: Record, frame: Frame) -> list[Signal]:
+        if not self._goes_on(record):
+            self._kept, self._rows = [], 0
+        self._record, self._of_bodies = record, self.bodies
+        part, first = self._part(record, frame)
+        if not len(part):
+            return []
+        found = [_flat(each) for each in signals_of_bodies(part, name, self.bodies)]
+        if not self._kept:
+            self._kept = [
+                (each, Column(each.values.shape[1:], each.values.dtype, 64)) for each in found
+            ]
+        result = []
+        for (_, column), each in zip(self._kept, found, strict=True):
+            column.write_block(self._rows, each.values[first:])
+            count = self._rows + len(part) - first
+            result.append(replace(each, values=column.upto(count)))
+        self._rows = len(record)
+        return result
+
+    def _goes_on(self, record: Record) -> bool:
+        """Return whether a record has the rows that are kept, perhaps with more behind them."""
+        before, last = self._record, self._rows - 1
+        if before is None or last < 0 or not self._kept:
+            return False
+        done = before.interventions
+        return (
+            self.bodies == self._of_bodies
+            and record.scenario is before.scenario
+            and record.seed == before.seed
+            and len(record) > last
+            and len(record.interventions) >= len(done)
+            and all(a is b for a, b in zip(done, record.interventions, strict=False))
+            and np.array_equal(record.pose[last], before.pose[last])
+            and np.array_equal(record.prop_pose[last], before.prop_pose[last])
+        )
+
+    def _part(self, record: Record, frame: Frame) -> tuple[Record, int]:
+        """Return the new rows of a record, after one that is known, and how many are known."""
+        start = max(self._rows - 1, 0)
+        dt = record.scenario.sampling_time
+        columns: dict[str, Any] = {name: getattr(record, name)[start:] for name in COLUMNS}
+        sensors = {name: values[start:] for name, values in record.sensors.items()}
+        if frame.iteration == len(record) and abs(frame.time - len(record) * dt) < 1e-6 * dt:
+            row = _row_of(frame)
+            columns = {name: np.concatenate([columns[name], row[name][None]]) for name in columns}
+            sensors = {
+                name: _with_reading(values, frame, name, record.sensor_robots[name])
+                for name, values in sensors.items()
+            }
+        begin = bisect_left(record.contacts["time"], (start - 1.5) * dt)
+        interventions = tuple(
+            replace(each, row=each.row - start)
+            for each in record.interventions
+            if each.row >= start
+        )
+        part = replace(
+            record,
+            **columns,
+            sensors=sensors,
+            contacts=record.contacts[begin:],
+            messages=record.messages[:0],
+            interventions=interventions,
+            branches=(),
+        )
+        return part, self._rows - start
+
+
+def _row_of(frame: Frame) -> dict[str, Any]:
+    """Return the columns of a frame whose row is not recorded yet; its command holds on."""
+    n = frame.pose.shape[1]
+    command = frame.command_path[-1] if len(frame.command_path) else np.full((2, n), np.nan)
+    row = {
+        "time": frame.time,
+        "pose": frame.pose,
+        "command": command,
+        "command_time": frame.time,
+        "prop_pose": frame.prop_pose,
+        "effort": frame.effort if frame.effort.size else np.full(n, np.nan),
+        "velocity": frame.exact_velocity[:, :n],
+        "prop_velocity": frame.exact_velocity[:, n:],
+        "work": frame.work,
+    }
+    return {name: np.asarray(value) for name, value in row.items()}
+
+
+def _with_reading(
+    values: NDArray[Any], frame: Frame, name: str, robots: tuple[int, ...]
+) -> NDArray[Any]:
+    """Return readings (T, m, ...) with those of a frame behind them; unknown ones hold on."""
+    read = dict(frame.readings.get(name, ()))
+    last = np.array(values[-1]) if len(values) else np.zeros(values.shape[1:], values.dtype)
+    for k, robot in enumerate(robots):
+        if robot in read:
+            last[k] = read[robot]
+    return np.concatenate([values, last[None]])
+
+
+def _flat(signal: Signal) -> Signal:
+    """Return a signal with curves (T, k). Raises LawError for readings of many numbers."""
+    values = signal.values
+    if values.ndim > 2 and values[0, 0].size > FEW:
+        raise LawError(f"{signal.name} has {values[0, 0].size} numbers: too many for curves")
+    return replace(signal, values=values.reshape(len(values), -1).astype(float))
+
+
+def _own(name: str, function: Callable[[Any], Any], record: Record) -> list[Signal]:
+    """Return the signal of a function of the user's own. Raises LawError, which names its line."""
+    expected = f"expected a number for each of the {len(record)} rows, or a dict of such arrays"
+    with called(name, function):
+        made = function(record)
+        named = made if isinstance(made, Mapping) else {"": made}
+        curves = []
+        for key, values in named.items():
+            try:
+                curve = np.asarray(values, dtype=float)
+            except (TypeError, ValueError):
+                curve = np.empty(0)
+            if curve.shape != (len(record),):
+                what = f"{key}: {shown(values)}" if key else shown(values)
+                raise LawError(f"{name} returned {what}: {expected}")
+            curves.append(curve)
+        if not curves:
+            raise LawError(f"{name} returned {shown(made)}: {expected}")
+    names = tuple(map(str, named)) if isinstance(made, Mapping) else (name,)
+    return [Signal(name, "", np.stack(curves, axis=1), (), curves=names)]

@@ -1,0 +1,306 @@
+"""Scopes: traces that grow with a run, and their plots."""
+
+from __future__ import annotations
+
+import numpy as np
+import pygame
+import pytest
+
+from mars2d import Robot, Scenario
+from mars2d.core.errors import InputError
+from mars2d.output.raster.brushes import rgba
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.theme import LIGHT
+from mars2d.output.signals import signals_of_bodies
+from mars2d.scenario.experiment import open_experiment
+from mars2d.sensors import Imu, RangeFinder
+from mars2d.window.plot import as_number, limits_of, polylines
+from mars2d.window.scopes import Scopes
+from mars2d.window.trace import Trace
+from mars2d.window.window import Window
+from mars2d.world.timeline import Timeline
+from tests.window.person import PUSHING
+from tests.window.written import THEMES, Written, painter
+
+
+@pytest.fixture
+def timeline(pushing):
+    return Timeline(open_experiment(pushing))
+
+
+WHATS = ["x", "speed", "command", "effort", "force", "impulse", "energy", "kinetic", "momentum"]
+
+# -- traces ---------------------------------------------------------------------------------------
+
+
+def values_of(found):
+    return [signal.values for signal in found]
+
+
+@pytest.mark.parametrize("what", [*WHATS, "momentum.each", "distance.crate"])
+def test_a_trace_that_grows_is_as_one_that_is_read_at_once(timeline, what):
+    trace = Trace(what, (0, 1))
+    while timeline.row < 60:
+        timeline.advance()
+        if timeline.row % 7 in (0, 1, 4):
+            trace.read(timeline.recorded, timeline.frame)
+    grown = trace.read(timeline.recorded, timeline.frame)
+    assert not trace.error
+    whole = Trace(what, (0, 1)).read(timeline.recorded, timeline.frame)
+    assert [each.name for each in grown] == [each.name for each in whole]
+    for a, b in zip(values_of(grown), values_of(whole), strict=True):
+        np.testing.assert_array_equal(a, b)
+    recorded = signals_of_bodies(timeline.recorded, what, (0, 1))
+    for a, b in zip(values_of(whole), values_of(recorded), strict=True):
+        assert len(a) == len(b) + 1 == timeline.row + 1, "the present row is not recorded yet"
+        np.testing.assert_array_equal(a[:-1], b.reshape(len(b), -1))
+
+
+def test_the_row_that_is_not_recorded_yet_is_as_it_will_be(timeline):
+    names = [what for what in WHATS if what != "command"]
+    traces = [Trace(what, (0, 1)) for what in names]
+    for _ in range(25):
+        timeline.advance()
+    now = [values_of(trace.read(timeline.recorded, timeline.frame)) for trace in traces]
+    timeline.advance()
+    later = [values_of(trace.read(timeline.recorded, timeline.frame)) for trace in traces]
+    for what, a, b in zip(names, now, later, strict=True):
+        for before, after in zip(a, b, strict=True):
+            np.testing.assert_allclose(before[-1], after[25], err_msg=what)
+
+
+def test_after_another_branch_or_a_new_start_a_trace_is_read_anew(timeline):
+    trace = Trace("x", (0,))
+    for _ in range(40):
+        timeline.advance()
+    trace.read(timeline.recorded, timeline.frame)
+    timeline.go(20)
+    timeline.change(lambda world: world.operator.place(0, (-2.5, 1.5, 0.0)))
+    for _ in range(30):
+        timeline.advance()
+
+    def is_right():
+        (signal,) = trace.read(timeline.recorded, timeline.frame)
+        rows = len(timeline.recorded)
+        np.testing.assert_array_equal(signal.values[:rows, 0], timeline.recorded.pose[:, 0, 0])
+
+    is_right()
+    timeline.other_branch()
+    is_right()
+    timeline.restart()
+    timeline.advance()
+    is_right()
+
+
+def test_the_readings_of_sensors_are_traced_if_they_are_few():
+    robot = Robot(sensors=[Imu(), RangeFinder(beams=40)], controller=lambda _: (0.2, 0.1))
+    timeline = Timeline(open_experiment(Scenario(robots=[robot])))
+    imu, scan = Trace("imu", (0,)), Trace("range_finder", (0,))
+    for _ in range(5):
+        timeline.advance()
+        found = imu.read(timeline.recorded, timeline.frame)
+    assert len(found) > 1
+    reading = np.ravel(dict(timeline.frame.readings["imu"])[0])
+    np.testing.assert_array_equal([each.values[-1, 0] for each in found], reading)
+    assert scan.read(timeline.recorded, timeline.frame) == []
+    assert "40 numbers: too many for curves" in scan.error
+
+
+def test_a_function_of_ones_own_is_traced_and_its_mistakes_are_told(timeline):
+    while timeline.row < 10:
+        timeline.advance()
+    record, frame = timeline.recorded, timeline.frame
+    (gap,) = Trace(timeline.experiment.functions["gap"]).read(record, frame)
+    np.testing.assert_array_equal(gap.values[:, 0], record.pose[:, 0, 1] - record.pose[:, 0, 0])
+    (two,) = Trace(lambda r: {"a": r.time, "b": -r.time}).read(record, frame)
+    assert two.curves == ("a", "b")
+
+    def broken(record):
+        return record.poses
+
+    for function, words in (
+        (broken, "broken raised AttributeError"),
+        (lambda _: 3.0, "returned 3.0: expected a number for each of the 10 rows"),
+        (lambda _: {}, "expected a number for each"),
+        (lambda _: "much", "expected a number for each"),
+    ):
+        trace = Trace(function)
+        assert trace.read(record, frame) == []
+        assert words in trace.error
+    wrong = Trace("sped", (0,))
+    assert wrong.read(record, frame) == []
+    assert wrong.error == "there is no 'sped'; did you mean 'speed'?"
+
+
+# -- plots ----------------------------------------------------------------------------------------
+
+
+def test_lines_go_through_the_values_and_break_where_there_is_none():
+    area, limits = pygame.Rect(0, 0, 100, 100), limits_of(0.0, 4.0, np.array([0.0, 1.0]))
+    times, values = np.arange(5.0), np.array([0.0, 1.0, np.nan, 0.5, 0.5])
+    first, second = polylines(area, limits, times, values)
+    np.testing.assert_allclose(first[:, 0], [0, 25])
+    np.testing.assert_allclose(second[:, 0], [75, 100])
+    assert first[0, 1] == 100
+    (before,) = polylines(area, limits, times, np.arange(5.0) / 5, held="pre")
+    np.testing.assert_allclose(before[:, 0], [-25, 0, 0, 25, 25, 50, 50, 75, 75, 100])
+    turned = polylines(area, limits, times, np.array([3.0, 3.1, -3.1, -3.0, -2.9]), wraps=True)
+    assert [len(line) for line in turned] == [2, 3]
+
+
+def test_numbers_have_three_digits():
+    assert [as_number(value) for value in (0.0, 0.2, -12.346, 12345.0, 2e-5, np.nan)] == [
+        "0.00", "0.200", "\N{MINUS SIGN}12.3", "1.23e+04", "2e\N{MINUS SIGN}05", "nothing",
+    ]  # fmt: skip
+
+
+class Scoped:
+    """Scopes of a run on a surface that remembers its words."""
+
+    def __init__(self, timeline, size=(316, 300), theme=LIGHT):
+        layout = Layout.of((1280, 720))
+        self.timeline, self.gone = timeline, []
+        self.scopes = Scopes(
+            painter(layout, theme), lambda: timeline.recorded, self.gone.append, {},
+            clock=lambda: 0.0,
+        )  # fmt: skip
+        self.surface = Written(size)
+
+    def draw(self):
+        self.scopes._image = None
+        self.surface.words.clear()
+        self.scopes.draw(self.surface, self.surface.get_rect(), self.timeline.frame)
+        return self.surface
+
+
+@THEMES
+@pytest.mark.parametrize("size", [(316, 200), (316, 420), (200, 140), (900, 130)])
+def test_words_of_plots_stay_apart_however_small_they_are(timeline, size, theme):
+    scoped = Scoped(timeline, size, theme)
+    for what in ("speed", "force", "energy"):
+        scoped.scopes.switch(what, () if what == "energy" else (0, 1, 2))
+    for _ in range(30):
+        timeline.advance()
+    surface = scoped.draw()
+    assert "speed [m/s]" in surface.texts
+    assert surface.crowded() == []
+
+
+def test_the_cursor_has_the_values_of_the_row_that_is_shown(timeline):
+    scoped = Scoped(timeline, (500, 300))
+    scoped.scopes.switch("x", (0, 2))
+    for _ in range(50):
+        timeline.advance()
+    for row in (50, 20):
+        timeline.go(row)
+        texts = scoped.draw().texts
+        for name, values in (("red", "pose"), ("crate", "prop_pose")):
+            x = getattr(timeline.frame, values)[0, 0]
+            assert f"{name} {as_number(x)}" in texts
+
+
+def test_what_is_switched_on_for_one_body_joins_the_plot_of_another():
+    scopes = Scopes(None, None, None, {})
+    scopes.switch("speed", (0,))
+    scopes.switch("speed", (2,))
+    scopes.switch("energy", ())
+    assert [(t.what, t.bodies) for t in scopes.traces] == [("speed", (0, 2)), ("energy", ())]
+    assert scopes.shows("speed", (2,))
+    assert not scopes.shows("speed", (0, 1))
+    scopes.switch("speed", (0,))
+    assert scopes.traces[0].bodies == (2,)
+    scopes.meet(Scenario(robots=[Robot(), Robot(pose=(1, 0, 0))]))
+    assert [trace.what for trace in scopes.traces] == ["energy"]
+    scopes.switch("energy", ())
+    assert not scopes.is_open
+
+
+def test_of_many_robots_all_curves_are_drawn():
+    robots = [Robot(pose=(0.5 * k, 0, 0)) for k in range(20)]
+    timeline = Timeline(open_experiment(Scenario(robots=robots, workspace=None)))
+    timeline.advance()
+    scoped = Scoped(timeline)
+    scoped.scopes.switch("x", tuple(range(20)))
+    for _ in range(200):
+        timeline.advance()
+    surface = scoped.draw()
+    assert "20 curves" in surface.texts
+    column = pygame.surfarray.array3d(surface)[120].astype(int)
+    plate = pygame.Color(scoped.scopes.painter.theme.plate)[:3]
+    colored = (np.ptp(column, axis=1) > 60) & (column != plate).any(axis=1)
+    assert 15 <= colored.sum() <= 25
+
+
+def test_as_time_passes_it_is_drawn_a_few_times_a_second_only(timeline):
+    scoped = Scoped(timeline)
+    scoped.scopes.switch("x", (0,))
+    scoped.draw()
+    first = scoped.scopes._image
+    timeline.advance()
+    scoped.scopes.draw(scoped.surface, scoped.surface.get_rect(), timeline.frame)
+    assert scoped.scopes._image is first
+    scoped.scopes._clock = lambda: 1.0
+    scoped.scopes.draw(scoped.surface, scoped.surface.get_rect(), timeline.frame)
+    assert scoped.scopes._image is not first
+
+
+def test_the_wheel_shows_less_time_and_more_until_it_is_all(timeline):
+    scoped = Scoped(timeline)
+    scoped.scopes.switch("x", (0,))
+    for _ in range(190):
+        timeline.advance()
+    scoped.draw()
+    turn = pygame.Event(pygame.MOUSEWHEEL, y=4, precise_y=4.0)
+    scoped.scopes.handle(turn)
+    assert scoped.scopes.span == pytest.approx(19 / 1.25**4)
+    scoped.draw()
+    limits = scoped.scopes._plots[0].limits
+    assert limits.start < timeline.frame.time <= limits.end
+    timeline.go(10)
+    scoped.draw()
+    limits = scoped.scopes._plots[0].limits
+    assert limits.start <= timeline.frame.time < limits.end
+    scoped.scopes.handle(pygame.Event(pygame.MOUSEWHEEL, y=-9, precise_y=-9.0))
+    assert scoped.scopes.span is None
+
+
+def test_a_window_that_remembers_its_scopes_shows_something(pushing):
+    window = Window(Timeline(open_experiment(pushing)))
+    assert window.looks["panels"] == []
+    window.dock.open(["scopes"])
+    assert [(trace.what, trace.bodies) for trace in window.scopes.traces] == [("speed", (0, 1))]
+    assert window.looks["panels"] == ["scopes"]
+
+
+@pytest.mark.parametrize("kind", ["column", "function"])
+def test_a_mistake_stands_in_the_panel(timeline, kind):
+    scoped = Scoped(timeline)
+    scoped.scopes.switch("sped" if kind == "column" else lambda record: record.pose.nothing, ())
+    for _ in range(3):
+        timeline.advance()
+    seen = pygame.surfarray.array3d(scoped.draw()).astype(int)
+    ink = rgba(LIGHT.error.ink)[:3]
+    assert (np.abs(seen - ink).max(axis=2) < 20).any()
+    error = scoped.scopes.traces[0].error
+    if kind == "column":
+        assert error == "there is no 'sped'; did you mean 'speed'?"
+    else:
+        assert "AttributeError" in error
+        assert "test_scopes.py, line" in error
+
+
+# -- what an experiment's file names --------------------------------------------------------------
+
+
+def test_a_file_names_its_scopes(tmp_path):
+    path = tmp_path / "named.py"
+    path.write_text(PUSHING + '\n\nscopes = ["speed", gap]\n')
+    speed, gap = open_experiment(path).scopes
+    assert (speed, gap.__name__) == ("speed", "gap")
+    path.write_text(PUSHING + "\n\nscopes = 'speed'\n")
+    with pytest.raises(InputError, match="scopes = 'speed': expected a list of columns") as error:
+        open_experiment(path)
+    assert error.value.where == "named.py"
+    path.write_text(PUSHING + "\n\nscopes = [push, lambda: 0]\n")
+    with pytest.raises(InputError, match=r"scopes\[1\] = .*exactly one argument, the record"):
+        open_experiment(path)

@@ -1,0 +1,109 @@
+"""Scopes in a real window, with a real mouse: chosen, scrubbed, saved."""
+
+import csv
+
+import numpy as np
+import pygame
+
+from mars2d import load, run
+from tests.window.person import PUSHING, needs_screen
+
+pytestmark = needs_screen
+
+
+def push(window, button):
+    window.do("mousemove", *window.state["buttons"][button], "click", 1)
+
+
+def choose(window, title):
+    window.until(lambda s: title in s["menu"])
+    window.do("mousemove", *window.state["menu"][title], "click", 1)
+
+
+def test_scopes_are_chosen_by_mouse_for_several_bodies(open_window, pushing):
+    window = open_window(0, experiment=str(pushing))
+    push(window, "scopes")
+    choose(window, "Speed")
+    window.until(lambda s: s["scopes"] == {"speed": [0, 1]} and "speed" in s["areas"])
+    choose(window, "Energy, and what has made it")
+    window.until(lambda s: "energy" in s["areas"])
+    push(window, "scopes")
+    window.until(lambda s: not s["menu"])
+    window.press("Tab", "Tab", "Tab")
+    window.until(lambda s: s["selected"] == 2)
+    window.press("q")
+    choose(window, "Speed")
+    window.until(lambda s: s["scopes"]["speed"] == [0, 1, 2])
+    choose(window, "Distance to ...")
+    choose(window, "red")
+    window.until(lambda s: s["scopes"].get("distance.red") == [2])
+    window.press("Escape")
+    window.until(lambda s: not s["menu"])
+    window.press("Escape")
+    window.until(lambda s: "inspector" not in s["panels"] and "distance to red" in s["on_scopes"])
+    window.do("mousemove", *window.state["on_scopes"]["energy"], "click", 1)
+    window.until(lambda s: [*s["scopes"]] == ["speed", "distance.red"])
+    window.do("mousemove", *window.state["closes"]["scopes"], "click", 1)
+    window.until(lambda s: not s["panels"])
+
+
+def test_a_click_in_a_plot_goes_to_that_time_and_a_drag_scrubs(open_window, pushing):
+    window = open_window(0, experiment=str(pushing))
+    window.press("1", "9", "9", "Right")
+    window.until(lambda s: s["row"] == 199)
+    push(window, "scopes")
+    choose(window, "Contact force")
+    left, top, width, height = window.until(lambda s: s["areas"])["areas"]["contact force"]
+    push(window, "scopes")
+    middle = top + height // 2
+    window.do("mousemove", left + width // 2, middle, "click", 1)
+    window.until(lambda s: abs(s["row"] - 100) <= 2 and s["past"])
+    window.do("mousemove", left + width // 4, middle, "mousedown", 1)
+    window.until(lambda s: abs(s["row"] - 50) <= 2)
+    window.do("mousemove", left + 3 * width // 4, middle - 200)
+    window.until(lambda s: abs(s["row"] - 150) <= 2)
+    window.do("mouseup", 1)
+
+
+def test_what_is_plotted_is_saved_as_figure_and_as_numbers(open_window, pushing, tmp_path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    window = open_window(0, experiment=str(pushing), folder=folder)
+    window.press("3", "0", "Right")
+    window.until(lambda s: s["row"] == 30)
+    window.click(-2 + 0.2 * 3, 0.5, button=3)
+    choose(window, "Plot over time")
+    choose(window, "x")
+    window.until(lambda s: "x" in s["areas"])
+    window.press("Escape", "Escape")
+    window.until(lambda s: s["selected"] is None and not s["menu"])
+    window.do("mousemove", *window.state["on_scopes"]["table"], "click", 1)
+    window.says("numbers: ")
+    with (folder / "pushing_1.csv").open() as file:
+        header, *rows = csv.reader(file)
+    assert header == ["time [s]", "x of red [m]"]
+    record = run(str(pushing), show=False)
+    np.testing.assert_array_equal([float(x) for _, x in rows], record.pose[:30, 0, 0])
+    window.do("mousemove", *window.state["on_scopes"]["figure"], "click", 1)
+    window.says("figure: ")
+    size = pygame.image.load(folder / "pushing_1.png").get_size()
+    assert min(size) > 200
+
+
+def test_the_scopes_of_a_file_are_open_and_follow_when_it_is_edited(open_window, pushing):
+    pushing.write_text(PUSHING + '\n\nscopes = ["speed", gap]\n')
+    window = open_window(1, experiment=str(pushing))
+    window.until(lambda s: {"speed", "gap"} <= {*s["areas"]})
+    window.press("q")
+    choose(window, "gap")
+    window.until(lambda s: "gap" not in s["scopes"])
+
+
+def test_a_recording_has_scopes(open_window, pushing, tmp_path):
+    path = tmp_path / "run.npz"
+    run(str(pushing), stop_time=2.0, show=False).save(path)
+    window = open_window(0, record=str(path))
+    assert len(load(path)) == 21
+    push(window, "scopes")
+    choose(window, "Kinetic energy")
+    window.until(lambda s: "kinetic energy" in s["areas"])
