@@ -512,7 +512,7 @@ class Window:
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces are shown there."""
         self.player.body = self.selected
-        self.layers = self.layers.switched(forces=True)
+        self.layers = self.layers.switched(forces=True, impulses=True)
         go()
 
     def _contact_entries(self) -> list[Entry]:
@@ -574,9 +574,7 @@ class Window:
         self._meet()
 
     def _toggle(self, layer: str) -> None:
-        on = not getattr(self.layers, layer)
-        names = (layer, "neighbours") if layer == "messages" else (layer,)
-        self.layers = self.layers.switched(**dict.fromkeys(names, on))
+        self.layers = self.layers.toggled(layer)
 
     def _change_theme(self) -> None:
         self._painter.theme = theme_of(dark=not self._painter.theme.dark)

@@ -11,7 +11,7 @@ from time import perf_counter
 import pygame
 
 from mars2d.core.scene import Shape
-from mars2d.output.layers.legend import legends
+from mars2d.output.layers.legend import Legend, legends
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
@@ -134,6 +134,7 @@ class Stage:
         self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
         self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._numbers_of: tuple[Hashable, ...] = ()
+        self._legends: tuple[Scenario, list[Legend]] | None = None
 
     def draw(
         self,
@@ -165,9 +166,15 @@ class Stage:
                 self.painter.paint(surface, _sensors(frame), camera)
         self._paint_above(surface, frame, camera, layers, beneath, marks)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
-        shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
+        shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
         draw_legends(surface, self.painter, camera, plot, shown)
         surface.set_clip(before)
+
+    def _legends_of(self, scenario: Scenario) -> list[Legend]:
+        """Return the legends of a scenario, made once for as long as it is the same."""
+        if self._legends is None or self._legends[0] is not scenario:
+            self._legends = scenario, legends(scenario)
+        return self._legends[1]
 
     def _paint_above(
         self,

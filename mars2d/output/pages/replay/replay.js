@@ -354,7 +354,8 @@ class Replay {
   }
 
   toggle(layer) {
-    this.look[layer] = !this.look[layer];
+    const on = !this.look[layer], { along } = this.record.layers.find(({ name }) => name === layer);
+    for (const name of [layer, ...along]) this.look[name] = on;
     if (layer === "grid") this.resize();
   }
 
