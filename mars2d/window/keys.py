@@ -97,7 +97,7 @@ DO = (
 KEYS = (*TIME, *SEE, *DO)
 
 MOUSE = (
-    Key("zoom", (), ("Wheel",), "zoom about the pointer"),
+    Key("zoom", (), ("Wheel",), "zoom about the pointer; over the time bar, in time"),
     Key("pick", (), ("Click",), "select a robot or prop, and inspect it; beside them, none"),
     Key("carry", (), ("Drag it",), "pull a robot or prop; while paused, put it elsewhere"),
     Key("menu", (), ("Right click",), "what can be done with it"),

@@ -436,6 +436,8 @@ class Window:
                 self._close_editor(self.editor)
         elif self.toolbar.handle(event):
             self._meet()
+        elif self._controls.handle(event):
+            pass
         elif event.type == pygame.KEYDOWN:
             self._press(event.key, event.unicode, event.mod)
         elif event.type == pygame.KEYUP:

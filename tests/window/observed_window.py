@@ -68,6 +68,8 @@ def state_of(window):
         "branches": 0 if timeline is None else len(timeline.branches),
         "marks": {} if timeline is None else {k: [*v] for k, v in marks_of(window).items()},
         "bar": [round(bar.x_of(0), 1), round(bar.x_of(source.newest), 1), bar._line.centery],
+        "span": [*bar.span],
+        "show_all": bar._all.center,
         "slider": [slider._line.left, slider._line.right, slider._line.centery],
         "robots": seen.pose.T.round(4).tolist(),
         "props": seen.prop_pose.T.round(4).tolist(),
