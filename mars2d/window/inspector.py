@@ -1,4 +1,4 @@
-"""The inspector: everything about the selected body, in a column beside the picture."""
+"""The inspector: a panel with everything about the selected body."""
 
 from __future__ import annotations
 
@@ -9,12 +9,11 @@ from typing import Any, NamedTuple
 import pygame
 
 from mars2d.core.description import snake_case
-from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.layers.forces import SLIP, SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
-from mars2d.window.buttons import draw_icon
+from mars2d.window.dock import Panel
 from mars2d.window.forcemeter import Meter
 from mars2d.window.forceplot import draw_force
 from mars2d.window.readout import (
@@ -32,13 +31,11 @@ from mars2d.window.sensorplot import TITLE, SensorPlot, plot_of
 
 __all__ = ["Inspector", "sensor_plots"]
 
-WIDTH, MIN_WIDTH, MIN_HEIGHT = 344.0, 220.0, 130.0
-"""The inspector's size, points. Where there is less room than the minimum, it is left out."""
-MAX_SHARE = 0.46
-"""The largest share of the picture's width."""
+COLUMN, LEAST = 300.0, 176.0
+"""The least width of a column of sections, and the least height of the inspector, points."""
 
-PAD, GAP = 14.0, 9.0
-"""The margin, and the gap between two sections, points."""
+GAP = 9.0
+"""The gap between two sections, points."""
 HEAD, ROW, FORCE, LINE = 36.0, 19.0, 118.0, 17.0
 """The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
 MIN_FORCE = 76.0
@@ -63,99 +60,107 @@ class Section(NamedTuple):
     least: float | None = None
 
 
-class Inspector:
+class Inspector(Panel):
     """Shows the state, contacts, forces, sensors and messages of one body.
 
     clock: seconds; the inspector is drawn anew a few times a second, and as soon as the body comes
     to touch another or parts from it, since it stands beside the arrows.
+
+    body: the one that is shown, an index of `Scenario.bodies`; None: none, and it is closed.
     """
 
-    def __init__(self, painter: Painter, clock: Callable[[], float] = time.perf_counter) -> None:
+    name, title, headed, remembered = "inspector", "Inspector", False, False
+
+    def __init__(
+        self,
+        painter: Painter,
+        body: int | None = None,
+        clock: Callable[[], float] = time.perf_counter,
+    ) -> None:
         """Start with nothing drawn."""
-        self.painter = painter
+        self.painter, self.body = painter, body
         self._clock = clock
         self._meter = Meter()
-        self._left = False
         self._image: pygame.Surface | None = None
+        self._listed: list[tuple[str, Section]] = []
         self._of: tuple[object, ...] = ()
         self._frame: Frame | None = None
         self._drawn_at = 0.0
-        self.closes = pygame.Rect(0, 0, 0, 0)  # where a press closes it
 
-    def width(self, plot: pygame.Rect) -> int:
-        """Return the inspector's width with the gaps beside it, pixels."""
-        ui = self.painter.ui
-        return round(min(WIDTH * ui, MAX_SHARE * plot.width)) + 2 * round(12 * ui)
+    @property
+    def is_open(self) -> bool:  # type: ignore[override]
+        """Whether a body is shown."""
+        return self.body is not None
 
-    def place(self, plot: pygame.Rect, body: tuple[float, float] | None) -> pygame.Rect | None:
-        """Return the inspector's place: at the right of the picture, or left if the body is there.
+    def close(self) -> None:
+        """Show none."""
+        self.body = None
 
-        body: its position, pixels; None: it is elsewhere. None if the picture is too small.
-        """
-        ui, gap = self.painter.ui, round(12 * self.painter.ui)
-        width = self.width(plot) - 2 * gap
-        height = plot.height - 2 * gap
-        if width < MIN_WIDTH * ui or height < MIN_HEIGHT * ui:
-            return None
-        left = pygame.Rect(plot.left + gap, plot.top + gap, width, height)
-        right = left.move(plot.width - 2 * gap - width, 0)
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
+        """Return the least and the wanted height at a width, points."""
+        each = [section.height + GAP for _, section in self._look(frame)]
+        columns = _columns(width)
+        wanted = sum(each) if columns == 1 else (sum(each) + max(each)) / columns
+        return LEAST, max(LEAST, *each, wanted)
+
+    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
+        """Draw the inspector within a rectangle."""
+        sections, ui = self._look(frame), self.painter.ui
+        if self._image is None or self._image.get_size() != rect.size:
+            columns = _columns(rect.width / ui)
+            gap = round(2 * GAP * ui)
+            close = round(CLOSE * ui) if columns > 1 else 0
+            width = (rect.width - close - (columns - 1) * gap) // columns
+            self._image = pygame.Surface(rect.size, 0, 32)
+            self._image.fill(self.painter.theme.plate)
+            for column, top, part in self._chosen(sections, rect.height, columns):
+                left = column * (width + gap)
+                place = pygame.Rect(left, top, width, round(part.height * ui))
+                part.draw(self._image, place)
+        surface.blit(self._image, rect)
+
+    def _look(self, frame: Frame) -> list[tuple[str, Section]]:
+        """Return the sections with their names, as they were last seen or as they are now."""
+        body, ui, theme = self.body, self.painter.ui, self.painter.theme
         if body is None:
-            return right
-        near = round(60 * ui)
-        hides = (left if self._left else right).inflate(near, near).collidepoint(body)
-        hides_too = (right if self._left else left).inflate(near, near).collidepoint(body)
-        if hides and not hides_too:
-            self._left = not self._left
-        return left if self._left else right
-
-    def draw(
-        self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame, body: int
-    ) -> pygame.Rect:
-        """Draw the inspector of a body within a rectangle; return the part that it covers."""
-        ui, theme = self.painter.ui, self.painter.theme
-        of = body, touching(frame, body), frame.scenario, rect.size, ui, theme
+            return []
+        of = body, touching(frame, body), frame.scenario, ui, theme
         reading = self._meter.read(frame, body)  # at each control step, else it would start over
         now = self._clock()
         late = frame is not self._frame and now - self._drawn_at >= DRAW_INTERVAL
-        if self._image is None or of != self._of or late:
-            inner = rect.inflate(-2 * round(PAD * ui), -2 * round(PAD / 2 * ui))
-            sections = list(self._chosen(frame, body, inner.height, reading))
-            height = sum(self._pixels(part) for part in sections)
-            self._image = pygame.Surface((inner.width, height), 0, 32)
-            self._image.fill(theme.plate)
-            top = 0
-            for part in sections:
-                part.draw(self._image, pygame.Rect(0, top, inner.width, round(part.height * ui)))
-                top += self._pixels(part)
-            self._of, self._frame, self._drawn_at = of, frame, now
-        pad = round(PAD * ui), round(PAD / 2 * ui)
-        taken = pygame.Rect(rect.left, rect.top, rect.width, self._image.get_height() + 2 * pad[1])
-        self.painter.panel(surface, taken, theme.plate, 8 * ui, theme.edge)
-        surface.blit(self._image, (rect.left + pad[0], rect.top + pad[1]))
-        side = round(26 * ui)
-        self.closes = pygame.Rect(0, 0, side, side)
-        self.closes.midright = taken.right - pad[1], taken.top + pad[1] + round(HEAD / 2 * ui)
-        draw_icon(surface, CONTROLS["close"].icon, theme.muted, self.closes)
-        return taken
+        if not self._listed or of != self._of or late:
+            self._listed = list(self._sections(frame, body, reading))
+            self._image, self._of, self._frame, self._drawn_at = None, of, frame, now
+        return self._listed
 
     def _pixels(self, section: Section) -> int:
         return round((section.height + GAP) * self.painter.ui)
 
-    def _chosen(self, frame: Frame, body: int, room: int, reading: Any) -> Iterator[Section]:
-        """Yield the sections for which there is room, in order of importance."""
+    def _chosen(
+        self, sections: list[tuple[str, Section]], height: int, columns: int = 1
+    ) -> Iterator[tuple[int, int, Section]]:
+        """Yield the sections for which there is room, in order of importance.
+
+        height: of the columns, pixels. Each section comes with its column and its top, pixels.
+        """
         left_out: list[str] = []
-        for name, section in self._sections(frame, body, reading):
-            last = round(LINE * self.painter.ui)  # for the names of those left out
-            if section.least is not None and self._pixels(section) + last > room:
-                lower = (room - last) / self.painter.ui - GAP
+        column, top = 0, 0
+        whole = sum(self._pixels(section) for _, section in sections) <= height
+        last = 0 if whole else round(LINE * self.painter.ui)  # for the names of those left out
+        for name, section in sections:
+            if top and self._pixels(section) > height - top and column + 1 < columns:
+                column, top = column + 1, 0
+            room = height - top - (last if column == columns - 1 else 0)
+            if section.least is not None and self._pixels(section) > room:
+                lower = room / self.painter.ui - GAP
                 section = section._replace(height=max(section.least, lower))  # noqa: PLW2901
-            if self._pixels(section) + last <= room:
-                room -= self._pixels(section)
-                yield section
+            if self._pixels(section) <= room:
+                yield column, top, section
+                top += self._pixels(section)
             else:
                 left_out.append(name)
         if left_out:
-            yield self._text(f"no room for {', '.join(left_out)}")
+            yield column, top, self._text(f"no room for {', '.join(left_out)}")
 
     def _sections(self, frame: Frame, body: int, reading: Any) -> Iterator[tuple[str, Section]]:
         """Yield all sections with their names."""
@@ -344,6 +349,11 @@ class Inspector:
         surface.blit(image, image.get_rect(midleft=(rect.left, middle)))
         image = fonts.render(more, 12 * ui, theme.muted)
         surface.blit(image, image.get_rect(midright=(rect.right, middle)))
+
+
+def _columns(width: float) -> int:
+    """Return how many columns of sections stand beside each other in a width, points."""
+    return max(1, int(width // COLUMN))
 
 
 def sensor_plots(frame: Frame, body: int) -> Iterator[SensorPlot]:

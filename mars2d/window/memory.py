@@ -1,4 +1,4 @@
-"""What windows remember from one time to the next: size, colours, and the files last opened."""
+"""What windows remember from one time to the next: size, colours, panels, files last opened."""
 
 from __future__ import annotations
 
@@ -62,6 +62,12 @@ class Memory:
             case [int(width), int(height)] if 400 <= width <= 8000 and 300 <= height <= 8000:
                 return width, height
         return SIZE
+
+    @property
+    def panels(self) -> list[str]:
+        """The names of the panels that were open in the last window."""
+        known = self._read().get("panels", [])
+        return [name for name in known if isinstance(name, str)] if isinstance(known, list) else []
 
     def keep(self, **looks: Any) -> None:
         """Remember how a window looks."""

@@ -54,6 +54,7 @@ def show_experiment(
         source = Timeline(experiment, seed, watchers, log)
         memory = Memory()
         window = Window(source, speed, memory.size, preferences or memory.preferences())
+        window.dock.open(memory.panels)
         window.asks = asks
         if human is not None:
             window.wait_for(human)
@@ -82,6 +83,7 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
 
     memory = Memory()
     window = Window(Playback(record), speed, memory.size, preferences or memory.preferences())
+    window.dock.open(memory.panels)
     try:
         window.run()
     finally:

@@ -23,9 +23,6 @@ REST = 0.12
 MAX_ZOOM, MIN_ZOOM = 400.0, 0.05
 """The range of the scale, in multiples of that at which the workspace fits."""
 
-BESIDE = 0.75
-"""The smallest scale beside a panel, in parts of that without one; else the panel covers a part."""
-
 PULL = 7.0
 """How quickly the camera approaches its aim, critically damped, 1/s."""
 LEASH = 0.3
@@ -53,28 +50,29 @@ class Viewpoint:
         self.following: Follow | None = None
         self._scenario = scenario
         self._fits = True
-        self._beside, self._makes_room = 0, False
+        self._room = layout.plot
         self._hurry = 0.0
         self.camera = self._fitted()
 
     @property
     def makes_room(self) -> bool:
-        """Whether the workspace is seen beside a panel at the right, which covers none of it."""
-        return self._makes_room and self._fits
+        """Whether the workspace is seen beside panels, which cover none of it."""
+        return self._fits and self._room != self.layout.plot
 
     @property
     def hurried(self) -> bool:
         """Whether the camera is moving."""
         return time.perf_counter() < self._hurry
 
-    def arrange(self, layout: Layout, scenario: Scenario, beside: int = 0) -> None:
+    def arrange(self, layout: Layout, scenario: Scenario, room: pygame.Rect | None = None) -> None:
         """Change the layout. The view stays in place, or fitted to the workspace if it was.
 
-        beside: the width of a panel at the right that should not cover the workspace, pixels.
+        room: the part of the picture in which the workspace is seen, if panels stand beside it.
         """
+        room = layout.plot if room is None else room
         before, self.layout = self.layout, layout
-        same = scenario.bounds == self._scenario.bounds and beside == self._beside
-        self._beside = beside
+        same = scenario.bounds == self._scenario.bounds and room == self._room
+        self._room = room
         self._scenario = scenario
         if self._fits and not (same and layout == before):
             self.fit()
@@ -118,13 +116,8 @@ class Viewpoint:
         self._hurry = time.perf_counter() + REST
 
     def _fitted(self) -> Camera:
-        """Return the camera that shows the workspace, beside a panel if there is room for both."""
-        whole = fitted(self._scenario, self.layout.size, self.layout)
-        plot = self.layout.plot
-        rest = pygame.Rect(plot.left, plot.top, max(1, plot.width - self._beside), plot.height)
-        part = fitted(self._scenario, self.layout.size, replace(self.layout, plot=rest))
-        self._makes_room = bool(self._beside) and part.scale >= BESIDE * whole.scale
-        return part if self._makes_room else whole
+        """Return the camera that shows the workspace beside the panels."""
+        return fitted(self._scenario, self.layout.size, replace(self.layout, plot=self._room))
 
 
 def wheel_notches(event: pygame.Event) -> float:

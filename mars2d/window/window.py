@@ -39,6 +39,7 @@ from mars2d.window.display import (
     show_drawn,
     started_display,
 )
+from mars2d.window.dock import Dock
 from mars2d.window.editor import Editor
 from mars2d.window.ghosts import ghosts
 from mars2d.window.grab import CLICK, Grab
@@ -98,7 +99,6 @@ class Window:
         self.title = f"{source.scenario.title} - MARS2D"
         self.layers = Layers.of(source.scenario.animation, neighbours=True)
         self.help = Help()
-        self.selected: int | None = None  # an index of Scenario.bodies
         self.asks = False  # before a run is lost that can't just be run again
         self.text, self.scale = preferences.text, 1.0
         self.notes = Notes()
@@ -118,11 +118,10 @@ class Window:
         self._painter = Painter(theme=theme_of(dark=preferences.dark))
         self._stage = Stage(self._painter, MEMORY)
         self._inspector = Inspector(self._painter)
-        self._inspected = pygame.Rect(0, 0, 0, 0)  # where the inspector was drawn
+        self.dock = Dock(self._painter, [self._inspector])
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
-        handles = [*self._controls.handles, (self._closes, self._select_none)]
         self._mouse = Mouse(
-            self.player, self.viewpoint, self.grab, handles,
+            self.player, self.viewpoint, self.grab, self._controls.handles,
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions: dict[str, Callable[[], None]] = {
@@ -165,6 +164,15 @@ class Window:
         self.toolbar: Toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
 
     @property
+    def selected(self) -> int | None:
+        """The selected body, an index of `Scenario.bodies`."""
+        return self._inspector.body
+
+    @selected.setter
+    def selected(self, body: int | None) -> None:
+        self._inspector.body = body
+
+    @property
     def camera(self) -> Camera:
         """The camera."""
         return self.viewpoint.camera
@@ -195,9 +203,12 @@ class Window:
 
     @property
     def looks(self) -> dict[str, object]:
-        """How the window looks, to be remembered: its size [points], colours, size of text."""
-        size = [round(side / self.scale) for side in self.layout.size]
-        return {"size": size, "dark": self._painter.theme.dark, "text": self.text}
+        """How the window looks, to be remembered: size [points], colours, size of text, panels."""
+        size, dark = (
+            [round(side / self.scale) for side in self.layout.size],
+            self._painter.theme.dark,
+        )
+        return {"size": size, "dark": dark, "text": self.text, "panels": self.dock.opened}
 
     def arena(self) -> pygame.Surface:
         """Return a picture of the arena alone, without any bars."""
@@ -339,8 +350,7 @@ class Window:
         frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
-        beside = 0 if self.selected is None else self._inspector.width(layout.plot)
-        self.viewpoint.arrange(layout, frame.scenario, beside)
+        self.viewpoint.arrange(layout, frame.scenario, self.dock.arrange(layout, frame))
         marks = self.grab.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
@@ -356,7 +366,7 @@ class Window:
             marks=marks,
             hurried=self.viewpoint.hurried,
         )
-        self._inspect(surface, frame)
+        self._draw_dock(surface, frame)
         if notes and not self.saver.filming:
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic())
         if self._way_back is not None:
@@ -395,27 +405,25 @@ class Window:
             return Status(f"{text}  {self.director.driver.status}", "hand")
         return Status(text, kind)
 
-    def _inspect(self, surface: pygame.Surface, frame: Frame) -> None:
-        """Draw the inspector of the selected body, if there is one and room for it."""
-        self._inspected = pygame.Rect(0, 0, 0, 0)
-        if self.selected is None:
-            return
-        ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
-        at = None if self.viewpoint.makes_room else (x, y)
-        place = self._inspector.place(self.layout.plot, at)
-        if place is not None and not (self._drives and self._hides(place, frame)):
-            self._inspected = self._inspector.draw(surface, place, frame, self.selected)
+    def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
+        """Draw the panels, away from the selected body where the arena makes no room for them."""
+        spot = None
+        if self.selected is not None and not self.viewpoint.makes_room:
+            ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
+            spot = x, y
+        free = self._seen_arena(frame) if self._drives else None
+        self.dock.draw(surface, frame, spot, self._pointer, free=free)
 
     @property
     def _drives(self) -> bool:
         """Whether a robot is driven by hand."""
         return self.director.driver.robot is not None
 
-    def _hides(self, place: pygame.Rect, frame: Frame) -> bool:
-        """Return whether a rectangle covers the workspace, which a driver needs to see."""
+    def _seen_arena(self, frame: Frame) -> pygame.Rect:
+        """Return where the workspace is seen, which a driver needs to see, pixels."""
         xmin, xmax, ymin, ymax = frame.scenario.bounds
         (left, top), (right, bottom) = self.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).tolist()
-        return place.colliderect(pygame.Rect(left, top, right - left, bottom - top))
+        return pygame.Rect(left, top, right - left, bottom - top)
 
     def _layout(self, size: tuple[int, int], banner: Banner | None) -> Layout:
         """Return the layout on a surface of this size."""
@@ -438,6 +446,8 @@ class Window:
             self._meet()
         elif self._controls.handle(event):
             pass
+        elif not self.help.is_open and self.dock.handle(event):
+            pass
         elif event.type == pygame.KEYDOWN:
             self._press(event.key, event.unicode, event.mod)
         elif event.type == pygame.KEYUP:
@@ -455,9 +465,7 @@ class Window:
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether a pixel shows the picture, with nothing over it."""
-        over = (
-            self.help.is_open or self._inspected.collidepoint(pixel) or self.toolbar.covers(pixel)
-        )
+        over = self.help.is_open or self.dock.covers(pixel) or self.toolbar.covers(pixel)
         return not over and self.layout.plot.collidepoint(pixel)
 
     def _select_at(self, point: Point) -> None:
@@ -490,13 +498,6 @@ class Window:
             "dark": self._painter.theme.dark,
             "help": self.help.is_open,
         }.get(action, False)
-
-    def _closes(self, pixel: tuple[int, int]) -> bool:
-        """Return whether a press at a pixel closes the inspector."""
-        return bool(self._inspected and self._inspector.closes.collidepoint(pixel))
-
-    def _select_none(self, _pixel: tuple[int, int]) -> None:
-        self.selected = None
 
     # -- commands -------------------------------------------------------------------------------
 

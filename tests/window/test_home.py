@@ -187,6 +187,8 @@ def test_looks_are_remembered_and_what_is_asked_for_counts_more(memory):
     assert Memory().preferences() == Preferences(dark=True, text=1.7)
     assert Memory().preferences(dark=False, text=1.3) == Preferences(dark=False, text=1.3)
     assert Memory().size == (1000, 700)
+    memory.keep(panels=["scopes", 3])
+    assert Memory().panels == ["scopes"]
 
 
 @pytest.mark.parametrize(

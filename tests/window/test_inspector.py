@@ -40,9 +40,8 @@ from mars2d.window.inspector import Inspector, sensor_plots
 from mars2d.window.readout import contacts_of, dynamics_of, inbox, rounded, state_of
 from mars2d.window.sensorplot import history
 from tests.window.circling import Circling
-from tests.window.written import Written, painter
+from tests.window.written import Written, painter, pixels
 
-PLOT = pygame.Rect(0, 52, 1280, 580)
 FORCE = (0xA3, 0x00, 0x3C)
 SENSORS = [
     Pose(), Odometry(), Imu(), Proximity(range=1.0), Bumper(), Ground(), RangeFinder(beams=40),
@@ -92,9 +91,9 @@ def world():
 def seen_of(frame, body, theme=LIGHT, size=(344, 580)):
     surface = pygame.Surface(size, 0, 32)
     surface.fill("#ff00ff")
-    inspector = Inspector(Painter(theme=theme))
-    taken = inspector.draw(surface, surface.get_rect(), frame, body)
-    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int), taken
+    inspector = Inspector(Painter(theme=theme), body)
+    inspector.draw(surface, surface.get_rect(), frame)
+    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
 
 
 # -- what it says ---------------------------------------------------------------------------------
@@ -184,8 +183,7 @@ def test_a_sensors_history_is_what_the_record_has(world):
 def test_scrubbing_back_shows_what_was_seen_then(world):
     record, played = world.record, team(steps=12)
     for body in (0, 1, 4):
-        live, _ = seen_of(played.frame, body)
-        past, _ = seen_of(record.frame(12), body)
+        live, past = seen_of(played.frame, body), seen_of(record.frame(12), body)
         np.testing.assert_array_equal(live, past)
 
 
@@ -277,31 +275,33 @@ def test_an_impact_does_not_flatten_the_curve():
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
-@pytest.mark.parametrize("size", [(344, 580), (220, 130), (344, 250), (800, 1300)])
+@pytest.mark.parametrize("size", [(316, 580), (200, 176), (316, 250), (800, 1300), (900, 200)])
 def test_it_fits_into_what_there_is(world, size, theme):
     for body in range(5):
-        seen, taken = seen_of(world.frame, body, theme, size)
-        assert pygame.Rect(0, 0, *size).contains(taken)
-        beneath = seen[taken.bottom :]
-        assert (beneath == (255, 0, 255)).all()
+        inspector, surface = Inspector(painter(Layout.of((1280, 720)), theme), body), Written(size)
+        sections = inspector._look(world.frame)
+        chosen = [*inspector._chosen(sections, size[1], columns=max(1, size[0] // 300))]
+        assert all(top + inspector._pixels(part) <= size[1] + 1 for _, top, part in chosen)
+        inspector.draw(surface, surface.get_rect(), world.frame)
+        assert (pixels(surface)[0, 0] == rgba(theme.plate)[:3]).all()
 
 
 def test_there_is_room_for_more_the_larger_it_is(world):
-    heights = [
-        seen_of(world.frame, 0, size=(344, room))[1].height for room in (200, 400, 700, 1400)
-    ]
-    assert heights == sorted(set(heights))
+    def sections(height, columns=1):
+        inspector = Inspector(Painter(), 0)
+        return len([*inspector._chosen(inspector._look(world.frame), height, columns)])
+
+    numbers = [sections(height) for height in (200, 400, 700, 1400)]
+    assert numbers == sorted(set(numbers))
+    assert sections(200, columns=3) > sections(200)
 
 
-def test_it_lies_at_the_right_unless_the_body_is_there():
-    inspector = Inspector(Painter())
-    right, left = (inspector.place(PLOT, place) for place in ((200, 300), (1100, 300)))
-    assert right.right > 1200
-    assert left.left < 100
-    assert PLOT.contains(right)
-    assert PLOT.contains(left)
-    assert inspector.place(PLOT, (640, 300)) == left, "it stays where it is while nothing is hidden"
-    assert inspector.place(pygame.Rect(0, 52, 300, 150), (0, 0)) is None
+def test_all_sections_have_room_in_the_height_that_it_wants(world):
+    for body in range(5):
+        inspector = Inspector(Painter(), body)
+        _, wanted = inspector.heights(world.frame, 290)
+        chosen = [*inspector._chosen(inspector._look(world.frame), round(wanted) + 1)]
+        assert [part for _, _, part in chosen] == [part for _, part in inspector._look(world.frame)]
 
 
 def test_between_two_drawings_it_is_the_same_for_a_while():
@@ -311,7 +311,8 @@ def test_between_two_drawings_it_is_the_same_for_a_while():
 
     def picture(frame, body=0):
         surface.fill("white")
-        inspector.draw(surface, surface.get_rect(), frame, body)
+        inspector.body = body
+        inspector.draw(surface, surface.get_rect(), frame)
         return pygame.surfarray.array3d(surface)
 
     first = picture(world.frame)
@@ -326,29 +327,30 @@ def test_between_two_drawings_it_is_the_same_for_a_while():
 
 
 def test_a_contact_that_begins_or_ends_is_seen_at_once():
-    world, kept = team(steps=5), Inspector(Painter(), clock=lambda: 0.0)
+    world, kept = team(steps=5), Inspector(Painter(), 0, clock=lambda: 0.0)
     frame = world.frame
     touch = np.zeros(1, dtype=frame.contacts.dtype)
     touch["a"], touch["b"], touch["normal_impulse"] = 0, 1, 1.0
 
     def picture(inspector, contacts):
         surface = pygame.Surface((344, 580), 0, 32)
-        inspector.draw(surface, surface.get_rect(), replace(frame, contacts=contacts), 0)
+        inspector.draw(surface, surface.get_rect(), replace(frame, contacts=contacts))
         return pygame.surfarray.array3d(surface)
 
     for contacts in (touch[:0], touch, touch[:0]):
-        anew = picture(Inspector(Painter()), contacts)
+        anew = picture(Inspector(Painter(), 0), contacts)
         assert np.array_equal(picture(kept, contacts), anew)
 
 
 def test_it_takes_little_time(world):
-    inspector, surface = Inspector(Painter(), clock=lambda: 0.0), pygame.Surface((344, 580), 0, 32)
+    inspector = Inspector(Painter(), 0, clock=lambda: 0.0)
+    surface = pygame.Surface((344, 580), 0, 32)
     frame, rect = world.frame, surface.get_rect()
-    inspector.draw(surface, rect, frame, 0)
+    inspector.draw(surface, rect, frame)
     taken = []
     for _ in range(50):
         start = time.thread_time()
-        inspector.draw(surface, rect, frame, 0)
+        inspector.draw(surface, rect, frame)
         taken.append(time.thread_time() - start)
     assert min(taken) < 0.002
 
@@ -366,11 +368,11 @@ def test_the_numbers_of_a_row_stay_apart_however_narrow_it_is(width):
 
 def test_in_little_room_the_plot_of_forces_is_lower_rather_than_left_out():
     frame = team().frame
-    reading = Meter().read(frame, 2)
+    inspector = Inspector(Painter(), 2)
 
     def heights(room):
-        sections = Inspector(Painter())._chosen(frame, 2, room, reading)
-        return [section.height for section in sections if section.least is not None]
+        sections = inspector._chosen(inspector._look(frame), room)
+        return [section.height for _, _, section in sections if section.least is not None]
 
     assert heights(600) == [118.0]
     assert 76.0 <= heights(287)[0] < 118.0

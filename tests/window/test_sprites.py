@@ -72,6 +72,7 @@ class Viewer:
         if plain:
             self.window._painter = Painter(kept=0)
             self.window._stage.painter = self.window._inspector.painter = self.window._painter
+            self.window.dock.painter = self.window._painter
         self.plain = plain
         self.size = (1280, 720)
 

@@ -163,7 +163,9 @@ def test_a_right_click_opens_what_can_be_done_with_a_body(open_window, room):
     offered(window, 1.5, 0.5)
     choose(window, "Put back to its start")
     window.until(lambda s: s["props"][0] == [1, -1, 0])
-    window.do("mousemove", *window.state["close"], "click", 1)  # the inspector covers red
+    window.do(
+        "mousemove", *window.state["closes"]["inspector"], "click", 1
+    )  # the inspector covers red
     window.until(lambda s: s["selected"] is None)
     offered(window, -2, 0.5)
     choose(window, "Drive by hand")
@@ -243,8 +245,7 @@ def test_before_a_run_changed_by_hand_is_lost_the_window_asks(open_window, room,
     window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
     window.press("Right")
     window.until(lambda s: s["row"] == 1)
-    window.do("mousemove", *window.state["close"], "click", 1)
-    window.until(lambda s: s["selected"] is None)
+    assert window.state["selected"] is None
     for stay in ("Escape", "Stay"):
         window.press("Escape")
         window.until(lambda s: "Stay" in s["menu"])

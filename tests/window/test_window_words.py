@@ -62,13 +62,14 @@ def test_the_inspector_leaves_the_arena_to_one_who_drives(window):
     do(window, "select")
     shown = {}
     for drives in (False, True):
-        for size, text in ((SMALL, 1.7), (LARGE, 1.0), ((700, 700), 1.0)):
+        for size, text in ((SMALL, 1.7), (LARGE, 1.0), ((500, 420), 1.0)):
             words(window, size, text)
-            shown[drives, size] = place = window._inspected
-            assert not (drives and place and window._hides(place, window.player.frame))
+            shown[drives, size] = place = window.dock.plates.get("inspector")
+            arena = window._seen_arena(window.player.frame)
+            assert not (drives and place and place.colliderect(arena))
         do(window, "drive")
-    assert shown[False, (700, 700)]
-    assert not shown[True, (700, 700)]
+    assert shown[False, (500, 420)]
+    assert not shown[True, (500, 420)]
     assert shown[True, LARGE]  # there it is beside it
 
 

@@ -1,0 +1,161 @@
+"""The dock: where panels stand, how they share their room, what the mouse does to them."""
+
+from __future__ import annotations
+
+import pygame
+import pytest
+
+from mars2d import Robot, Scenario, World
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.painter import Painter
+from mars2d.window.dock import Dock, Panel
+from mars2d.window.viewpoint import Viewpoint
+from tests.window.written import painter
+
+SIZES = [(1280, 720, 1.0), (1920, 1080, 1.0), (1024, 768, 1.7), (800, 600, 1.0)]
+SQUARE = [(-5, -5), (5, -5), (5, 5), (-5, 5)]
+WIDE = [(-8, -2), (8, -2), (8, 2), (-8, 2)]
+TALL = [(-2, -8), (2, -8), (2, 8), (-2, 8)]
+
+
+class Plain(Panel):
+    """A panel that remembers what happened to it."""
+
+    def __init__(self, name, least=100.0, wanted=200.0):
+        self.name, self.title = name, name.title()
+        self.size, self.events, self.drags = (least, wanted), [], False
+
+    def heights(self, frame, width):
+        return self.size
+
+    def draw(self, surface, rect, frame):
+        self.rect = rect
+
+    def handle(self, event):
+        self.events.append(event.type)
+        return self.drags
+
+
+def frame_of(workspace):
+    return World(Scenario(robots=[Robot()], workspace=workspace)).frame
+
+
+class Seen:
+    """A dock on a picture, and where the arena is."""
+
+    def __init__(self, panels, size=(1280, 720), workspace=SQUARE, text=1.0, spot=None):
+        width, height = size
+        self.frame, self.surface = frame_of(workspace), pygame.Surface((width, height), 0, 32)
+        self.layout = Layout.of((width, height), text=text, controls=True)
+        self.dock = Dock(painter(self.layout, Painter().theme), panels)
+        self.view = Viewpoint(self.frame.scenario, self.layout)
+        self.draw(spot)
+
+    def draw(self, spot=None):
+        room = self.dock.arrange(self.layout, self.frame)
+        self.view.arrange(self.layout, self.frame.scenario, room)
+        self.dock.draw(self.surface, self.frame, spot)
+        xmin, xmax, ymin, ymax = self.frame.scenario.bounds
+        corners = self.view.camera.to_pixels([(xmin, ymax), (xmax, ymin)])
+        (left, top), (right, bottom) = corners.tolist()
+        self.arena = pygame.Rect(left, top, right - left, bottom - top)
+        return self
+
+    def click(self, pixel):
+        event = pygame.Event(pygame.MOUSEBUTTONDOWN, pos=pixel, button=1)
+        return self.dock.handle(event)
+
+
+def some(count):
+    panels = [Plain(f"panel{k}") for k in range(count)]
+    for panel in panels:
+        panel.is_open = True
+    return panels
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("workspace", [SQUARE, WIDE, TALL], ids=["square", "wide", "tall"])
+@pytest.mark.parametrize("size", SIZES, ids=str)
+def test_panels_cover_neither_the_arena_nor_each_other(size, workspace, count):
+    *size, text = size
+    seen = Seen(some(count), size, workspace, text)
+    plates = [*seen.dock.plates.values()]
+    assert len(plates) == count
+    assert seen.view.makes_room
+    for k, plate in enumerate(plates):
+        assert seen.layout.plot.contains(plate)
+        assert not plate.colliderect(seen.arena)
+        assert not any(plate.colliderect(other) for other in plates[:k])
+
+
+def test_beside_a_square_arena_they_stand_at_the_right_and_below_a_wide_one_below():
+    (plate,) = Seen(some(1)).dock.plates.values()
+    assert plate.left > 900
+    seen = Seen(some(2), workspace=WIDE)
+    assert all(plate.top > seen.arena.bottom for plate in seen.dock.plates.values())
+
+
+def test_an_arena_with_room_beside_it_stays_as_large_as_without_panels():
+    assert Seen(some(1)).arena.size == Seen([]).arena.size
+    assert Seen(some(2), workspace=WIDE).arena.size == Seen([], workspace=WIDE).arena.size
+
+
+def test_where_there_is_little_room_the_one_opened_last_is_seen_whole():
+    panels = [Plain(f"panel{k}", least=180.0) for k in range(3)]
+    seen = Seen(panels, (640, 480))
+    for panel in panels:
+        panel.is_open = True
+        seen.draw()
+        whole = [name for name, plate in seen.dock.plates.items() if plate.height > 100]
+        assert whole == [panel.name], "of the others only the titles"
+    assert len(seen.dock.plates) == 3
+    assert seen.click(seen.dock.plates["panel0"].center)
+    seen.draw()
+    assert seen.dock.plates["panel0"].height > 100 > seen.dock.plates["panel2"].height
+
+
+def test_a_panel_that_covers_the_arena_stays_off_what_is_selected():
+    seen = Seen(some(1), (500, 420))
+    assert not seen.view.makes_room
+    (right,) = seen.dock.plates.values()
+    seen.draw(right.center)
+    (left,) = seen.dock.plates.values()
+    assert right != left
+    assert not left.collidepoint(right.center)
+    seen.draw(seen.layout.plot.midtop)
+    assert [left] == [*seen.dock.plates.values()], "it stays while nothing is hidden"
+
+
+def test_a_panel_is_closed_by_its_button_and_opened_by_name():
+    panels = some(2)
+    seen = Seen(panels)
+    assert seen.dock.opened == ["panel0", "panel1"]
+    assert seen.click(seen.dock.closes["panel0"].center)
+    assert seen.draw().dock.opened == ["panel1"]
+    seen.dock.switch("panel0")
+    seen.dock.open(["panel1", "gone since"])
+    assert seen.dock.opened == ["panel0", "panel1"]
+    seen.dock.switch("panel0")
+    assert seen.dock.opened == ["panel1"]
+
+
+def test_the_mouse_over_a_panel_is_the_panels_and_a_drag_until_it_ends():
+    (panel,) = some(1)
+    seen = Seen([panel])
+    inside, outside = panel.rect.center, (100, 300)
+
+    def send(kind, pixel):
+        button = {} if kind == pygame.MOUSEMOTION else {"button": 1}
+        return seen.dock.handle(pygame.Event(kind, pos=pixel, **button))
+
+    assert not send(pygame.MOUSEBUTTONDOWN, outside)
+    assert send(pygame.MOUSEBUTTONDOWN, inside)
+    assert not send(pygame.MOUSEMOTION, outside)
+    assert panel.events == [pygame.MOUSEBUTTONDOWN]
+    panel.drags = True
+    send(pygame.MOUSEBUTTONDOWN, inside)
+    assert send(pygame.MOUSEMOTION, outside)
+    assert send(pygame.MOUSEBUTTONUP, outside)
+    assert not send(pygame.MOUSEMOTION, outside)
+    assert panel.events[2:] == [pygame.MOUSEMOTION, pygame.MOUSEBUTTONUP]
+    assert not seen.dock.handle(pygame.Event(pygame.KEYDOWN, key=pygame.K_a))
