@@ -41,6 +41,7 @@ CONTROLS = {
         "K",
         "M3.5 15a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0M11.5 9a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0",
     ),
+    "predictions": Control("Predictions", "Q", "M4 6l2 2 3.5-4M4 15l2 2 3.5-4M13 6.5h7M13 15.5h7"),
     "drive": Control(
         "Drive by hand",
         "H",

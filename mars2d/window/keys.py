@@ -64,6 +64,7 @@ _SEE = (
     Key("names", ("i",), ("I",), "names on and off"),
     Key("velocities", ("u",), ("U",), "velocities on and off"),
     Key("layers", ("a",), ("A",), "choose what is shown"),
+    Key("predictions", ("q",), ("Q",), "what checks predict, beside what is measured, on and off"),
     Key("select", ("tab",), ("Tab",), "select the next robot or prop, and inspect it"),
     Key("follow", ("l",), ("L",), "let the camera follow what is selected, or all robots"),
     Key("fit", ("f", "ctrl+0"), ("F",), "fit the workspace into the window"),

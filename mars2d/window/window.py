@@ -50,6 +50,7 @@ from mars2d.window.mouse import Mouse
 from mars2d.window.notes import Ending, Notes, Progress, draw_progress
 from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.player import Player
+from mars2d.window.predictions import Predictions
 from mars2d.window.reload import Reload
 from mars2d.window.rest import Rest
 from mars2d.window.saving import Saver
@@ -118,7 +119,8 @@ class Window:
         self._painter = Painter(theme=theme_of(dark=preferences.dark))
         self._stage = Stage(self._painter, MEMORY)
         self._inspector = Inspector(self._painter)
-        self.dock = Dock(self._painter, [self._inspector])
+        self._predictions = Predictions(self._painter, timeline)
+        self.dock = Dock(self._painter, [self._inspector, self._predictions])
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
         self._mouse = Mouse(
             self.player, self.viewpoint, self.grab, self._controls.handles,
@@ -135,6 +137,7 @@ class Window:
             "contact": lambda: self._to_contact(self.player.next_contact),
             "contact_back": lambda: self._to_contact(self.player.last_contact),
             "contacts": lambda: self.toolbar.open("contacts", self._contact_entries),
+            "predictions": self._predict_or_not,
             "loop": self._loop_or_not,
             "faster": self.player.faster,
             "slower": self.player.slower,
@@ -161,6 +164,8 @@ class Window:
             "leave": self._leave,
         }
         buttons = self._actions | {"branch": self._choose_branch}
+        if not self._predictions.offered:
+            del buttons["predictions"]
         self.toolbar: Toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
 
     @property
@@ -301,6 +306,8 @@ class Window:
         self.director.steer(seconds)
         self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.player.pass_time(seconds)
+        if self._predictions.look(playing=self.player.playing):
+            self._rest.stir()
         self.viewpoint.step(self.player.frame, seconds)
 
     def _read_again(self) -> None:
@@ -444,9 +451,7 @@ class Window:
                 self._close_editor(self.editor)
         elif self.toolbar.handle(event):
             self._meet()
-        elif self._controls.handle(event):
-            pass
-        elif not self.help.is_open and self.dock.handle(event):
+        elif self._controls.handle(event) or (not self.help.is_open and self.dock.handle(event)):
             pass
         elif event.type == pygame.KEYDOWN:
             self._press(event.key, event.unicode, event.mod)
@@ -491,6 +496,7 @@ class Window:
             "loop": self.player.loop,
             "contacts": self.player.at_contact != "go on" or self.toolbar.menu.name == "contacts",
             "layers": self.toolbar.menu.name == "layers",
+            "predictions": self._predictions.is_open,
             "drive": self._drives,
             "follow": self.viewpoint.following is not None,
             "film": self.saver.filming,
@@ -511,6 +517,13 @@ class Window:
     def _loop_or_not(self) -> None:
         """Begin again at the end, or no longer."""
         self.player.loop = not self.player.loop
+
+    def _predict_or_not(self) -> None:
+        """Show the predictions of the experiment's checks, or no longer."""
+        if self._predictions.offered:
+            self.dock.switch("predictions")
+        else:
+            self.notes.say("this file has no checks, which compare a run with theory", "warning")
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces are shown there."""

@@ -94,11 +94,18 @@ def state_of(window):
         "closes": {name: place.center for name, place in window.dock.closes.items()},
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
+        "predictions": predictions_of(window._predictions),
         "loop": player.loop,
         "full": pygame.display.is_fullscreen(),
         "filming": window.saver._film is not None,
         "editor": None if window.editor is None else editor_of(window.editor),
     }
+
+
+def predictions_of(panel):
+    """Return how many predictions are ok, and of how many; None where they are not shown."""
+    found = panel.reading.predictions
+    return [sum(each.ok for each in found), len(found)] if panel.is_open else None
 
 
 def marks_of(window):
