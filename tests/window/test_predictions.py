@@ -50,6 +50,10 @@ class Desk:
         for _ in range(rows):
             self.timeline.advance()
 
+    def finish(self):
+        while not self.timeline.over:
+            self.timeline.advance()
+
     def look(self, seconds=10.0, *, playing=True):
         self.clock.now += seconds
         return self.panel.look(playing=playing)
@@ -74,8 +78,7 @@ def test_a_prediction_is_not_yet_then_ok_so_far_then_ok(tmp_path):
     assert desk.look()
     assert {"way", "1.000", "0.250", "0.01", "m", "not yet"} <= set(desk.says)
     assert "0 of 1 prediction ok at 0.5 s" in desk.says
-    desk.run(14)
-    assert desk.timeline.over
+    desk.finish()
     assert desk.look()
     assert {"1.000", "ok"} <= set(desk.says)
     assert "1 of 1 prediction ok at the end" in desk.says
@@ -86,7 +89,7 @@ def test_what_holds_already_is_ok_so_far_and_what_fails_at_the_end_is_not_ok(tmp
     desk.run(6)
     desk.look()
     assert "ok so far" in desk.says
-    desk.run(15)
+    desk.finish()
     desk.look()
     assert "NOT OK" in desk.says
 
@@ -100,7 +103,7 @@ def test_an_error_while_the_run_goes_on_is_not_yet_and_at_the_end_an_error(tmp_p
     told = " ".join(desk.says)
     assert "Not yet: mine.py, line 12: checks raised IndexError" in told
     assert desk.timeline.error is None
-    desk.run(15)
+    desk.finish()
     desk.look()
     assert "Failed: mine.py, line 12: checks raised IndexError" in " ".join(desk.says)
     assert desk.timeline.over, "the run has come to its own end"
