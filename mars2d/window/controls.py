@@ -16,6 +16,7 @@ from mars2d.window.player import SPEEDS, Player
 from mars2d.window.slider import SpeedSlider
 from mars2d.window.source import Playback, Source
 from mars2d.window.timebar import TimeBar, TimeState
+from mars2d.window.trio import Trio
 from mars2d.window.viewpoint import wheel_notches
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -122,6 +123,8 @@ class Controls:
 
 def _marks_of(source: Source) -> Callable[[], Mapping[MarkKind, Sequence[int]]]:
     """Return what tells the rows with marks: of a recording they stay the same."""
+    if isinstance(source, Trio):
+        source = source.contact
     if isinstance(source, Timeline):
         return Marks(source).rows
     marks = marks_of(source.record) if isinstance(source, Playback) else {}

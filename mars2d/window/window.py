@@ -49,7 +49,7 @@ from mars2d.window.menu import Entry
 from mars2d.window.mouse import Mouse
 from mars2d.window.notes import Ending, Notes, Progress, draw_progress
 from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
-from mars2d.window.player import Player
+from mars2d.window.player import Player, time_actions
 from mars2d.window.predictions import Predictions
 from mars2d.window.reload import Reload
 from mars2d.window.rest import Rest
@@ -67,8 +67,6 @@ HINTS = (
 )  # fmt: skip
 HAND_HINTS = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
-LEAP = 10
-"""How many steps PgDn and PgUp do, unless a number was typed."""
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
 RESERVE = 0.004
@@ -127,20 +125,11 @@ class Window:
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions: dict[str, Callable[[], None]] = {
-            "pause": self.player.pause_or_resume,
-            "step": lambda: self.player.step(self._keyboard.typed(1)),
-            "back": lambda: self.player.back(self._keyboard.typed(1)),
-            "leap": lambda: self.player.step(self._keyboard.typed(LEAP)),
-            "leap_back": lambda: self.player.back(self._keyboard.typed(LEAP)),
-            "start": lambda: self.player.go(0),
-            "newest": lambda: self.player.go(source.newest),
+            **time_actions(self.player, self._keyboard.typed),
             "contact": lambda: self._to_contact(self.player.next_contact),
             "contact_back": lambda: self._to_contact(self.player.last_contact),
             "contacts": lambda: self.toolbar.open("contacts", self._contact_entries),
             "predictions": self._predict_or_not,
-            "loop": self._loop_or_not,
-            "faster": self.player.faster,
-            "slower": self.player.slower,
             "restart": self._restart,
             "branch": self._other_branch,
             "undo": self._undo,
@@ -513,10 +502,6 @@ class Window:
         self.notes.clear()
         self.player.restart()
         self._meet()
-
-    def _loop_or_not(self) -> None:
-        """Begin again at the end, or no longer."""
-        self.player.loop = not self.player.loop
 
     def _predict_or_not(self) -> None:
         """Show the predictions of the experiment's checks, or no longer."""
