@@ -79,7 +79,7 @@ class CompareWindow:
         self.arenas = [Arena(mode, self._painter, MEMORY // len(MODES)) for mode in MODES]
         self._controls, self._ending = Controls(self.player), Ending(self.player)
         self._keyboard, self._rest = keys.Keyboard(), Rest()
-        self._open = False
+        self._open = self._passing = False
         self._dragged: Callable[[Pixel], None] | None = None
         self.viewpoint = Viewpoint(trio.scenario, self._arranged(size))
         self._actions: dict[str, Callable[[], None]] = {
@@ -125,14 +125,19 @@ class CompareWindow:
 
     def _answer(self, where: str) -> str:
         """Answer the user while a law takes long at a line; return why to break it off, or ""."""
+        if not self._passing:
+            return ""
         self.notes.say(f"waiting for {where}; Esc leaves", kind="warning")
         surface = pygame.display.get_surface()
         if surface is not None:
             self.draw(surface)
             show_drawn()
         pygame.event.pump()
-        pressed = pygame.event.get(pygame.KEYDOWN)
-        if pygame.event.peek(pygame.QUIT) or any(e.key == pygame.K_ESCAPE for e in pressed):
+        keys_moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))
+        for event in keys_moved:  # for later, in their order
+            pygame.event.post(event)
+        escapes = any(e.type == pygame.KEYDOWN and e.key == pygame.K_ESCAPE for e in keys_moved)
+        if pygame.event.peek(pygame.QUIT) or escapes:
             self._open = False
             return "did not return before the window was closed"
         return ""
@@ -143,11 +148,13 @@ class CompareWindow:
             for event in self._rest.events():
                 self._handle(event)
             now = time.perf_counter()
+            self._passing = True  # from here on laws may be asked
             self.player.pass_time(now - last)
+            self._passing = False
             last, player = now, self.player
             if player.playing or player.busy or len(self.notes):
                 self._rest.stir()
-            if not self._rest.resting:
+            if not self._rest.resting and pygame.display.get_active():
                 self.draw(pygame.display.get_surface() or screen)
                 show_drawn()
                 player.drawing = time.perf_counter() - now

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import ceil
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from mars2d.core.plane import grid_step
 from mars2d.core.scene import Scene
 from mars2d.output.figures.comparison import COLORS, NO_DRIFT
-from mars2d.output.layers.forces import round_force
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 
@@ -101,17 +100,15 @@ class DriftPlot:
     def _draw_axes(self, surface: pygame.Surface, painter: Painter, top: float) -> None:
         """Draw the grid, and the numbers of both axes."""
         ui, fonts, theme, area = painter.ui, painter.fonts, painter.theme, self.area
-        step = round_force(top / 2)
+        step = grid_step(top * 30 * ui / area.height)
         for k in range(int(top / step + 1e-9) + 1):
             y = area.bottom - round(k * step / top * area.height)
             surface.fill(theme.grid_axis if k == 0 else theme.grid, (area.left, y, area.width, 1))
             image = fonts.render(f"{k * step:.4g} m", 11.5 * ui, theme.muted)
             surface.blit(image, image.get_rect(midright=(area.left - round(8 * ui), y)))
-        step = round_force(self._end / 4)
-        for k in range(ceil(self._end / step - 1e-9) + 1):
+        step = grid_step(self._end * 90 * ui / area.width)
+        for k in range(int(self._end / step + 1e-9) + 1):
             x = area.left + round(k * step / self._end * area.width)
-            if x > area.right:
-                break
             surface.fill(theme.grid, (x, area.top, 1, area.height))
             image = fonts.render(f"{k * step:.6g} s", 11.5 * ui, theme.muted)
             surface.blit(image, image.get_rect(midtop=(x, area.bottom + round(5 * ui))))
@@ -120,9 +117,17 @@ class DriftPlot:
         """Write the title, and the names of the curves at the right."""
         ui, fonts, theme = painter.ui, painter.fonts, painter.theme
         middle, right = rect.top + round(HEAD / 2 * ui), self.area.right
-        scene = Scene()
-        for mode, color in list(COLORS.items())[:0:-1]:
-            for name, style, width in (("mean", "--", 1.4), (f"{mode}, largest", "-", 2.2)):
+        scene, size = Scene(), 12.5 * ui
+        curves = [
+            [("mean", "--", 1.4, color), (f"{mode}, largest", "-", 2.2, color)]
+            for mode, color in reversed(COLORS.items())
+            if mode != "contact"
+        ]
+        words = "".join(name for curve in curves for name, *_ in curve)
+        if fonts.width(words, size) + 4 * 44 * ui > self.area.width:
+            curves = [[(each[1][0].partition(",")[0], "-", 2.2, each[1][3])] for each in curves]
+        for each in curves:
+            for name, style, width, color in each:
                 image = fonts.render(name, 12.5 * ui, theme.text)
                 surface.blit(image, image.get_rect(midright=(right, middle)))
                 right -= image.get_width() + round(6 * ui)

@@ -256,7 +256,7 @@ class Window:
             last = now
             if self._moves:
                 self._rest.stir()
-            if not self._rest.resting:
+            if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
                 self._show_picture(pygame.display.get_surface() or screen)
             self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE)
             if self.player.speed < inf or not self.player.playing:

@@ -170,6 +170,30 @@ def test_a_slow_sampling_time_moves_smoothly(open_window):
     assert max(times) < 1.5
 
 
+def test_a_window_in_which_nothing_moves_draws_no_pictures(open_window):
+    window = open_window(1)
+    window.press("space")
+    window.until(lambda s: s["status"] == "paused")
+    time.sleep(1.0)  # until it rests
+    before = window.settle()["pictures"]
+    time.sleep(1.5)  # 90 pictures, if it drew on
+    after = window.settle()["pictures"]
+    # Each of the two questions wakes it up for half a second.
+    assert after - before < 45
+
+
+def test_a_window_that_is_not_seen_goes_on_without_pictures(open_window):
+    window = open_window(1, rows=10_000)
+    number = window.window()
+    before = window.settle()
+    window.do("windowunmap", "--sync", number)
+    time.sleep(2.0)
+    window.do("windowmap", "--sync", number)
+    after = window.settle()
+    assert after["row"] > before["row"] + 10
+    assert after["pictures"] - before["pictures"] < 60, "where 120 would be seen"
+
+
 # -- a live experiment ----------------------------------------------------------------------------
 
 

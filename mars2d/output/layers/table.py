@@ -92,7 +92,7 @@ LAYERS: list[Layer] = [
         switch=False,
     ),
     Layer(
-        name="starts", title="Initial poses", shapes=_of_scenario(initial_poses), stands=True,
+        name="starts", title="Initial poses", shapes=initial_poses, stands=True,
         switch=False, at_first=attrgetter("show_initial_pose"),
     ),
     Layer(name="trails", title="Trails", shapes=trails, key="t", at_first=attrgetter("wake")),

@@ -11,6 +11,7 @@ from time import perf_counter
 import pygame
 
 from mars2d.core.scene import Shape
+from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.legend import Legend, legends
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
@@ -209,7 +210,8 @@ class Stage:
         """Return the canvas for a camera, a new one if needed and not hurried."""
         size = surface.get_size()
         stands = frozenset(layer.name for layer in standing())
-        key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme
+        began = b"".join(poses.tobytes() for poses in starts(frame))
+        key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme, began
         canvas = self._canvas
         if key != self._key or frame.scenario is not self._scenario:
             canvas = self._next = None
