@@ -227,23 +227,18 @@ def test_the_command_opens_a_window_and_prints_the_table(screen, tmp_path):
     from tests.processes import PATIENCE, bare_environment, wait_until
     from tests.window.person import ROOT
 
-    environment = bare_environment(
-        DISPLAY=screen, PYTHONPATH=str(ROOT), MARS2D_MEMORY="", SDL_VIDEO_WINDOW_POS="0,0"
-    )
-    command = [sys.executable, "-m", "mars2d", "compare", "push_box", "--stop-time", "2"]
+    here = {"DISPLAY": screen, "PYTHONPATH": str(ROOT), "SDL_VIDEO_WINDOW_POS": "0,0"}
+    environment = bare_environment(**here, MARS2D_MEMORY="")
+    command = [sys.executable, "-m", "mars2d", "compare", "push_box", "--stop-time", "1000"]
+    close = ["xdotool", "mousemove", "300", "300", "sleep", "0.3", "key", "ctrl+q"]
+
+    def closed():
+        subprocess.run(close, env=environment, check=True, timeout=PATIENCE)
+        return process.poll() is not None
+
     with subprocess.Popen(
         command, env=environment, cwd=tmp_path, stdout=subprocess.PIPE, text=True
     ) as process:
-        search = ["xdotool", "search", "--sync", "--name", "compared - MARS2D"]
-        found = subprocess.run(
-            search, env=environment, check=True, timeout=PATIENCE, capture_output=True, text=True
-        )
-        close = ["xdotool", "windowfocus", found.stdout.split()[0], "sleep", "0.3", "key", "ctrl+q"]
-
-        def closed():
-            subprocess.run(close, env=environment, check=False, timeout=PATIENCE)
-            return process.poll() is not None
-
         wait_until(closed)
         out, _ = process.communicate(timeout=PATIENCE)
     assert process.returncode == 0
