@@ -315,7 +315,10 @@ class CompareWindow:
             self.notes.say(str(error), "error")
 
     def _layer_entries(self) -> list[Entry]:
-        return layer_entries(lambda name: getattr(self.layers, name), self._toggle)
+        return layer_entries(lambda name: getattr(self.layers, name), self._toggle_alone)
+
+    def _toggle_alone(self, layer: str) -> None:
+        self.layers = self.layers.toggled(layer, alone=True)
 
     def _toggle(self, layer: str) -> None:
         self.layers = self.layers.toggled(layer)

@@ -525,7 +525,7 @@ class Window:
         self.director.undo()
 
     def _layer_entries(self) -> list[Entry]:
-        return layer_entries(lambda name: getattr(self.layers, name), self._toggle)
+        return layer_entries(lambda name: getattr(self.layers, name), self._toggle_alone)
 
     def _fill_screen(self) -> None:
         """Fill the screen with the window, or no longer."""
@@ -573,6 +573,9 @@ class Window:
         self.grab.cancel()
         self.director.other_branch()
         self._meet()
+
+    def _toggle_alone(self, layer: str) -> None:
+        self.layers = self.layers.toggled(layer, alone=True)
 
     def _toggle(self, layer: str) -> None:
         self.layers = self.layers.toggled(layer)

@@ -190,9 +190,10 @@ def test_the_key_of_forces_switches_impulses_along_and_each_has_a_switch_of_its_
     on = Layers().toggled("forces")
     assert on.forces
     assert on.impulses
-    alone = on.toggled("impulses")
+    alone = on.toggled("impulses", alone=True)
     assert alone.forces
     assert not alone.impulses
+    assert on.toggled("forces", alone=True).impulses
     off = on.toggled("forces")
     assert not off.impulses
     names = [layer.name for layer in LAYERS]

@@ -63,7 +63,7 @@ class Layer:
     the animation says. at_first: whether it is on at first. stands: whether it is the same in all
     frames of a scenario; a painter may keep it. each: draws one body's part of the layer, given
     its index in `Scenario.bodies` and its pose (3,), if the layer depends on nothing else. along:
-    other layers that are switched with it, by name.
+    other layers that its key switches with it, by name.
     """
 
     name: str
@@ -172,10 +172,10 @@ class Layers:
         """Return the same but for some switches, each by its layer's name."""
         return type(self)(self.on, **switches)
 
-    def toggled(self, name: str) -> Self:
-        """Return the same, but a layer the other way round, and those along with it."""
-        layer = next(layer for layer in LAYERS if layer.name == name)
-        return self.switched(**dict.fromkeys((name, *layer.along), not getattr(self, name)))
+    def toggled(self, name: str, *, alone: bool = False) -> Self:
+        """Return the same, but a layer the other way round, and those along with it or `alone`."""
+        along = () if alone else next(layer.along for layer in LAYERS if layer.name == name)
+        return self.switched(**dict.fromkeys((name, *along), not getattr(self, name)))
 
     def seen(self, animation: Animation) -> Iterator[Layer]:
         """Yield the layers that are drawn, the lowest first."""
