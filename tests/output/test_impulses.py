@@ -128,6 +128,17 @@ def test_on_an_obstacle_the_impulse_on_the_body_is_drawn():
     )
 
 
+def test_where_an_obstacle_has_been_removed_since_there_is_no_cone():
+    import dataclasses
+
+    world = meeting(friction=0.4)
+    log = world.frame.contact_log().copy()
+    log["b"] = -7
+    scene = impulses(dataclasses.replace(world.frame, contact_log=lambda: log))
+    assert of(Arrow, scene)
+    assert not of(Polygon, scene)
+
+
 def test_steady_pushing_is_a_force_and_no_blow():
     box = Box(pose=(0.5, 0, 0), length=0.3, width=0.3, ground_friction=0.6, mass=1)
     world = World(Scenario(robots=[Robot()], props=[box], workspace=None, stop_time=9))

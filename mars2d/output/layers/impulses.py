@@ -110,7 +110,8 @@ def impulses(frame: Frame) -> Scene:
     for blow in blows(frame):
         a, b = int(blow["a"]), int(blow["b"])
         normal = blow["normal"] * (1.0 if b >= 0 else -1.0)
-        mu = scenario.friction_between(a, b)
+        there = b >= -len(scenario.surfaces)  # an obstacle may have been removed since
+        mu = scenario.friction_between(a, b) if there else 0.0
         press, rub = float(blow["normal_impulse"]), float(blow["tangential_impulse"])
         _diagram(scene, scale, blow["point"], normal, press, rub, mu)
     return scene
