@@ -20,6 +20,7 @@ finish, moisture and speed: measure where it matters. Sources:
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import NamedTuple, Self
 
 from mars2d.core.description import Schema, accepts, real, wrong
@@ -31,6 +32,7 @@ __all__ = [
     "RULES",
     "Coefficient",
     "Material",
+    "blended",
     "check_static",
     "material",
     "material_of",
@@ -80,6 +82,19 @@ RULES = ("product", "minimum", "mean", "geometric", "maximum")
 """How the values of two surfaces make that of their contact; "mean" is (p + q) / 2, "geometric"
 sqrt(p q).
 """
+
+
+def blended(rule: str, p: float, q: float) -> float:
+    """Return the coefficient of a contact by one of `RULES`, from those of its surfaces.
+
+    >>> blended("geometric", 0.4, 0.9)
+    0.6
+    """
+    values = {
+        "product": p * q, "minimum": min(p, q), "mean": (p + q) / 2, "geometric": sqrt(p * q),
+        "maximum": max(p, q),
+    }  # fmt: skip
+    return values[rule]
 
 
 class Coefficient(float):

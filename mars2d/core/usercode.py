@@ -5,11 +5,15 @@ from __future__ import annotations
 import ctypes
 import functools
 import inspect
+import io
 import linecache
+import os
 import re
+import sys
 import sysconfig
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -33,6 +37,7 @@ __all__ = [
     "definition",
     "excerpt_of",
     "name_of",
+    "quiet",
     "raise_in",
     "stack_of",
     "users_line",
@@ -234,3 +239,15 @@ def _read(path: Path, line: int) -> Excerpt | None:
     while len(shown) > line - first + 1 and not shown[-1]:
         del shown[-1]
     return Excerpt(path, line, first, tuple(shown))
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Let nothing be printed twice, and nobody be asked for input again."""
+    with Path(os.devnull).open("w", encoding="utf-8") as nothing:
+        stdin, sys.stdin = sys.stdin, io.StringIO()
+        try:
+            with redirect_stdout(nothing), redirect_stderr(nothing):
+                yield
+        finally:
+            sys.stdin = stdin

@@ -14,6 +14,7 @@ from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol, cast
+from warnings import catch_warnings, simplefilter
 
 from mars2d.core import checks
 from mars2d.core.description import wrong
@@ -30,7 +31,7 @@ from mars2d.core.errors import (
 )
 from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
-from mars2d.core.usercode import called, stack_of
+from mars2d.core.usercode import called, quiet, stack_of
 from mars2d.scenario import law_parameters, parameters
 from mars2d.scenario.law_parameters import PREFIX
 from mars2d.scenario.map_option import MapOption, reading_options
@@ -185,6 +186,31 @@ class Experiment:
         """
         if self.checks is None or not record.finished or record.interventions or len(record) < 2:
             return ()
+        predictions: list[Prediction] = []
+        self._check(record, predictions)
+        return tuple(predictions)
+
+    def predictions_so_far(self, record: Run) -> tuple[tuple[Prediction, ...], LawError | None]:
+        """Return the predictions for a run that goes on, and the error that ended `checks`, if any.
+
+        `checks` may need what has not happened yet: what it returned before its error counts. What
+        it prints, and what numpy warns of, is left out, as it would come again and again. There are
+        no predictions for a run that has not a single step, or was changed by hand.
+        """
+        predictions: list[Prediction] = []
+        if self.checks is None or record.interventions or len(record) < 2:
+            return (), None
+        try:
+            with quiet(), catch_warnings():
+                simplefilter("ignore")
+                self._check(record, predictions)
+        except LawError as error:
+            return tuple(predictions), error
+        return tuple(predictions), None
+
+    def _check(self, record: Run, predictions: list[Prediction]) -> None:
+        """Add the predictions that `checks` makes of a record."""
+        assert self.checks is not None
         expected = "expected a list of Prediction(name, predicted, measured, tolerance)"
         with called("checks", self.checks):
             made = self.checks(record)
@@ -192,11 +218,10 @@ class Experiment:
                 raise LawError(f"checks returned nothing: {expected}")
             if isinstance(made, (str, bytes, Mapping)) or not isinstance(made, Iterable):
                 raise LawError(f"checks returned {shown(made)}: {expected}")
-            predictions = tuple(made)  # which runs a generator
-            for k, prediction in enumerate(predictions):
+            for k, prediction in enumerate(made):  # which runs a generator
                 if not isinstance(prediction, Prediction):
                     raise LawError(f"checks returned {shown(prediction)} as item {k}: {expected}")
-        return predictions
+                predictions.append(prediction)
 
 
 LISTED = "; mars2d list shows the examples"

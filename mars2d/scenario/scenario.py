@@ -22,7 +22,7 @@ from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import Description, choice, entry, number, snake_case, text, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.files import file_beside
-from mars2d.core.materials import RULES
+from mars2d.core.materials import RULES, blended, material_of
 from mars2d.core.plane import Outline, bounds_of
 from mars2d.core.usercode import called
 from mars2d.geometry.shapes import known_shape
@@ -361,6 +361,22 @@ class Scenario(Description):
             return self.bodies[body].name
         walled = len(self.surfaces) > len(self.obstacles)
         return "wall" if walled and body == -len(self.surfaces) else f"obstacle {-1 - body}"
+
+    def friction_between(self, a: int, b: int) -> float:
+        """Return the coefficient of friction that holds two bodies of a contact, as they rest.
+
+        a: an index of `bodies`. b: another, or -1 - k for obstacle k, as in contacts.
+        """
+        one = self.bodies[a].surface
+        other = self.bodies[b].surface if b >= 0 else self.surfaces[-1 - b]
+        names = frozenset((material_of(one.friction), material_of(other.friction)))
+        for pair in self.material_pairs:
+            if pair.names == names and pair.friction is not None:
+                return max(pair.friction, pair.static_friction or 0.0)
+        held = (
+            s.friction if s.static_friction is None else s.static_friction for s in (one, other)
+        )
+        return blended(self.friction_rule, *held)
 
     @cached_property
     def last_iteration(self) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from math import dist, inf
 
 import pygame
 
@@ -15,11 +16,15 @@ from mars2d.window.player import SPEEDS, Player
 from mars2d.window.slider import SpeedSlider
 from mars2d.window.source import Playback, Source
 from mars2d.window.timebar import TimeBar, TimeState
+from mars2d.window.trio import Trio
+from mars2d.window.viewpoint import wheel_notches
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
 __all__ = ["Controls", "Marks"]
 
+DOUBLE, NEAR = 0.35, 6
+"""The longest time between two clicks that are one double click, seconds; how far apart, pixels."""
 MARK_INTERVAL = 0.25
 """How often the log of contacts is read for collisions, seconds."""
 
@@ -34,6 +39,7 @@ class Controls:
         """Start with nothing drawn."""
         self._player, self._marks = player, _marks_of(player.source)
         self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
+        self._pressed: tuple[float, Pixel, int, bool] = -inf, (0, 0), 0, False
         self.handles: list[Handle] = [
             (self.time_bar.hit, self._scrub),
             (self.slider.hit, self._choose_speed),
@@ -71,6 +77,37 @@ class Controls:
             live=live,
         )
 
+    def handle(self, event: pygame.Event) -> bool:
+        """Zoom the time bar; return whether the event does so.
+
+        The wheel over it zooms, with Shift it shows another part. The button or a double click
+        shows all; the clicks leave the time as it was.
+        """
+        bar = self.time_bar
+        if event.type == pygame.MOUSEWHEEL and bar.covers(pygame.mouse.get_pos()):
+            if pygame.key.get_mods() & pygame.KMOD_SHIFT or event.x:
+                bar.move(event.x or -wheel_notches(event))
+            else:
+                bar.zoom(wheel_notches(event), pygame.mouse.get_pos()[0])
+            return True
+        if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
+            return False
+        if bar.shows_all_at(event.pos):
+            bar.show_all()
+            return True
+        if not bar.hit(event.pos):
+            return False
+        now, player = time.monotonic(), self._player
+        since, where, row, playing = self._pressed
+        if bar.zoomed and now - since < DOUBLE and dist(where, event.pos) < NEAR:
+            self._pressed = -inf, (0, 0), 0, False
+            bar.show_all()
+            player.go(row)
+            player.paused = player.paused and not playing
+            return True
+        self._pressed = now, event.pos, player.source.row, player.playing
+        return False
+
     def _scrub(self, pixel: Pixel) -> None:
         """Go to the row at a pixel of the time bar."""
         row = self.time_bar.row_at(pixel[0])
@@ -86,6 +123,8 @@ class Controls:
 
 def _marks_of(source: Source) -> Callable[[], Mapping[MarkKind, Sequence[int]]]:
     """Return what tells the rows with marks: of a recording they stay the same."""
+    if isinstance(source, Trio):
+        source = source.contact
     if isinstance(source, Timeline):
         return Marks(source).rows
     marks = marks_of(source.record) if isinstance(source, Playback) else {}

@@ -67,6 +67,9 @@ _SEE = (
     Key(
         "scopes", ("q",), ("Q",), "choose what is plotted over time, of what is selected or of all"
     ),
+    Key(
+        "predictions", ("f3",), ("F3",), "what checks predict, beside what is measured, on and off"
+    ),
     Key("select", ("tab",), ("Tab",), "select the next robot or prop, and inspect it"),
     Key("follow", ("l",), ("L",), "let the camera follow what is selected, or all robots"),
     Key("fit", ("f", "ctrl+0"), ("F",), "fit the workspace into the window"),
@@ -101,7 +104,7 @@ DO = (
 KEYS = (*TIME, *SEE, *DO)
 
 MOUSE = (
-    Key("zoom", (), ("Wheel",), "zoom about the pointer"),
+    Key("zoom", (), ("Wheel",), "zoom about the pointer; over the time bar, in time"),
     Key("pick", (), ("Click",), "select a robot or prop, and inspect it; beside them, none"),
     Key("carry", (), ("Drag it",), "pull a robot or prop; while paused, put it elsewhere"),
     Key("menu", (), ("Right click",), "what can be done with it"),

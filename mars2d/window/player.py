@@ -15,12 +15,15 @@ from mars2d.scenario.animation import playback_speed
 from mars2d.window.slider import BEHIND, times
 from mars2d.window.source import Playback, Source
 
-__all__ = ["SPEEDS", "Player", "between"]
+__all__ = ["SPEEDS", "Player", "between", "time_actions"]
 
 Kind = Literal["running", "waiting", "past", "error"]
 AtContact = Literal["go on", "stop", "slow"]
 Status = tuple[str, Kind]
 """The state of the clock in words, and its kind."""
+
+LEAP = 10
+"""How many steps PgDn and PgUp do, unless a number was typed."""
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 """The rungs of + and -; above them is "max"."""
@@ -343,3 +346,26 @@ class Player:
             self.error = error
         self._met = self.at_contact != "go on" and self._meets()
         return not self.failed
+
+
+def time_actions(player: Player, typed: Callable[[int], int]) -> dict[str, Callable[[], None]]:
+    """Return what the keys and buttons of time do, by the names of their actions.
+
+    typed: returns the number that was typed before a key, or else the one given.
+    """
+
+    def loop_or_not() -> None:
+        player.loop = not player.loop
+
+    return {
+        "pause": player.pause_or_resume,
+        "step": lambda: player.step(typed(1)),
+        "back": lambda: player.back(typed(1)),
+        "leap": lambda: player.step(typed(LEAP)),
+        "leap_back": lambda: player.back(typed(LEAP)),
+        "start": lambda: player.go(0),
+        "newest": lambda: player.go(player.source.newest),
+        "loop": loop_or_not,
+        "faster": player.faster,
+        "slower": player.slower,
+    }

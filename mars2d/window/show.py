@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from mars2d.window.viewpoint import Viewpoint
     from mars2d.window.window import Window
 
-__all__ = ["show_experiment", "show_record"]
+__all__ = ["show_comparison", "show_experiment", "show_record"]
 
 
 def show_experiment(
@@ -116,6 +116,27 @@ def _to_be_driven(experiment: Experiment) -> list[int]:
 def _seeded(seed: int) -> dict[str, int]:
     """Return the seed as a setting: another one may begin elsewhere."""
     return {"seed": seed} if seed else {}
+
+
+def show_comparison(
+    opened: Callable[[str], Experiment],
+    speed: float | str,
+    seed: int = 0,
+    preferences: Preferences | None = None,
+) -> dict[str, Record]:
+    """Run an experiment with each physics, side by side in a window until it is closed.
+
+    opened: returns the experiment of a physics. Returns the records by their physics. Raises what
+    `show_experiment` does.
+    """
+    require_pygame("a window")
+    from mars2d.window.compare_window import CompareWindow
+    from mars2d.window.memory import Memory
+    from mars2d.window.trio import Trio
+
+    memory, trio = Memory(), Trio(opened, seed)
+    CompareWindow(trio, speed, memory.size, preferences or memory.preferences()).run()
+    return trio.records
 
 
 def _remember(memory: Memory, experiment: Experiment, window: Window) -> None:

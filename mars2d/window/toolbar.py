@@ -19,7 +19,7 @@ Actions = Mapping[str, Callable[[], None]]
 Pixel = tuple[int, int]
 
 TRANSPORT = (("start", "back", "pause", "step", "newest", "loop"),)
-SEE = ("layers", "scopes", "fit", "follow", "contacts")
+SEE = ("layers", "scopes", "fit", "follow", "contacts", "predictions")
 CHANGE = ("parameters", "drive", "edit", "restart", "branch")
 SAVE = ("picture", "film", "python")
 LOOK = ("screen", "dark", "text", "help")
@@ -34,7 +34,8 @@ class Toolbar:
 
     def __init__(self, actions: Actions, lit: Callable[[str], bool], *, live: bool) -> None:
         """Start with nothing drawn."""
-        groups = [SEE, CHANGE if live else (), SAVE, LOOK]
+        offered = [SEE, CHANGE if live else (), SAVE, LOOK]
+        groups = [[name for name in group if name in actions] for group in offered]
         self.bars = [
             Buttons(TRANSPORT, actions, lit),
             Buttons([group for group in groups if group], actions, lit),

@@ -55,7 +55,8 @@ from mars2d.window.notes import Ending, Notes, Progress, draw_progress
 from mars2d.window.parameter_panel import ParameterPanel
 from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.play import Play
-from mars2d.window.player import Player
+from mars2d.window.player import Player, time_actions
+from mars2d.window.predictions import Predictions
 from mars2d.window.reload import Reload
 from mars2d.window.rest import Rest
 from mars2d.window.saving import Saver
@@ -79,8 +80,6 @@ HINTS = (
 )  # fmt: skip
 HAND_HINTS = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
 MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
-LEAP = 10
-"""How many steps PgDn and PgUp do, unless a number was typed."""
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
 SEEN = 4.0
@@ -137,6 +136,7 @@ class Window:
         self._painter = Painter(theme=theme_of(dark=preferences.dark))
         self._stage = Stage(self._painter, MEMORY)
         self._inspector = Inspector(self._painter)
+        self._predictions = Predictions(self._painter, timeline)
         self.parameters = ParameterPanel(
             self._painter,
             lambda: None if timeline is None else timeline.experiment,
@@ -150,19 +150,11 @@ class Window:
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions: dict[str, Callable[[], None]] = {
-            "pause": self.player.pause_or_resume,
-            "step": lambda: self.player.step(self._keyboard.typed(1)),
-            "back": lambda: self.player.back(self._keyboard.typed(1)),
-            "leap": lambda: self.player.step(self._keyboard.typed(LEAP)),
-            "leap_back": lambda: self.player.back(self._keyboard.typed(LEAP)),
-            "start": lambda: self.player.go(0),
-            "newest": lambda: self.player.go(source.newest),
+            **time_actions(self.player, self._keyboard.typed),
             "contact": lambda: self._to_contact(self.player.next_contact),
             "contact_back": lambda: self._to_contact(self.player.last_contact),
             "contacts": lambda: self.toolbar.open("contacts", self._contact_entries),
-            "loop": self._loop_or_not,
-            "faster": self.player.faster,
-            "slower": self.player.slower,
+            "predictions": self._predict_or_not,
             "restart": self._restart,
             "branch": self._other_branch,
             "undo": self._undo,
@@ -192,9 +184,12 @@ class Window:
         self.scopes = Scopes(
             self._painter, lambda: self.player.source.recorded, self.player.go, self._actions
         )
-        self.dock = Dock(self._painter, [self._inspector, self.scopes, self.parameters])
+        panels = [self._inspector, self.scopes, self.parameters, self._predictions]
+        self.dock = Dock(self._painter, panels)
         self._begin_scopes()
         buttons = self._actions | {"branch": self._choose_branch}
+        if not self._predictions.offered:
+            del buttons["predictions"]
         self.toolbar: Toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
 
     @property
@@ -296,7 +291,7 @@ class Window:
             last = now
             if self._moves:
                 self._rest.stir()
-            if not self._rest.resting:
+            if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
                 self._show_picture(pygame.display.get_surface() or screen)
             self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE)
             if self.player.speed < inf or not self.player.playing:
@@ -343,6 +338,8 @@ class Window:
         self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.parameters.tick()
         self.player.pass_time(seconds)
+        if self._predictions.look(playing=self.player.playing):
+            self._rest.stir()
         self.viewpoint.step(self.player.frame, seconds)
 
     def _go_near(self) -> None:
@@ -527,7 +524,7 @@ class Window:
             pass
         elif self.toolbar.handle(event):
             self._meet()
-        elif not self.help.is_open and self.dock.handle(event):
+        elif self._controls.handle(event) or (not self.help.is_open and self.dock.handle(event)):
             pass
         elif event.type == pygame.KEYDOWN:
             if not self._to_slider(event):
@@ -584,6 +581,7 @@ class Window:
             "layers": self.toolbar.menu.name == "layers",
             "parameters": self.parameters.is_open,
             "scopes": self.scopes.is_open,
+            "predictions": self._predictions.is_open,
             "drive": self._drives,
             "follow": self.viewpoint.following is not None,
             "film": self.saver.filming,
@@ -604,14 +602,17 @@ class Window:
             self._score.is_open = True
             self.game.begin()
 
-    def _loop_or_not(self) -> None:
-        """Begin again at the end, or no longer."""
-        self.player.loop = not self.player.loop
+    def _predict_or_not(self) -> None:
+        """Show the predictions of the experiment's checks, or no longer."""
+        if self._predictions.offered:
+            self.dock.switch("predictions")
+        else:
+            self.notes.say("this file has no checks, which compare a run with theory", "warning")
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces are shown there."""
         self.player.body = self.selected
-        self.layers = self.layers.switched(forces=True)
+        self.layers = self.layers.switched(forces=True, impulses=True)
         go()
 
     def _contact_entries(self) -> list[Entry]:
@@ -661,7 +662,7 @@ class Window:
         self.director.undo()
 
     def _layer_entries(self) -> list[Entry]:
-        return layer_entries(lambda name: getattr(self.layers, name), self._toggle)
+        return layer_entries(lambda name: getattr(self.layers, name), self._toggle_alone)
 
     def _fill_screen(self) -> None:
         """Fill the screen with the window, or no longer."""
@@ -710,10 +711,11 @@ class Window:
         self.director.other_branch()
         self._meet()
 
+    def _toggle_alone(self, layer: str) -> None:
+        self.layers = self.layers.toggled(layer, alone=True)
+
     def _toggle(self, layer: str) -> None:
-        on = not getattr(self.layers, layer)
-        names = (layer, "neighbours") if layer == "messages" else (layer,)
-        self.layers = self.layers.switched(**dict.fromkeys(names, on))
+        self.layers = self.layers.toggled(layer)
 
     def _change_theme(self) -> None:
         self._painter.theme = theme_of(dark=not self._painter.theme.dark)

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import io
-import os
-import sys
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from pathlib import Path
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, LawError, Mars2dError
+from mars2d.core.usercode import quiet
 from mars2d.record.interventions import Change, Intervention
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import carried, check_alike
@@ -118,7 +114,7 @@ class Past:
                 raise InputError("going back was broken off: nothing was changed")
         world = self._nearest(row)
         assert world is not None
-        with _quiet():
+        with quiet():
             try:
                 _redo(track, world)
                 world.observe()
@@ -160,7 +156,7 @@ class Past:
     def _open(self) -> World:
         """Let another world wait at the start, in place of another if there are many."""
         start = perf_counter()
-        with _quiet():
+        with quiet():
             fresh = self._experiment.reopened()
             check_alike(self._experiment.scenario, fresh.scenario)
             world = self.opened(fresh)
@@ -197,7 +193,7 @@ class Past:
         """Repeat a run in a world up to a row; return whether it got there in time."""
         commands = track.world.history.command
         now = perf_counter()
-        with _quiet():
+        with quiet():
             while world.iteration < row:
                 if now > deadline:
                     return False
@@ -240,15 +236,3 @@ def _redo(track: Track, world: World) -> None:
             world.operator.change(scenario, world.control, moved, settings, intervention.given)
         else:
             world.operator.redo(intervention)
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Let nothing be printed twice, and nobody be asked for input again."""
-    with Path(os.devnull).open("w", encoding="utf-8") as nothing:
-        stdin, sys.stdin = sys.stdin, io.StringIO()
-        try:
-            with redirect_stdout(nothing), redirect_stderr(nothing):
-                yield
-        finally:
-            sys.stdin = stdin

@@ -327,8 +327,8 @@ def test_collisions_are_counted_as_they_happen():
     head_on = [Robot(pose=(-1, 0, 0), diameter=0.4), Robot(pose=(1, 0, math.pi), diameter=0.4)]
     record = mars2d.run(scenario(robots=head_on), control=straight(0.5))
     assert record.collisions == 1
-    (panel, *_) = Triptych(Comparison(record, record, record), SIZE)._panels
-    assert 1.4 < panel._collisions[0] < 1.8
+    collisions, *_ = Triptych(Comparison(record, record, record), SIZE)._collisions
+    assert 1.4 < collisions[0] < 1.8
 
 
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720), (1920, 1080)])
@@ -343,8 +343,8 @@ def test_panels_and_drift_share_the_height(size, corners):
     assert place.bottom == size[1]
     assert place.height >= 0.29 * size[1]
     frame = record.frame(0)
-    for panel in triptych._panels:
-        (left, top), (right, bottom) = panel._camera.to_pixels([(0, height), (width, 0)])
+    for panel, camera in zip(triptych._arenas, triptych._cameras, strict=True):
+        (left, top), (right, bottom) = camera.to_pixels([(0, height), (width, 0)])
         assert panel.plot.left <= left < right <= panel.plot.right
         assert panel.plot.top <= top < bottom <= place.top
     assert triptych.paint([frame] * 3).get_size() == size

@@ -109,10 +109,10 @@ def test_a_ball_that_turns_looks_different():
 
 def test_initial_poses_of_props_are_hollow_and_props_filled():
     scenario = Scenario(robots=[Robot()], props=[Box(pose=(1, 1, 0.3)), Puck(pose=(2, 1, 0))])
-    box, puck = of(Polygon, initial_poses(scenario))[0], of(Circle, initial_poses(scenario))[0]
+    frame = World(scenario).frame
+    box, puck = of(Polygon, initial_poses(frame))[0], of(Circle, initial_poses(frame))[0]
     assert box.fill is None
     assert puck.fill is None
-    frame = World(scenario).frame
     assert of(Polygon, props(frame))[0].fill
     np.testing.assert_allclose(of(Polygon, props(frame))[0].points, box.points)
 

@@ -198,6 +198,30 @@ def test_of_a_run_that_was_cut_short_no_checks_are_made(tmp_path):
         experiment.predictions(finished(experiment))
 
 
+def test_while_a_run_goes_on_what_checks_found_before_its_error_counts(tmp_path, capsys, recwarn):
+    body = (
+        "    print('here')\n"
+        "    yield Prediction('first', 1, record.time[-1], 1e-9, 's')\n"
+        "    yield Prediction('mean', 0, np.mean(record.contacts['impulse']), 1)\n"
+        "    yield Prediction('never', 0, record.contacts['time'][0], 1)\n"
+    )
+    experiment = opened(tmp_path, "def checks(record):\n" + body)
+    world = mars2d.World(experiment.scenario)
+    assert experiment.predictions_so_far(world.record) == ((), None), "not a single step"
+    for _ in range(3):
+        world.step()
+    found, error = experiment.predictions_so_far(world.record)
+    assert [each.name for each in found] == ["first", "mean"]
+    assert not found[0].ok
+    assert "IndexError" in str(error)
+    assert error.where == "mine.py, line 8"
+    assert capsys.readouterr().out == "", "it would be printed again and again"
+    assert not recwarn.list, "and so would numpy's warnings"
+    world.operator.place(0, (1, 0, 0))
+    world.step()
+    assert experiment.predictions_so_far(world.record) == ((), None)
+
+
 @pytest.mark.parametrize(
     ("body", "where", "words"),
     [

@@ -70,6 +70,8 @@ def state_of(window):
         "branches": 0 if timeline is None else len(timeline.branches),
         "marks": {} if timeline is None else {k: [*v] for k, v in marks_of(window).items()},
         "bar": [round(bar.x_of(0), 1), round(bar.x_of(source.newest), 1), bar._line.centery],
+        "span": [*bar.span],
+        "show_all": bar._all.center,
         "slider": [slider._line.left, slider._line.right, slider._line.centery],
         "robots": seen.pose.T.round(4).tolist(),
         "props": seen.prop_pose.T.round(4).tolist(),
@@ -98,6 +100,7 @@ def state_of(window):
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
         "sliders": sliders_of(window.parameters) if window.parameters.is_open else {},
+        "predictions": predictions_of(window._predictions),
         "loop": player.loop,
         "full": pygame.display.is_fullscreen(),
         "filming": window.saver._film is not None,
@@ -116,6 +119,12 @@ def sliders_of(panel):
         "typed": panel.typed,
         "said": panel._words()[0],
     }
+
+
+def predictions_of(panel):
+    """Return how many predictions are ok, and of how many; None where they are not shown."""
+    found = panel.reading.predictions
+    return [sum(each.ok for each in found), len(found)] if panel.is_open else None
 
 
 def marks_of(window):

@@ -113,7 +113,7 @@ class ClientMessage(ctypes.Structure):
 @functools.cache
 def nursery():
     """Start the process that windows are forked from, once in a session."""
-    windows = ("observed_window", "observed_editor", "observed_hands")
+    windows = ("observed_window", "observed_editor", "observed_hands", "observed_compare")
     return Nursery(bare_environment(), *(f"tests.window.{name}" for name in windows))
 
 

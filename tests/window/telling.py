@@ -20,6 +20,7 @@ class Teller:
     def __init__(self):
         self._told, self._state = "", None
         self._answers = 0
+        self._pictures = self._told_pictures = 0
         if hasattr(signal, "SIGUSR1") and not Teller.listens:
             Teller.listens = True
             signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGUSR1})
@@ -38,13 +39,15 @@ class Teller:
 
     def shown(self):
         """Tell the state of the picture that is on the screen by now."""
+        self._pictures += 1
         if Teller.asked:
             Teller.asked -= 1
-            self._answers += not Teller.asked
+            if not Teller.asked:
+                self._answers, self._told_pictures = self._answers + 1, self._pictures
             self._wake()
         if self._state is None:
             return
-        told = json.dumps(self._state | {"answers": self._answers})
+        told = json.dumps(self._state | {"answers": self._answers, "pictures": self._told_pictures})
         if told != self._told:
             self._told = told
             print(told, flush=True)

@@ -400,3 +400,28 @@ def test_without_another_contact_it_goes_to_the_end():
     assert p.over
     p.last_contact()
     assert p.source.row == 0
+
+
+def test_after_a_new_start_the_pace_is_never_below_zero():
+    class Clock:
+        now = 0.0
+
+        def __call__(self):
+            return self.now
+
+    clock, source = Clock(), Circling(circling_scenario(rows=400))
+    player = Player(source, 2.0, budget=9.0, clock=clock)
+
+    def play(pictures):
+        for _ in range(pictures):
+            clock.now += 0.02
+            player.pass_time(0.02)
+
+    play(60)
+    assert player.factor > 0
+    source.go(0)  # a file that was saved starts anew, and tells the player afterwards
+    player.settle()
+    for _ in range(60):
+        play(1)
+        assert player.factor is None or player.factor > 0
+        assert "-" not in player.status()[0]

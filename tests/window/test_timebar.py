@@ -7,6 +7,7 @@ from math import inf
 import numpy as np
 import pytest
 
+from mars2d.output.marks import MARKS
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.slider import SpeedSlider, times
@@ -238,3 +239,91 @@ def test_the_handle_of_a_recording_is_never_in_the_past():
     assert drawn.has(LIGHT.selected, 300)
     assert "30.0 s" not in drawn.surface.texts
     assert "30.0 s" in Drawn(state()).surface.texts
+
+
+# -- zoomed in time -------------------------------------------------------------------------------
+
+
+def zoomed(shown, notches=8, row=300, **options):
+    """Return a bar after notches of the wheel over a row, drawn again."""
+    drawn = Drawn(shown, **options)
+    drawn.bar.zoom(notches, drawn.bar.x_of(row))
+    drawn.bar.draw(drawn.surface, drawn.layout.timebar, painter(drawn.layout, drawn.theme), shown)
+    drawn.pixels = pixels(drawn.surface)
+    return drawn
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_zoom_keeps_the_row_under_the_pointer_and_rows_are_wider(size):
+    drawn = Drawn(state(), size=size)
+    x = drawn.bar.x_of(300)
+    wide = drawn.bar.x_of(301) - x
+    drawn.bar.zoom(6, x)
+    assert drawn.bar.x_of(300) == pytest.approx(x)
+    assert drawn.bar.x_of(301) - x == pytest.approx(wide * 1.25**6)
+    assert drawn.bar.row_at(x) == 300
+    drawn.bar.zoom(-6, x)
+    assert not drawn.bar.zoomed
+
+
+def test_a_zoom_ends_at_a_few_rows_and_at_all():
+    drawn = zoomed(state(), notches=200)
+    assert drawn.bar.span.rows == 20
+    drawn.bar.zoom(-300, drawn.bar.x_of(300))
+    assert tuple(drawn.bar.span) == (0, 1000)
+    short = zoomed(state(row=3, rows=5, last=8), row=3)
+    assert not short.bar.zoomed
+
+
+@THEMES
+def test_marks_that_are_not_shown_have_no_tick_and_others_stand_at_their_rows(theme):
+    drawn = zoomed(state(collision=[10, 290, 310, 390], branch=[305]), notches=12, theme=theme)
+    first, last = drawn.bar.span
+    assert 10 < first < 290
+    assert 310 < last < 390
+    ink = MARKS["collision"].color(theme)
+    assert drawn.has(ink, 290, above=-8)
+    assert drawn.has(ink, 310, above=-8)
+    assert not drawn.has(ink, 10, above=-8)
+    assert not drawn.has(ink, 390, above=-8)
+    assert drawn.has(theme.past.ink, 305, above=8)
+
+
+def test_a_part_stays_within_the_run_and_its_ends_are_told():
+    drawn = zoomed(state(), notches=6)
+    drawn.bar.move(-100)
+    assert drawn.bar.span.first == 0
+    drawn.bar.move(1000)
+    assert drawn.bar.span.last == pytest.approx(1000)
+    shown = state(row=900, rows=1000)
+    drawn.bar.draw(drawn.surface, drawn.layout.timebar, painter(drawn.layout, LIGHT), shown)
+    assert "100.0 s" in drawn.surface.texts
+
+
+def test_the_part_moves_on_with_the_handle_but_not_by_itself():
+    drawn = zoomed(state(), notches=8)
+    look = painter(drawn.layout, LIGHT)
+
+    def after(row, rows=400):
+        shown = state(row, rows)
+        drawn.bar.draw(drawn.surface, drawn.layout.timebar, look, shown)
+        return drawn.bar.span
+
+    before = drawn.bar.span
+    assert after(310) == before
+    moved = after(390)
+    assert moved.first < 390 < moved.last
+    assert moved.rows == pytest.approx(before.rows)
+    drawn.bar.move(-20)
+    assert after(390) == drawn.bar.span, "somebody looks elsewhere, while time stands still"
+    assert not drawn.bar.span.first <= 390 <= drawn.bar.span.last
+    back = after(200)
+    assert back.first < 200 < back.last
+
+
+def test_a_very_long_run_can_be_zoomed_to_single_rows():
+    shown = state(row=5_000_000, rows=9_000_000, last=90_000_000)
+    drawn = zoomed(shown, notches=100, row=5_000_000)
+    x = drawn.bar.x_of(5_000_000)
+    rows = [drawn.bar.row_at(x + k * drawn.bar._line.width / 20) for k in range(-3, 4)]
+    assert np.diff(rows).tolist() == [1] * 6

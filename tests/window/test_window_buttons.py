@@ -7,7 +7,7 @@ from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.table import LAYERS
 from mars2d.record.marks import marks_of
 from mars2d.window import keys, toolbar
-from tests.window.person import needs_screen
+from tests.window.person import differing, needs_screen
 
 pytestmark = needs_screen
 
@@ -348,3 +348,22 @@ def test_at_a_contact_time_goes_slowly_if_it_is_to(open_window, bumping):
     choose(window, "Go slowly for a second")
     window.until(lambda s: s["chip"] == "slow  0.1x")
     window.until(lambda s: s["chip"] != "slow  0.1x" and s["playing"])
+
+
+def test_predictions_are_shown_by_a_button_and_by_f3(open_window):
+    window = open_window("max", experiment="billiards")
+    push(window, "predictions")
+    window.until(lambda s: s["over"] and s["predictions"] == [11, 11])
+    before = window.still()
+    window.press("F3")
+    window.until(lambda s: s["predictions"] is None)
+    assert window.shows(lambda seen: differing(before, seen) > 1000)
+    window.press("F3")
+    window.until(lambda s: s["predictions"] == [11, 11])
+
+
+def test_without_checks_there_is_no_button_for_predictions(open_window, room):
+    window = open_window(1, experiment=str(room))
+    assert "predictions" not in window.state["buttons"]
+    window.press("F3")
+    window.says("this file has no checks")

@@ -123,6 +123,43 @@ def test_the_time_bar_is_clicked_and_dragged_to_look_back(open_window):
     window.until(lambda s: s["row"] > 3 and s["playing"])
 
 
+def test_the_wheel_over_the_time_bar_zooms_in_time_and_a_double_click_or_the_button_shows_all(
+    open_window,
+):
+    window = open_window(50, rows=10_000)
+    window.until(lambda s: s["newest"] > 100)
+    window.press("space", "Home")
+    window.until(lambda s: s["row"] == 0)
+    scale = window.state["scale"]
+    first, _, y = window.state["bar"]
+    assert window.state["span"] == [0, 10_000]
+    window.do("mousemove", round(first) + 2, y, *["click", 4] * 10)
+    zoomed = window.until(lambda s: s["span"][1] < 1500)
+    assert zoomed["span"][0] < 100
+    assert zoomed["scale"] == scale, "the picture is not zoomed"
+    window.do("mousemove", round(first) + 200, y, "click", 1)
+    near = window.until(lambda s: s["row"] > 0)
+    assert near["row"] < 700, "a pixel is fewer rows now"
+    window.do("keydown", "shift", "click", 5, "keyup", "shift")
+    window.until(lambda s: s["span"][0] > 100)
+    window.do("mousemove", *window.state["show_all"], "click", 1)
+    window.until(lambda s: s["span"] == [0, 10_000])
+    window.do("mousemove", round(first) + 2, y, *["click", 4] * 10)
+    row = window.until(lambda s: s["span"][1] < 1500)["row"]
+    time.sleep(0.5)  # so that the next click is the first of two
+    window.do("mousemove", round(first) + 50, y, "click", "--repeat", 2, "--delay", 60, 1)
+    window.until(lambda s: s["span"] == [0, 10_000])
+    assert window.settle()["row"] == row, "the clicks leave the time as it was"
+    window.do("mousemove", round(first) + 2, y, *["click", 4] * 10, "click", 5, "click", 5)
+    before = window.until(lambda s: s["span"][1] < 2500)["span"]
+    window.press("space")
+    window.until(lambda s: s["row"] > before[1])
+    after = window.state["span"]
+    assert after[0] <= window.state["row"] <= after[1], "the part moves on with the handle"
+    window.do("click", "--repeat", 40, "--delay", 20, 5)
+    window.until(lambda s: s["span"] == [0, 10_000])
+
+
 def test_r_restarts_also_when_it_is_over(open_window):
     window = open_window(10, rows=20)
     window.until(lambda s: s["over"])
@@ -137,6 +174,30 @@ def test_a_slow_sampling_time_moves_smoothly(open_window):
     while len(times) < 9:
         times.add(window.until(lambda s: s["time"] not in times)["time"])
     assert max(times) < 1.5
+
+
+def test_a_window_in_which_nothing_moves_draws_no_pictures(open_window):
+    window = open_window(1)
+    window.press("space")
+    window.until(lambda s: s["status"] == "paused")
+    time.sleep(1.0)  # until it rests
+    before = window.settle()["pictures"]
+    time.sleep(1.5)  # 90 pictures, if it drew on
+    after = window.settle()["pictures"]
+    # Each of the two questions wakes it up for half a second.
+    assert after - before < 45
+
+
+def test_a_window_that_is_not_seen_goes_on_without_pictures(open_window):
+    window = open_window(1, rows=10_000)
+    number = window.window()
+    before = window.settle()
+    window.do("windowunmap", "--sync", number)
+    time.sleep(2.0)
+    window.do("windowmap", "--sync", number)
+    after = window.settle()
+    assert after["row"] > before["row"] + 10
+    assert after["pictures"] - before["pictures"] < 60, "where 120 would be seen"
 
 
 # -- a live experiment ----------------------------------------------------------------------------

@@ -8,13 +8,14 @@ import json
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.cli.arguments import add_options, options_of
+from mars2d.cli.arguments import add_options, add_preferences, options_of, preferences_of
 from mars2d.cli.films import DURATION, FPS, film_speed
 from mars2d.cli.outputs import check_outputs
-from mars2d.cli.runs import make_folder, run_headless
+from mars2d.cli.runs import has_display, make_folder, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
 from mars2d.core.streams import check_seed
@@ -44,7 +45,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_options(parser)
     add("--figure", type=Path, metavar="OUT", help="the picture: .png, .pdf, .svg")
     add("--video", type=Path, metavar="OUT", help="the film: .gif, .mp4")
-    add("--speed", type=_speed, metavar="X", help="of the film: 1 is real time")
+    add("--speed", type=_speed, metavar="X", help="of the window or the film: 1 is real time")
+    add("--headless", action="store_true", help="without a window: a picture and a film")
+    add_preferences(parser)
     add("--json", action="store_true", help="print the outcome as one line of JSON")
 
 
@@ -59,19 +62,23 @@ def _speed(text: str) -> float:
 
 
 def execute(arguments: argparse.Namespace) -> None:
-    """Run an experiment with each physics, and show the runs side by side."""
+    """Run an experiment with each physics, and show the runs side by side.
+
+    In a window, if there is a display and no other output is wanted.
+    """
     start = time.perf_counter()
     check_outputs(arguments, OUTPUTS)
     options, seed = _options(arguments), check_seed(arguments.seed)
-    # Opened again for each run: laws keep state in generators and in their module's globals.
-    experiments = {m: open_experiment(arguments.experiment, options, seed=seed) for m in MODES}
+    outputs = arguments.figure, arguments.video
+    if not (arguments.headless or arguments.json or any(outputs)) and has_display():
+        _show(arguments, options, seed)
+        return
+    experiments = {mode: _opened(arguments.experiment, options, seed, mode) for mode in MODES}
     paths = _paths(arguments)
     records: dict[str, Record] = {}
     reels: dict[str, Reel] = {}
-    for mode, opened in experiments.items():
+    for mode, experiment in experiments.items():
         with _saying(mode):
-            scenario = opened.scenario.replace(physics=mode)
-            experiment = dataclasses.replace(opened, scenario=scenario)
             footage = _footage(arguments, experiment) if "video" in paths else None
             world = run_headless(experiment, seed, [footage] if footage else [])
         records[mode] = world.record
@@ -83,6 +90,29 @@ def execute(arguments: argparse.Namespace) -> None:
     _save(comparison, reels, paths, say=not arguments.json)
     if arguments.json:
         tell(_as_json(comparison, paths, time.perf_counter() - start))
+
+
+def _opened(source: str, options: dict[str, Any], seed: int, mode: str) -> Experiment:
+    """Return an experiment with a physics, opened anew.
+
+    Laws keep state in generators and in their module's globals, so that no two runs share them.
+    """
+    opened = open_experiment(source, options, seed=seed)
+    scenario = opened.scenario.replace(physics=mode)
+    again = partial(_opened, source, options, seed, mode)
+    return dataclasses.replace(opened, scenario=scenario, opened=again)
+
+
+def _show(arguments: argparse.Namespace, options: dict[str, Any], seed: int) -> None:
+    """Show the runs in a window, and print how they went until it was closed."""
+    from mars2d.window.show import show_comparison
+
+    own = open_experiment(arguments.experiment, options, seed=seed).scenario.animation
+    speed = own.playback_speed if arguments.speed is None else arguments.speed
+    opened = partial(_opened, arguments.experiment, options, seed)
+    records = show_comparison(opened, speed, seed, preferences_of(arguments))
+    if all(len(record) for record in records.values()):
+        tell(_as_table(Comparison(**records)))
 
 
 def _options(arguments: argparse.Namespace) -> dict[str, Any]:

@@ -22,12 +22,14 @@ from mars2d.core.scene import Circle, Line, Polygon, Scene, Shape, Text, faded
 from mars2d.output.figures.artists import SHAPES, paint, points_per_metre
 from mars2d.output.figures.extent import View, rows_at
 from mars2d.output.figures.style import SCREEN, Style, style_of
-from mars2d.output.layers.forces import FORCE, LABEL_SIZE, force_scale, in_newtons, round_force
-from mars2d.output.layers.forces import forces as force_arrows
+from mars2d.output.layers.arrows import EDGE, LABEL_SIZE, arrow, has_cut
+from mars2d.output.layers.forces import forces
+from mars2d.output.layers.impulses import impulses
 from mars2d.output.layers.legend import SIGNED, legends, sign_rows
 from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails
+from mars2d.output.layers.velocities import velocities
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -80,6 +82,9 @@ INK, MUTED, GRID = SCREEN.ink, SCREEN.muted, SCREEN.grid
 
 WORKSPACE = 1.0
 """The zorder of the workspace; the grid has 1.5, shapes have 2."""
+
+ARROWS = {"forces": forces, "impulses": impulses, "velocities": velocities}
+"""The layers whose arrows have a scale in a corner."""
 
 TICK_SPACING = 28.0  # points between ticks, at least
 
@@ -362,7 +367,7 @@ def paint_row(
             continue
         scene = layer.shapes(now)
         if layer.name == "names":
-            scene = _names_apart(scene, ax, now, words, forces=layers.forces)
+            scene = _names_apart(scene, ax, now, words, layers)
         if layer.name == "workspace":  # its edge is a layer of its own
             scene = Scene([_without_edge(shape) for shape in scene.shapes])
         elif layer.name == "trails":
@@ -379,19 +384,19 @@ def paint_row(
         if layer.name == "workspace" and scene.shapes:
             for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
                 line.set_clip_path(ax.patches[before])
-    if layers.forces:
-        _paint_legend(ax, now, scales["bodies"], words)
+    _paint_legend(ax, now, layers, scales["bodies"], words)
     _paint_signs(ax, now, layers, words)
 
 
-def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, *, forces: bool) -> Scene:
+def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, layers: Layers) -> Scene:
     """Return the names of bodies, none over another or over a force that is drawn.
 
     words: the factor for the size of text.
     """
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
     view = Box((xmin + xmax) / 2, (ymin + ymax) / 2, (xmax - xmin) / 2, (ymax - ymin) / 2)
-    scenes = (force_arrows(now), *_force_legend(ax, now)) if forces else ()
+    scenes = [drawn(now) for name, drawn in ARROWS.items() if getattr(layers, name)]
+    scenes += _arrow_legend(ax, now, layers)
     others = [shape for scene in scenes for shape in scene.shapes]
     return placed_names(names, now, words / points_per_metre(ax), view, others)
 
@@ -434,10 +439,10 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
     return {name: scale * look.stroke for name, scale in scales.items()}
 
 
-def _paint_legend(ax: Axes, now: Frame, scale: float, words: float) -> None:
-    """Paint the scale of forces in a corner."""
-    arrow, text = _force_legend(ax, now)
-    paint(arrow, ax, scale=scale)
+def _paint_legend(ax: Axes, now: Frame, layers: Layers, scale: float, words: float) -> None:
+    """Paint the scales of forces and impulses in a corner."""
+    arrows, text = _arrow_legend(ax, now, layers)
+    paint(arrows, ax, scale=scale)
     paint(text, ax, scale=words)
 
 
@@ -454,17 +459,35 @@ def _paint_signs(ax: Axes, now: Frame, layers: Layers, words: float) -> None:
     paint(sign_rows(shown, corner, words / points_per_metre(ax)), ax, scale=words)
 
 
-def _force_legend(ax: Axes, now: Frame) -> tuple[Scene, Scene]:
-    """Return an arrow of a round force in a corner, and its number."""
+def _arrow_legend(ax: Axes, now: Frame, layers: Layers) -> tuple[Scene, Scene]:
+    """Return arrows of round sizes in a corner, one above the other, and their numbers.
+
+    That of forces is always there, others where they are needed: that of impulses after a blow, and
+    one with a cut where an arrow is shortened.
+    """
+    rows: list[tuple[Float, str, str, bool]] = []
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
-    length = force_scale(now.scenario).newton
-    force = round_force(0.14 * (xmax - xmin) / length)
-    tail = (xmin + 0.03 * (xmax - xmin), ymin + 0.05 * (ymax - ymin))
-    tip = (tail[0] + force * length, tail[1])
-    arrow, text = Scene(), Scene()
-    arrow.arrow(tail, tip, fill=FORCE, stroke="#ffffff")
-    text.text(tip, in_newtons(force), color=FORCE, size=LABEL_SIZE, anchor="left", halo="#ffffff")
-    return arrow, text
+    for legend in legends(now.scenario):
+        ruler, drawn = legend.ruler, ARROWS.get(legend.layer)
+        if ruler is None or drawn is None or not getattr(layers, legend.layer):
+            continue
+        scene = drawn(now)
+        if not scene.shapes and legend.layer != "forces":
+            continue
+        length, words = ruler.within(0.14 * (xmax - xmin))
+        rows.append((np.array([length, 0.0]), words, ruler.color, False))
+        if has_cut(scene):
+            way = np.array([0.06 * (xmax - xmin), 0.0])
+            rows.append(
+                (way, f"over {ruler.in_words(ruler.longest / ruler.unit)}", ruler.color, True)
+            )
+    pictures, text = Scene(), Scene()
+    foot, line = ymin + 0.05 * (ymax - ymin), 1.7 * LABEL_SIZE / points_per_metre(ax)
+    for k, (way, words, color, shortened) in enumerate(rows):
+        tail = np.array([xmin + 0.03 * (xmax - xmin), foot + k * line])
+        arrow(pictures, tail, way, fill=color, width=3.0, shortened=shortened)
+        text.text(tail + way, words, color=color, size=LABEL_SIZE, anchor="left", halo=EDGE)
+    return pictures, text
 
 
 def _told_apart(now: Frame, look: Style) -> Scene:

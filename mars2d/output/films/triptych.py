@@ -19,14 +19,14 @@ from mars2d.output.films.footage import Footage
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Status, draw_header
 from mars2d.output.raster.camera import PIXELS, Camera
+from mars2d.output.raster.grid import Bounds
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import PRINTED
 from mars2d.record.frame import Frame
-from mars2d.record.record import Record
 
-__all__ = ["Reel", "Triptych", "save_triptych"]
+__all__ = ["TITLE_HEIGHT", "Arena", "Reel", "Triptych", "save_triptych"]
 
 Float = NDArray[np.float64]
 
@@ -98,14 +98,16 @@ class Triptych:
         top = self._layout.header.bottom + round(TITLE_HEIGHT * ui)
         high = self._plot_height(size[1] - top)
         edges = [round(k * width / 3) for k in range(4)]
-        self._panels = [
-            _Panel(mode, record, pygame.Rect(left, top, right - left, high), self._painter)
-            for (mode, record), left, right in zip(
-                comparison.records.items(), edges, edges[1:], strict=False
-            )
+        self._arenas = [Arena(mode, self._painter) for mode in MODES]
+        for arena, left, right in zip(self._arenas, edges, edges[1:], strict=False):
+            arena.plot = pygame.Rect(left, top, right - left, high)
+        view = comparison.view
+        bounds = (view.xmin, view.xmax, view.ymin, view.ymax)
+        self._cameras = [arena.camera(bounds, size) for arena in self._arenas]
+        self._collisions = [
+            np.sort(record.contacts["time"][record.contacts["began"]])
+            for record in comparison.records.values()
         ]
-        for panel in self._panels:
-            panel.look_at(comparison, size)
         self._plot = _Plot(comparison, pygame.Rect(0, top + high, width, size[1] - top - high), ui)
 
     def _plot_height(self, room: int) -> int:
@@ -120,46 +122,59 @@ class Triptych:
         if surface is None:
             surface = pygame.Surface(self.size, 0, 32)
         surface.fill(self._painter.theme.page)
-        for panel, frame in zip(self._panels, frames, strict=True):
-            panel.paint(surface, frame)
+        for arena, frame, camera, collisions in zip(
+            self._arenas, frames, self._cameras, self._collisions, strict=True
+        ):
+            layers = Layers.of(frame.scenario.animation)
+            count = int(np.searchsorted(collisions, frame.time, side="right"))
+            arena.paint(surface, frame, camera, layers, count)
         latest = max(frames, key=lambda frame: frame.time)
         self._plot.paint(surface, latest.time, self._painter)
         draw_header(surface, self._layout, self._painter, latest, self._status)
         return surface
 
 
-class _Panel:
-    """One run: its title, and its picture below that on the rectangle `plot`."""
+class Arena:
+    """One run of a comparison: its title, and its picture below that on the rectangle `plot`.
 
-    def __init__(self, mode: str, record: Record, plot: pygame.Rect, painter: Painter) -> None:
-        self.mode, self.plot = mode, plot
+    mode: its physics.
+    """
+
+    def __init__(self, mode: str, painter: Painter, memory: int = 0) -> None:
+        """Start with nothing drawn; memory: as for `Stage`."""
+        self.mode, self.plot = mode, pygame.Rect(0, 0, 0, 0)
         self._painter = painter
-        self._stage = Stage(painter)
-        self._camera = PIXELS  # until `look_at` is called
-        began = record.contacts["began"]
-        self._collisions = np.sort(record.contacts["time"][began])
+        self._stage = Stage(painter, memory)
 
-    def look_at(self, comparison: Comparison, size: tuple[int, int]) -> None:
-        """Set the camera, which is the same for all panels."""
-        ui, view, plot = self._painter.ui, comparison.view, self.plot
+    def camera(self, bounds: Bounds, size: tuple[int, int]) -> Camera:
+        """Return the camera that shows bounds (xmin, xmax, ymin, ymax) [m] of the plane."""
+        ui, plot = self._painter.ui, self.plot
         margins = (
             plot.left + 44 * ui, plot.top + 6 * ui,
             size[0] - plot.right + 20 * ui, size[1] - plot.bottom + 30 * ui,
         )  # fmt: skip
-        self._camera = Camera.fit((view.xmin, view.xmax, view.ymin, view.ymax), size, margins)
+        return Camera.fit(bounds, size, margins)
 
-    def paint(self, surface: pygame.Surface, frame: Frame) -> None:
-        animation = frame.scenario.animation
-        layers = Layers.of(animation)
-        self._stage.draw(surface, frame, self._camera, layers, self.plot)
+    def paint(
+        self,
+        surface: pygame.Surface,
+        frame: Frame,
+        camera: Camera,
+        layers: Layers,
+        collisions: int,
+        *,
+        hurried: bool = False,
+    ) -> None:
+        """Paint a frame; collisions: how many there were so far. hurried: as for `Stage.draw`."""
+        self._stage.draw(surface, frame, camera, layers, self.plot, hurried=hurried)
         ui, fonts, theme = self._painter.ui, self._painter.fonts, self._painter.theme
-        count = int(np.searchsorted(self._collisions, frame.time, side="right"))
-        title = fonts.render(self.mode, 21 * ui, COLORS[self.mode], bold=True)
-        done = fonts.render(counted(count, "collision"), 17 * ui, theme.ink)
+        title = fonts.render(self.mode, 21 * ui, theme.shade(COLORS[self.mode]), bold=True)
+        done = fonts.render(counted(collisions, "collision"), 17 * ui, theme.ink)
         left, right = self.plot.left + round(44 * ui), self.plot.right - round(20 * ui)
         level = self.plot.top - round(TITLE_HEIGHT * ui)
         surface.blit(title, title.get_rect(midleft=(left, level + round(20 * ui))))
-        surface.blit(done, done.get_rect(midright=(right, level + round(21 * ui))))
+        if right - left >= title.get_width() + done.get_width() + 10 * ui:
+            surface.blit(done, done.get_rect(midright=(right, level + round(21 * ui))))
         text, color = MEANINGS[self.mode], theme.muted
         if frame.over_message:
             text, color = frame.over_message, theme.text

@@ -37,6 +37,7 @@ __all__ = [
     "prop_edge",
     "props",
     "robots",
+    "starts",
 ]
 
 Float = NDArray[np.float64]
@@ -118,16 +119,28 @@ def _draw_member(
         scene.circle(pose[:2], 0.0, fill=fill, stroke=stroke, pixels=5.0)
 
 
-def initial_poses(scenario: Scenario) -> Scene:
-    """Return the props and robots at their starts, hollow."""
-    scene = Scene()
-    for prop, color in zip(scenario.props, prop_colors(scenario.props), strict=True):
-        draw_prop(scene, prop, np.array(prop.pose), color, hollow=True)
-    for robot, pose, color in zip(
-        scenario.robots, scenario.initial_pose.T, scenario.colors, strict=True
+def initial_poses(frame: Frame) -> Scene:
+    """Return the props and robots where they started, hollow.
+
+    That is where their paths begin: a scenario that was changed on the way has other poses.
+    """
+    scene, scenario = Scene(), frame.scenario
+    poses, prop_poses = starts(frame)
+    for prop, pose, color in zip(
+        scenario.props, prop_poses.T, prop_colors(scenario.props), strict=True
     ):
+        draw_prop(scene, prop, pose, color, hollow=True)
+    for robot, pose, color in zip(scenario.robots, poses.T, scenario.colors, strict=True):
         _draw_member(scene, scenario, robot, pose, None, faded(color, 0.8))
     return scene
+
+
+def starts(frame: Frame) -> tuple[Float, Float]:
+    """Return the poses at the start of robots (3, n) and props (3, p)."""
+    if len(frame.path):
+        prop_poses = frame.prop_path[0] if len(frame.prop_path) else frame.prop_pose
+        return frame.path[0], prop_poses
+    return frame.pose, frame.prop_pose
 
 
 def props(frame: Frame) -> Scene:

@@ -9,14 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.scene import Anchor, Scene
+from mars2d.core.scene import Scene
 from mars2d.geometry.shapes import Shape
+from mars2d.output.layers.arrows import LONGEST, arrow, beside, shortening
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
 __all__ = [
     "FORCE",
-    "LABEL_SIZE",
     "SLIP",
     "SLIPPING",
     "SLIP_EDGE",
@@ -32,10 +32,9 @@ __all__ = [
 
 Float = NDArray[np.float64]
 
-FORCE, EDGE = "#a3003c", "#ffffff"
+FORCE = "#a3003c"
 SLIP, SLIP_EDGE = "#ffc20a", "#3d2f00"
 ARROW_WIDTH = 3.5
-LABEL_SIZE = 13.0
 
 SLIPPING = 0.999
 """The effort from which on a drive is said to slip."""
@@ -58,8 +57,8 @@ class ForceScale(NamedTuple):
     """How forces are drawn, the same in a whole experiment.
 
     strongest: newtons, the largest bound of a drive. newton: metres that 1 N is long. longest:
-    metres; stronger forces are drawn this long, with a cut through the arrow. width: of an arrow,
-    points. ring: the factor for the widths of slip marks.
+    metres; see `arrows.shortening`. width: of an arrow, points. ring: the factor for the widths of
+    slip marks.
     """
 
     strongest: float
@@ -83,7 +82,7 @@ def force_scale(scenario: Scenario) -> ForceScale:
     return ForceScale(
         strongest=strongest,
         newton=length / strongest / crowd,
-        longest=2.5 * length / crowd,
+        longest=LONGEST * length / crowd,
         width=ARROW_WIDTH / crowd**0.25,
         ring=1 / sqrt(crowd),
     )
@@ -117,20 +116,17 @@ def forces(frame: Frame) -> Scene:
         -MAX_CONTACTS:
     ]  # the strongest lie on top
     at = _touching_points(frame)
-    length = np.minimum(scale.newton * size[drawn], scale.longest)
-    reach = force[drawn] * (length / size[drawn])[:, None]
-    cuts = scale.newton * size[drawn] > scale.longest
-    for start, arrow, cut, solid in zip(
-        at[drawn], reach, cuts, contacts["b"][drawn] >= 0, strict=True
+    shorter = shortening(scale.newton * size[drawn], scale.longest)
+    reach = scale.newton * shorter[:, None] * force[drawn]
+    for start, way, factor, solid in zip(
+        at[drawn], reach, shorter, contacts["b"][drawn] >= 0, strict=True
     ):
-        for way in (arrow, -arrow) if solid else (-arrow,):
-            scene.arrow(start, start + way, fill=FORCE, stroke=EDGE, width=scale.width)
-            if cut:
-                _cut(scene, start, way)
+        for each in (way, -way) if solid else (-way,):
+            arrow(scene, start, each, fill=FORCE, width=scale.width, shortened=factor < 1)
     for k, row in list(enumerate(drawn.tolist()))[-MAX_LABELS:]:
         if size[row] >= LABELED * scale.strongest:
             way = reach[k] if contacts["b"][row] >= 0 else -reach[k]
-            _number(scene, at[row] + way, way, float(size[row]))
+            beside(scene, at[row] + way, way, in_newtons(float(size[row])), FORCE)
     return scene
 
 
@@ -149,22 +145,6 @@ def bounding_circle(shape: Shape, pose: Float) -> tuple[Float, float]:
     (x, y), radius = shape.bound
     c, s = np.cos(pose[2]), np.sin(pose[2])
     return pose[:2] + np.array([c * x - s * y, s * x + c * y]), radius
-
-
-def _cut(scene: Scene, start: Float, way: Float) -> None:
-    """Draw a gap across an arrow that is not as long as it should be."""
-    slant = 0.06 * np.array([way[0] - way[1], way[0] + way[1]])
-    for share in (0.42, 0.5):
-        middle = start + share * way
-        scene.line([middle - slant, middle + slant], stroke=EDGE, width=2.0)
-
-
-def _number(scene: Scene, tip: Float, way: Float, newtons: float) -> None:
-    across = abs(way[0]) > abs(way[1])
-    side: Anchor = ("left" if way[0] > 0 else "right") if across else "above"
-    if not across and way[1] < 0:
-        side = "below"
-    scene.text(tip, in_newtons(newtons), color=FORCE, size=LABEL_SIZE, anchor=side, halo=EDGE)
 
 
 def _touching_points(frame: Frame) -> Float:

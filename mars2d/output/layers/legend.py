@@ -23,7 +23,9 @@ from mars2d.core.scene import (
     faded,
 )
 from mars2d.core.usercode import called
+from mars2d.output.layers.arrows import arrow
 from mars2d.output.layers.forces import FORCE, SLIP, SLIP_EDGE, force_scale, in_newtons, round_force
+from mars2d.output.layers.impulses import FRICTION, NORMAL, impulse_scale, in_newton_seconds
 from mars2d.output.layers.messages import LOST_LINK
 from mars2d.output.layers.velocities import VELOCITY, in_metres_a_second, speed_scale
 from mars2d.scenario.scenario import Scenario
@@ -43,12 +45,14 @@ ROW = 16.0
 class Ruler(NamedTuple):
     """An arrow whose length is a quantity.
 
-    width: points. unit: the metres that one unit is long. in_words: formats a number of units.
+    width: points. unit: the metres that one unit is long. longest: metres; see
+    `arrows.shortening`. in_words: formats a number of units.
     """
 
     color: str
     width: float
     unit: float
+    longest: float
     in_words: Callable[[float], str]
 
     def within(self, most: float) -> tuple[float, str]:
@@ -77,12 +81,16 @@ def legends(scenario: Scenario) -> list[Legend]:
     """Return the legends of all layers that have one in an experiment; none without robots."""
     if not scenario.robots:
         return []
-    force, speed = force_scale(scenario), speed_scale(scenario)
-    newtons = Ruler(FORCE, force.width, force.newton, in_newtons)
-    paces = Ruler(VELOCITY, speed.width, speed.meter_a_second, in_metres_a_second)
+    force, speed, impulse = force_scale(scenario), speed_scale(scenario), impulse_scale(scenario)
+    newtons = Ruler(FORCE, force.width, force.newton, force.longest, in_newtons)
+    paces = Ruler(VELOCITY, speed.width, speed.meter_a_second, speed.longest, in_metres_a_second)
+    blow = Ruler(NORMAL, impulse.width, impulse.newton_second, impulse.longest, in_newton_seconds)
+    rubbing = Sign(_rubbing(), 24.0, "friction, and its cone")
+    turning = Sign(_turning(), 24.0, "turn in 1 s")
     found = [
-        Legend("forces", (Sign(_slipping(), 18.0, "slips"),), newtons),
-        Legend("velocities", (Sign(_turning(), 24.0, "turn in 1 s"),), paces),
+        Legend("forces", (_shortened(newtons), Sign(_slipping(), 18.0, "slips")), newtons),
+        Legend("impulses", (_shortened(blow), rubbing), blow),
+        Legend("velocities", (_shortened(paces), turning), paces),
     ]
     if signs := _of_sensors(scenario):
         found.append(Legend("sensors", signs))
@@ -155,6 +163,24 @@ def _theory() -> Scene:
     """Return the sign of a prediction."""
     scene = Scene()
     scene.line([(-12, 0), (12, 0)], stroke=THEORY, width=2.0)
+    return scene
+
+
+def _shortened(ruler: Ruler) -> Sign:
+    """Return the sign of an arrow that is drawn shorter than it is, as it stands for too much."""
+    scene = Scene()
+    start, way = np.array([-16.0, 0.0]), np.array([32.0, 0.0])
+    arrow(scene, start, way, fill=ruler.color, width=ruler.width, shortened=True)
+    return Sign(scene, 36.0, f"over {ruler.in_words(ruler.longest / ruler.unit)}")
+
+
+def _rubbing() -> Scene:
+    """Return the sign of the friction of a blow, in its cone."""
+    scene, apex = Scene(), np.array([-11.0, 0.0])
+    scene.sector(
+        (*apex, 0.0), 22.0, 0.9, fill=faded(FRICTION, 0.16), stroke=faded(FRICTION, 0.7), width=1.2
+    )
+    arrow(scene, apex + np.array([15.0, -5.0]), np.array([0.0, 11.0]), fill=FRICTION, width=2.0)
     return scene
 
 

@@ -25,6 +25,7 @@ from mars2d.output.layers.bodies import (
 )
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.ground import edge, obstacles, workspace
+from mars2d.output.layers.impulses import impulses
 from mars2d.output.layers.messages import messages
 from mars2d.output.layers.neighbours import neighbours
 from mars2d.output.layers.ranges import place_range, ranges
@@ -62,7 +63,8 @@ class Layer:
     switches the layer, if one does. switch: whether people may switch it; others are drawn as
     the animation says. at_first: whether it is on at first. stands: whether it is the same in all
     frames of a scenario; a painter may keep it. each: draws one body's part of the layer, given
-    its index in `Scenario.bodies` and its pose (3,), if the layer depends on nothing else.
+    its index in `Scenario.bodies` and its pose (3,), if the layer depends on nothing else. along:
+    other layers that its key switches with it, by name.
     """
 
     name: str
@@ -73,6 +75,7 @@ class Layer:
     at_first: Callable[[Animation], bool] = _always
     stands: bool = False
     each: Callable[[Scene, Scenario, int, Float], None] | None = None
+    along: tuple[str, ...] = ()
 
 
 LAYERS: list[Layer] = [
@@ -90,7 +93,7 @@ LAYERS: list[Layer] = [
         switch=False,
     ),
     Layer(
-        name="starts", title="Initial poses", shapes=_of_scenario(initial_poses), stands=True,
+        name="starts", title="Initial poses", shapes=initial_poses, stands=True,
         switch=False, at_first=attrgetter("show_initial_pose"),
     ),
     Layer(name="trails", title="Trails", shapes=trails, key="t", at_first=attrgetter("wake")),
@@ -105,13 +108,19 @@ LAYERS: list[Layer] = [
     ),
     Layer(name="addons", title="Add-ons", shapes=addons, key="o"),
     Layer(name="theory", title="Theory", shapes=theory, key="y", at_first=attrgetter("theory")),
-    Layer(name="messages", title="Messages", shapes=messages, key="m"),
+    Layer(name="messages", title="Messages", shapes=messages, key="m", along=("neighbours",)),
     Layer(name="props", title="Props", shapes=props, switch=False, each=place_prop),
     Layer(name="rings", title="Rings", shapes=rings, switch=False, each=place_ring),
     Layer(name="robots", title="Robots", shapes=robots, switch=False, each=place_robot),
     Layer(name="joints", title="Joints", shapes=joints, switch=False),
     Layer(name="velocities", title="Velocities", shapes=velocities, key="u", at_first=_never),
-    Layer(name="forces", title="Forces", shapes=forces, key="x", at_first=attrgetter("forces")),
+    Layer(
+        name="impulses", title="Impulses", shapes=impulses, at_first=attrgetter("forces"),
+    ),
+    Layer(
+        name="forces", title="Forces", shapes=forces, key="x", at_first=attrgetter("forces"),
+        along=("impulses",),
+    ),
     Layer(
         name="names", title="Names", shapes=names, key="i", at_first=attrgetter("names"),
         each=draw_name,
@@ -164,6 +173,11 @@ class Layers:
     def switched(self, **switches: bool) -> Self:
         """Return the same but for some switches, each by its layer's name."""
         return type(self)(self.on, **switches)
+
+    def toggled(self, name: str, *, alone: bool = False) -> Self:
+        """Return the same, but a layer the other way round, and those along with it or `alone`."""
+        along = () if alone else next(layer.along for layer in LAYERS if layer.name == name)
+        return self.switched(**dict.fromkeys((name, *along), not getattr(self, name)))
 
     def seen(self, animation: Animation) -> Iterator[Layer]:
         """Yield the layers that are drawn, the lowest first."""

@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.scene import Arrow, Scene, faded
+from mars2d.core.scene import Scene, faded
+from mars2d.output.layers.arrows import EDGE, LONGEST, arrow, shortening
 from mars2d.output.layers.forces import bounding_circle
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -21,7 +22,7 @@ __all__ = ["VELOCITY", "SpeedScale", "in_metres_a_second", "speed_scale", "veloc
 
 Float = NDArray[np.float64]
 
-VELOCITY, EDGE = "#00695c", "#ffffff"
+VELOCITY = "#00695c"
 ARROW_WIDTH, ARC_WIDTH = 3.2, 2.0  # points
 
 SLOWEST = 0.01
@@ -48,7 +49,7 @@ class SpeedScale(NamedTuple):
     """How velocities are drawn, the same in a whole experiment.
 
     fastest: m/s, the largest bound of a drive. meter_a_second: metres that 1 m/s is long. longest:
-    metres; faster bodies have an arrow of this length. width: of an arrow, points.
+    metres; see `arrows.shortening`. width: of an arrow, points.
     """
 
     fastest: float
@@ -67,7 +68,7 @@ def speed_scale(scenario: Scenario) -> SpeedScale:
     return SpeedScale(
         fastest=fastest,
         meter_a_second=length / fastest / sqrt(crowd),
-        longest=2.5 * length / sqrt(crowd),
+        longest=LONGEST * length / sqrt(crowd),
         width=ARROW_WIDTH / crowd**0.25,
     )
 
@@ -90,13 +91,12 @@ def velocities(frame: Frame) -> Scene:
             center, radius = bounding_circle(frame.scenario.bodies[i].shape, poses[:, i])
             _arc(scene, center, 1.3 * radius, float(poses[2, i]), float(velocity[2, i]))
     speed = np.hypot(velocity[0], velocity[1])
-    length = np.minimum(scale.meter_a_second * speed, scale.longest)
     moving = np.flatnonzero(speed >= SLOWEST * scale.fastest)
-    tails = poses[:2, moving]
-    tips = tails + velocity[:2, moving] * (length[moving] / speed[moving])
+    shorter = shortening(scale.meter_a_second * speed[moving], scale.longest)
+    ways = scale.meter_a_second * shorter * velocity[:2, moving]
     edge = EDGE if len(speed) <= CROWD else None
-    for (ax, ay), (bx, by) in zip(tails.T.tolist(), tips.T.tolist(), strict=True):
-        scene.shapes.append(Arrow((ax, ay), (bx, by), VELOCITY, edge, scale.width))
+    for tail, way, factor in zip(poses[:2, moving].T, ways.T, shorter, strict=True):
+        arrow(scene, tail, way, fill=VELOCITY, width=scale.width, edge=edge, shortened=factor < 1)
     return scene
 
 

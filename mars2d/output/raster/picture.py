@@ -27,7 +27,7 @@ class Artist:
 
     size: pixels. camera: by default one that shows the whole workspace. status: the text beside the
     time, such as "10x". footer: whether to leave room for the message at the end. grid, trails,
-    forces, theory: None takes the setting of the scenario's animation.
+    forces, theory: None takes the setting of the scenario's animation; impulses go with forces.
     """
 
     def __init__(
@@ -52,7 +52,9 @@ class Artist:
         self.painter.ui = self.layout.ui
         self._stage = Stage(self.painter)
         self._camera = camera
-        asked = {"grid": grid, "trails": trails, "forces": forces, "theory": theory}
+        asked = {
+            "grid": grid, "trails": trails, "forces": forces, "impulses": forces, "theory": theory,
+        }  # fmt: skip
         self._switches = {name: on for name, on in asked.items() if on is not None}
         self._switches["sensors"] = sensors
         self._status = Status(status) if status else None

@@ -11,6 +11,7 @@ from time import perf_counter
 import pygame
 
 from mars2d.core.scene import Scene, Shape
+from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.forces import forces as force_arrows
 from mars2d.output.layers.legend import Legend, legends
 from mars2d.output.layers.placement import Box, placed_names
@@ -134,11 +135,10 @@ class Stage:
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
         self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
-        self._legends: list[Legend] = []
-        self._legends_of: Scenario | None = None
         self._places: dict[int, int] = {}  # of the names in the last picture
         self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._numbers_of: tuple[Hashable, ...] = ()
+        self._legends: tuple[Scenario, list[Legend]] | None = None
 
     def draw(
         self,
@@ -172,11 +172,15 @@ class Stage:
                 self.painter.paint(surface, _sensors(frame), camera)
         self._paint_above(surface, frame, camera, layers, beneath, marks, selected)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
-        if frame.scenario is not self._legends_of:
-            self._legends_of, self._legends = frame.scenario, legends(frame.scenario)
-        shown = [each for each in self._legends if getattr(layers, each.layer)]
+        shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
         draw_legends(surface, self.painter, camera, plot, shown)
         surface.set_clip(before)
+
+    def _legends_of(self, scenario: Scenario) -> list[Legend]:
+        """Return the legends of a scenario, made once for as long as it is the same."""
+        if self._legends is None or self._legends[0] is not scenario:
+            self._legends = scenario, legends(scenario)
+        return self._legends[1]
 
     def _paint_above(
         self,
@@ -235,7 +239,8 @@ class Stage:
         """Return the canvas for a camera, a new one if needed and not hurried."""
         size = surface.get_size()
         stands = frozenset(layer.name for layer in standing())
-        key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme
+        began = b"".join(poses.tobytes() for poses in starts(frame))
+        key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme, began
         canvas = self._canvas
         if key != self._key or frame.scenario is not self._scenario:
             canvas = self._next = None

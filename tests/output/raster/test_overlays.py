@@ -63,7 +63,8 @@ def test_what_stands_or_creeps_has_no_arrow_and_what_flies_a_bounded_one():
     assert velocities(frame_of([(0, 0, 0)])).shapes == []
     assert velocities(frame_of([(0, 0, 0)], (0.004, 0, 0))).shapes == []
     frame = frame_of([(0, 0, 0)], (1000.0, 0, 0))
-    (arrow,) = velocities(frame).shapes
+    arrow, *cut = velocities(frame).shapes
+    assert len(cut) == 2, "the two strokes that say that it is shortened"
     assert arrow.tip[0] - arrow.tail[0] == pytest.approx(speed_scale(frame.scenario).longest)
 
 
@@ -103,7 +104,7 @@ def test_the_legends_lie_side_by_side(scale):
     camera, seen = Camera(scale, 320.0, 240.0), {}
     for forces, velocities_too in ((True, False), (False, True), (True, True)):
         surface = pygame.Surface(plot.size, 0, 32)
-        wanted = {"forces": forces, "velocities": velocities_too}
+        wanted = {"forces": forces, "velocities": velocities_too, "impulses": False}
         shown = [each for each in legends(scenario) if wanted[each.layer]]
         draw_legends(surface, Painter(), camera, plot, shown)
         seen[forces, velocities_too] = pygame.surfarray.array3d(surface).any(axis=(1, 2))

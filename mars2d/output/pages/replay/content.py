@@ -402,6 +402,7 @@ def _table(animation: Animation) -> list[dict[str, Any]]:
             "title": layer.title,
             "key": layer.key,
             "switch": layer.switch,
+            "along": layer.along,
             "on": layer.at_first(animation),
             "stands": layer in stand,
         }

@@ -283,7 +283,7 @@ class Replay {
       };
     }
     const layer = this.layers.find((each) => each.key === key);
-    if (layer) return () => this.toggle(layer.name);
+    if (layer) return () => this.toggle(layer.name, layer.along);
     return {
       " ": () => this.playOrPause(),
       ArrowRight: () => this.step(1),
@@ -353,8 +353,10 @@ class Replay {
     this.look.dark = dark;
   }
 
-  toggle(layer) {
-    this.look[layer] = !this.look[layer];
+  // A key switches other layers along with its own.
+  toggle(layer, along = []) {
+    const on = !this.look[layer];
+    for (const name of [layer, ...along]) this.look[name] = on;
     if (layer === "grid") this.resize();
   }
 

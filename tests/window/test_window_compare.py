@@ -1,0 +1,256 @@
+"""Three runs in step in one window, with a real mouse and keys, and how far they get apart."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mars2d.cli import command_line as cli
+from mars2d.core.errors import LawError
+from mars2d.output.figures.comparison import MODES, Comparison
+from mars2d.output.raster.layout import TEXT_SIZES, Layout
+from mars2d.output.raster.theme import DARK, LIGHT
+from mars2d.scenario.experiment import open_experiment
+from mars2d.window.compare_window import CompareWindow
+from mars2d.window.display import Preferences
+from mars2d.window.driftplot import DriftPlot
+from mars2d.window.player import Player
+from mars2d.window.trio import Trio
+from tests.window.person import Driver, differing, needs_screen
+from tests.window.written import Written, painter
+
+FAILS = """
+from mars2d import Robot, Scenario
+
+scenario = Scenario(robots=[Robot()], sampling_time=0.1, stop_time=1.0)
+
+
+def control(world):
+    if world.scenario.physics == "ideal" and world.time > 0.45:
+        raise ValueError("too ideal")
+    return [[0.1], [0.0]]
+"""
+
+
+def trio_of(source, **options):
+    return Trio(lambda mode: open_experiment(source, options | {"physics": mode}))
+
+
+def to_the_end(trio):
+    while not trio.over:
+        trio.advance()
+    return trio
+
+
+# -- the runs -------------------------------------------------------------------------------------
+
+
+def test_the_runs_are_those_of_runs_alone_and_the_drift_is_that_of_the_comparison():
+    trio = to_the_end(trio_of("push_box", stop_time=3))
+    records = trio.records
+    for mode in MODES:
+        alone = open_experiment("push_box", {"physics": mode, "stop_time": 3})
+        import mars2d
+
+        assert mars2d.run(alone.scenario, control=alone.control).digest == records[mode].digest
+    comparison = Comparison(**records)
+    for mode, drift in comparison.drifts.items():
+        rows = len(trio.drifts[mode])
+        assert rows == len(drift.max)
+        np.testing.assert_allclose(trio.drifts[mode][:, 0], drift.max, atol=1e-12)
+        np.testing.assert_allclose(trio.drifts[mode][:, 1], drift.mean, atol=1e-12)
+    assert trio.collisions == {mode: record.collisions for mode, record in records.items()}
+
+
+def test_a_run_that_ends_earlier_stands_still_and_the_others_go_on():
+    trio = to_the_end(trio_of("head_on"))
+    rows = {mode: timeline.newest for mode, timeline in trio.timelines.items()}
+    assert rows["ideal"] < rows["contact"] == trio.row == trio.newest
+    assert len(trio.drifts["ideal"]) == rows["ideal"] + 1
+    trio.go(rows["ideal"] - 5)
+    assert {timeline.row for timeline in trio.timelines.values()} == {rows["ideal"] - 5}
+    trio.go(10**9)
+    assert {mode: timeline.row for mode, timeline in trio.timelines.items()} == rows
+    assert trio.over
+
+
+def test_going_back_and_on_measures_nothing_twice_and_all_stay_in_step():
+    trio = trio_of("push_box", stop_time=3)
+    for _ in range(10):
+        trio.advance()
+    before = {mode: drift.copy() for mode, drift in trio.drifts.items()}
+    trio.go(4)
+    for _ in range(6):
+        trio.advance()
+    for mode, drift in trio.drifts.items():
+        np.testing.assert_array_equal(drift, before[mode])
+    trio.advance()
+    assert len(trio.drifts["stop"]) == 12
+    trio.restart()
+    assert trio.row == trio.newest == 0
+    assert len(trio.drifts["stop"]) == 1
+
+
+def test_frames_between_two_control_steps_are_of_the_same_time():
+    trio = trio_of("push_box", stop_time=3)
+    player = Player(trio, 1.0)
+    for _ in range(33):
+        player.pass_time(0.017)
+    frames = trio.frames(player.frame.time)
+    assert {round(frame.time, 9) for frame in frames.values()} == {round(player.frame.time, 9)}
+    assert 0 < player.frame.time % 0.1 < 0.1
+
+
+def test_an_error_names_the_physics_and_the_others_have_gone_on(tmp_path):
+    (tmp_path / "mine.py").write_text(FAILS)
+    trio = trio_of(tmp_path / "mine.py")
+    with pytest.raises(LawError, match=r"physics = 'ideal': mine.py, line 9.*too ideal"):
+        to_the_end(trio)
+    assert trio.contact.newest == trio.timelines["stop"].newest == 6
+
+
+# -- the plot -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK])
+@pytest.mark.parametrize("text", TEXT_SIZES)
+@pytest.mark.parametrize("width", [520, 756, 1236])
+def test_words_of_the_plot_never_lie_on_each_other(theme, text, width):
+    layout = Layout.of((1280, 720), text=text, controls=True)
+    surface, plot = Written((width, 220)), DriftPlot()
+    drifts = {mode: np.linspace((0, 0), (2.5, 1.2), 400) for mode in MODES[1:]}
+    plot.draw(surface, surface.get_rect(), painter(layout, theme), drifts, 0.05, 3.0)
+    assert surface.crowded() == []
+    assert plot.time_at(plot.area.left) == 0
+    assert plot.time_at(plot.area.right + 50) == pytest.approx(399 * 0.05)
+
+
+def test_runs_that_agree_say_so():
+    layout = Layout.of((1280, 720), controls=True)
+    surface, plot = Written((900, 220)), DriftPlot()
+    drifts = {mode: np.zeros((40, 2)) for mode in MODES[1:]}
+    plot.draw(surface, surface.get_rect(), painter(layout, LIGHT), drifts, 0.05, 1.0)
+    assert "the three runs agree" in surface.texts
+
+
+@pytest.mark.parametrize("size", [(800, 600), (1024, 768), (1280, 720)])
+@pytest.mark.parametrize("text", [1.0, 1.7])
+def test_the_arenas_have_the_same_width_and_lie_above_the_plot(size, text):
+    window = CompareWindow(trio_of("push_box"), 1, size, Preferences(text=text))
+    window.draw(Written(size))
+    plots = [arena.plot for arena in window.arenas]
+    assert max(plot.width for plot in plots) - min(plot.width for plot in plots) <= 1
+    assert all(plot.height >= 0.1 * size[1] for plot in plots)
+    assert all(plot.bottom <= window._plot_place.top for plot in plots)
+    assert window._plot_place.height >= 0.15 * size[1]
+
+
+# -- the window -----------------------------------------------------------------------------------
+
+
+class Comparer(Driver):
+    def __init__(self, screen, experiment, speed):
+        self._sit(screen, "observed_compare", experiment, speed)
+
+
+@pytest.fixture
+def compare(screen):
+    opened = []
+
+    def start(experiment, speed="max"):
+        opened.append(Comparer(screen, str(experiment), speed))
+        return opened[-1]
+
+    yield start
+    for window in opened:
+        window.close()
+
+
+@needs_screen
+def test_keys_and_buttons_of_time_move_all_three(compare):
+    window = compare("push_box")
+    window.until(lambda s: s["over"])
+    window.press("Home")
+    window.until(lambda s: set(s["rows"].values()) == {0})
+    window.press("3", "Right")
+    window.until(lambda s: set(s["rows"].values()) == {3})
+    window.press("n")
+    met = window.until(lambda s: s["row"] > 3 and s["forces"])
+    assert len(set(met["rows"].values())) == 1
+    window.do("mousemove", *window.state["buttons"]["start"], "click", 1)
+    window.until(lambda s: s["row"] == 0)
+    window.do("mousemove", *window.state["buttons"]["pause"], "click", 1)
+    window.until(lambda s: s["over"])
+
+
+@needs_screen
+def test_the_time_bar_and_the_plot_are_scrubbed_and_the_wheel_zooms_all_arenas(compare):
+    window = compare("push_box")
+    window.until(lambda s: s["over"])
+    first, last, y = window.state["bar"]
+    window.do("mousemove", round((first + last) / 2), y, "click", 1)
+    window.until(lambda s: abs(s["row"] - s["newest"] / 2) <= 2)
+    left, top, width, height = window.state["graph"]
+    window.do("mousemove", left + width // 4, top + height // 2, "click", 1)
+    window.until(lambda s: abs(s["row"] - s["newest"] / 4) <= 2)
+    scale, before = window.state["scale"], window.still()
+    window.do("mousemove", *window.state["arenas"]["stop"], "click", 4)
+    window.until(lambda s: s["scale"] > scale)
+    assert window.shows(lambda seen: differing(before, seen) > 500)
+    window.press("f")
+    window.until(lambda s: s["scale"] == scale)
+    window.do("mousemove", round(first) + 5, y, "click", 4)
+    window.until(lambda s: s["span"][1] < s["newest"])
+
+
+@needs_screen
+def test_looks_help_pictures_and_leaving(compare):
+    window = compare("head_on", 1)
+    window.press("d", "z", "x")
+    window.until(lambda s: s["dark"] and s["text"] > 1 and not s["forces"])
+    window.press("F1")
+    window.until(lambda s: s["help"] is not None)
+    window.press("Escape")
+    window.until(lambda s: s["help"] is None)
+    row = window.state["row"]
+    window.press("r")
+    window.until(lambda s: s["row"] < row or s["row"] < 5)
+    window.press("Escape")
+    window.until(lambda s: s.get("left"))
+
+
+@needs_screen
+def test_the_command_opens_a_window_and_prints_the_table(screen, tmp_path):
+    import subprocess
+    import sys
+
+    from tests.processes import PATIENCE, bare_environment, wait_until
+    from tests.window.person import ROOT
+
+    here = {"DISPLAY": screen, "PYTHONPATH": str(ROOT), "SDL_VIDEO_WINDOW_POS": "0,0"}
+    environment = bare_environment(**here, MARS2D_MEMORY="")
+    command = [sys.executable, "-m", "mars2d", "compare", "push_box", "--stop-time", "1000"]
+    close = ["xdotool", "mousemove", "300", "300", "sleep", "0.3", "key", "ctrl+q"]
+
+    def closed():
+        subprocess.run(close, env=environment, check=True, timeout=PATIENCE)
+        return process.poll() is not None
+
+    with subprocess.Popen(
+        command, env=environment, cwd=tmp_path, stdout=subprocess.PIPE, text=True
+    ) as process:
+        wait_until(closed)
+        out, _ = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 0
+    assert "physics" in out
+    assert "The window was closed" in out
+    assert not list(tmp_path.iterdir()), "neither picture nor film"
+
+
+def test_without_a_display_it_makes_a_picture_and_a_film(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    cli.main(["compare", "push_box", "--stop-time", "1"])
+    assert "picture: mars2d_compare" in capsys.readouterr().out
+    assert (tmp_path / "mars2d_compare" / "push_box.png").exists()
