@@ -278,7 +278,7 @@ def test_l_follows_what_is_selected_until_the_picture_is_dragged(open_window):
 def test_manual_mode_is_one_step_a_key(open_window):
     window = open_window(0)
     before = window.still()
-    for count, key in enumerate(["space", "Return", "Right", "q", "Down"], 1):
+    for count, key in enumerate(["space", "Return", "Right", "comma", "Down"], 1):
         window.press(key)
         window.until(lambda s, count=count: s["row"] == count)
     window.press("shift", "g")
