@@ -37,10 +37,12 @@ def _capture(name: str, value: object) -> str | float:
     return distance
 
 
+@accepts(checks.OUTLINE | {"minItems": 3})
 def _goal(name: str, value: object) -> Outline | None:
     return None if value is None else checks.outline(name, value, least=3)
 
 
+@accepts({"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 1})
 def _hunted(name: str, value: object) -> tuple[str | int, ...] | None:
     return None if value is None else robots_of(name, value)
 

@@ -87,8 +87,8 @@ sqrt(p q).
 def blended(rule: str, p: float, q: float) -> float:
     """Return the coefficient of a contact by one of `RULES`, from those of its surfaces.
 
-    >>> blended("geometric", 0.4, 0.9)
-    0.6
+    >>> blended("geometric", 0.25, 0.09)
+    0.15
     """
     values = {
         "product": p * q, "minimum": min(p, q), "mean": (p + q) / 2, "geometric": sqrt(p * q),

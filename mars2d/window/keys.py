@@ -43,14 +43,14 @@ TIME = (
     Key("leap_back", ("page up",), ("PgUp",), "ten steps back", repeats=True),
     Key("start", ("home",), ("Home",), "look at the start"),
     Key("newest", ("end",), ("End",), "look at the newest step"),
-    Key("contact", ("n",), ("N",), "on to the next contact, of what is selected or of all"),
+    Key("contact", ("n",), ("N",), "on to the next contact"),
     Key("contact_back", ("shift+n",), ("Shift N",), "back to the contact before"),
-    Key("contacts", ("k",), ("K",), "choose what happens at contacts: stop, go slowly"),
+    Key("contacts", ("k",), ("K",), "at contacts stop, or go slowly"),
     Key("loop", ("j",), ("J",), "begin again at the end, on and off"),
     Key("faster", ("+", "=", "[+]"), ("+",), "faster", repeats=True),
     Key("slower", ("-", "[-]"), ("\N{MINUS SIGN}",), "slower", repeats=True),
     Key("restart", ("r",), ("R",), "restart at time 0, with the file as it is now"),
-    Key("branch", ("b",), ("B",), "the other branch: what was run before something was changed"),
+    Key("branch", ("b",), ("B",), "the other branch, run before a change"),
 )
 
 _SEE = (
@@ -59,17 +59,13 @@ _SEE = (
     Key("sensors", ("s",), ("S",), "sensors on and off; where a robot is selected, its own alone"),
     Key("messages", ("m",), ("M",), "messages between robots on and off"),
     Key("forces", ("x",), ("X",), "contacts, their forces, and who slips, on and off"),
-    Key("theory", ("y",), ("Y",), "what theory predicts, where add-ons draw it, on and off"),
+    Key("theory", ("y",), ("Y",), "theory, where add-ons draw it, on and off"),
     Key("addons", ("o",), ("O",), "what add-ons draw on and off"),
     Key("names", ("i",), ("I",), "names on and off"),
     Key("velocities", ("u",), ("U",), "velocities on and off"),
     Key("layers", ("a",), ("A",), "choose what is shown"),
-    Key(
-        "scopes", ("q",), ("Q",), "choose what is plotted over time, of what is selected or of all"
-    ),
-    Key(
-        "predictions", ("f3",), ("F3",), "what checks predict, beside what is measured, on and off"
-    ),
+    Key("scopes", ("q",), ("Q",), "choose plots over time"),
+    Key("predictions", ("f3",), ("F3",), "predictions and measurements, on and off"),
     Key("select", ("tab",), ("Tab",), "select the next robot or prop, and inspect it"),
     Key("follow", ("l",), ("L",), "let the camera follow what is selected, or all robots"),
     Key("fit", ("f", "ctrl+0"), ("F",), "fit the workspace into the window"),
@@ -89,7 +85,7 @@ SEE = (
 )
 
 DO = (
-    Key("parameters", ("f2",), ("F2",), "parameters of the experiment, as sliders, on and off"),
+    Key("parameters", ("f2",), ("F2",), "sliders of parameters, on and off"),
     Key("drive", ("h",), ("H",), "drive the selected robot by hand: arrow keys, WASD, controller"),
     Key("edit", ("e",), ("E",), "draw walls, robots and more, while paused"),
     Key("undo", ("ctrl+z",), ("Ctrl Z",), "undo the last thing done by hand"),

@@ -184,7 +184,6 @@ def test_a_film_can_be_an_mp4(compare):
         (["random_walk", "--set", "physics=stop"], "compare runs each physics"),
         (["random_walk", "--set", "diametr=1"], "there is no option 'diametr'"),
         (["random_walk", "--stop-time", "-1"], "stop_time"),
-        (["random_walk", "--headless"], "--headless"),
     ],
 )
 def test_what_can_not_be_done_is_told_in_one_line(compare, arguments, expected):

@@ -114,6 +114,7 @@ ALLOWED = {
     ("geometry/ray_casting.py", "arctan2"),  # which rays may hit: where they do is worked out
     ("core/plane.py", "log10"),  # how to divide an axis
     ("addons/estimate.py", "log"),  # how large an ellipse is drawn
+    ("scenario/parameters.py", "log10"),  # how many digits a slider shows
     ("scenario/prediction.py", "log10"),  # how many digits are printed
 }
 

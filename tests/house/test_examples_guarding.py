@@ -8,7 +8,7 @@ import pytest
 import mars2d
 from mars2d.cli.command_line import main
 from mars2d.scenario.experiment import examples, open_module
-from mars2d.world.teleop import robot_of
+from mars2d.scenario.roles import robot_of
 
 pytestmark = pytest.mark.slow
 

@@ -145,7 +145,7 @@ def meanings(scenario):
 
 
 def test_messages_theory_and_sensors_have_legends_where_they_are_drawn():
-    assert meanings(Scenario(robots=2)).keys() == {"forces", "velocities"}
+    assert meanings(Scenario(robots=2)).keys() == {"forces", "impulses", "velocities"}
     sensors = [SonarRing(), RangeFinder(), Proximity(range=1), RangeBearing(), Beacon(), Imu()]
     addons = [Communication(), Theory(lambda scene, frame: None)]
     found = meanings(Scenario(robots=[Robot(sensors=sensors)], addons=addons))

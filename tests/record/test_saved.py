@@ -10,6 +10,7 @@ import pytest
 
 import mars2d
 from mars2d import Scenario
+from mars2d.bodies.drives import Dubins
 from mars2d.scenario.registry import FAMILIES, members
 
 HERE = Path(__file__).parent
@@ -55,6 +56,8 @@ def test_a_scenario_saved_before_the_rooms_has_parts_of_all_families(scenario):
         "addons": scenario.addons,
     }
     assert set(parts) == set(FAMILIES) - {"controllers"}  # which came later
+    assert "Dubins" in members("bodies")  # which came later, too
+    parts["bodies"].append(Dubins())
     for family in ("bodies", "props", "joints"):
         assert {type(part).__name__ for part in parts[family]} == {*members(family)}
     assert {type(part).__name__ for part in parts["sensors"]} == {*members("sensors")}

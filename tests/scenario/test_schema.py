@@ -154,7 +154,9 @@ def test_saved_files_lead_editors_to_it(tmp_path):
     assert (tmp_path / "a.toml").read_text().startswith("#:schema mars2d.schema.json\n")
 
 
-def test_the_command_prints_it():
+def test_the_command_prints_it_or_writes_it(tmp_path):
     done = mars("schema")
     assert done.returncode == 0
     assert json.loads(done.stdout) == SCHEMA
+    assert mars("schema", tmp_path / "a.json").stdout == ""
+    assert (tmp_path / "a.json").read_text() == done.stdout

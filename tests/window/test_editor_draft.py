@@ -379,7 +379,9 @@ def test_the_keys_in_the_document_are_those_of_the_editor():
     text = (Path(__file__).parents[2] / "docs" / "editor.md").read_text(encoding="utf-8")
     rows = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]
     wanted = [[" ".join(key.labels), key.help] for _, group in keys.GROUPS for key in group]
-    assert rows == [["Key", "What it does"], *wanted]
+    assert rows[rows.index(["Key", "What it does"]) :][: 1 + len(wanted)] == [
+        ["Key", "What it does"], *wanted,
+    ]  # fmt: skip
 
 
 def test_the_page_of_help_lists_all_keys_that_work():

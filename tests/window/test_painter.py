@@ -437,7 +437,8 @@ def test_switched_off_forces_cost_nothing():
 
 
 def test_the_legend_is_left_out_of_small_pictures():
-    frame = replace(pressed(), contacts=np.empty(0, CONTACT), effort=np.zeros(2))
+    nothing = np.empty(0, CONTACT)
+    frame = replace(pressed(), contacts=nothing, contact_log=lambda: nothing, effort=np.zeros(2))
     assert count(paint_frame(frame, forces=True), SLIP) > 5
     assert (
         differing(paint_frame(frame, (320, 200)), paint_frame(frame, (320, 200), forces=True)) == 0

@@ -255,7 +255,7 @@ def test_every_key_has_its_own_command():
     [
         ("space", " ", "pause"), ("right", "", "step"), ("=", "=", "faster"), ("=", "+", "faster"),
         ("]", "+", "faster"), ("[+]", "+", "faster"), ("-", "-", "slower"), ("f1", "", "help"),
-        ("escape", "", "leave"), ("q", "q", None), ("left shift", "", None), ("return", "", None),
+        ("escape", "", "leave"), ("w", "w", None), ("left shift", "", None), ("return", "", None),
     ],
 )  # fmt: skip
 def test_what_keys_do(name, character, action):
@@ -354,7 +354,7 @@ def test_where_a_restart_fails_it_is_told_at_the_newest_step():
 @pytest.mark.parametrize(
     ("name", "action"),
     [
-        ("space", "step"), ("return", "step"), ("right", "step"), ("q", "step"), ("up", "step"),
+        ("space", "step"), ("return", "step"), ("right", "step"), ("w", "step"), ("up", "step"),
         ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),
         ("tab", "select"), ("escape", "leave"),
         ("left shift", None), ("left ctrl", None),

@@ -396,7 +396,7 @@ def test_a_display_is_found(no_display, monkeypatch, screen):
 
 ON_A_KEYBOARD = {
     "page down": "Next", "page up": "Prior", "right": "Right", "left": "Left", "home": "Home",
-    "end": "End", "+": "plus", "-": "minus", "tab": "Tab", "f1": "F1", "escape": "Escape",
+    "end": "End", "+": "plus", "-": "minus", "tab": "Tab", "f1": "F1", "f2": "F2", "f3": "F3", "escape": "Escape",
     "ctrl++": "ctrl+plus", "ctrl+-": "ctrl+minus", "f11": "F11",
 }  # fmt: skip
 """What xdotool calls keys that pygame calls otherwise."""
@@ -413,7 +413,8 @@ GESTURES = {
 
 def test_every_key_and_gesture_of_the_help_has_a_test():
     pressed, tests = set(), set()
-    for path in Path(__file__).parent.glob("test_window*.py"):
+    folder = Path(__file__).parent
+    for path in (*folder.glob("test_window*.py"), folder / "test_parameter_panel.py"):
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
                 tests.add(node.name)

@@ -16,8 +16,10 @@ from mars2d.sensors import Proximity, RangeFinder
 from mars2d.world.loop import open_world
 
 GENERATORS = {
-    "corner_game", "crowd", "dead_reckoning", "follow_the_leader", "herding", "pursuit_corners",
-    "pursuit_voronoi", "sumo", "token_ring", "wall_follower",
+    "capture_the_flag", "corner_game", "crowd", "dead_reckoning", "encirclement",
+    "follow_the_leader", "guard_the_line", "herding", "homicidal_chauffeur", "lion_and_man",
+    "pursuit_corners", "pursuit_voronoi", "selfish_herd", "straight_chase", "sumo", "token_ring",
+    "two_cars", "wall_follower",
 }  # fmt: skip
 """Examples with laws that are generators."""
 

@@ -139,6 +139,8 @@ class Stage:
         self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
         self._numbers_of: tuple[Hashable, ...] = ()
         self._legends: tuple[Scenario, list[Legend]] | None = None
+        self._legend = pygame.Surface((0, 0)), (0, 0)
+        self._legend_of: tuple[object, ...] = ()
 
     def draw(
         self,
@@ -173,8 +175,24 @@ class Stage:
         self._paint_above(surface, frame, camera, layers, beneath, marks, selected)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
         shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
-        draw_legends(surface, self.painter, camera, plot, shown)
+        image, corner = self._drawn(shown, camera, plot)
+        surface.blit(image, corner)
         surface.set_clip(before)
+
+    def _drawn(
+        self, shown: Sequence[Legend], camera: Camera, plot: pygame.Rect
+    ) -> tuple[pygame.Surface, tuple[int, int]]:
+        """Return the picture of legends and its corner; it is drawn again when they change."""
+        painter = self.painter
+        names = [legend.layer for legend in shown]
+        of = (self._scenario, *names, camera.scale, *plot, painter.ui, painter.theme)
+        if of != self._legend_of:
+            whole = pygame.Surface(plot.size, pygame.SRCALPHA, 32)
+            draw_legends(whole, painter, camera, whole.get_rect(), shown)
+            place = whole.get_bounding_rect()
+            corner = plot.left + place.left, plot.top + place.top
+            self._legend_of, self._legend = of, (whole.subsurface(place).copy(), corner)
+        return self._legend
 
     def _legends_of(self, scenario: Scenario) -> list[Legend]:
         """Return the legends of a scenario, made once for as long as it is the same."""
