@@ -8,7 +8,7 @@ import pytest
 import mars2d
 from mars2d.cli.command_line import main
 from mars2d.scenario.experiment import examples, open_module
-from mars2d.scenario.roles import robot_of
+from mars2d.scenario.roles import roles_of
 
 pytestmark = pytest.mark.slow
 
@@ -115,8 +115,9 @@ def test_all_laws_of_a_game_play_each_other(name):
 @pytest.mark.parametrize("name", LAWS)
 def test_both_roles_are_played_by_hand(name):
     scenario = mars2d.scenario.open_experiment(name).scenario
-    driven = {robot_of(scenario, role) for role in LAWS[name]}
-    assert len(driven) == 2
+    roles = roles_of(scenario)
+    assert roles.keys() == LAWS[name].keys()
+    assert len({robots[0] for robots in roles.values()}) == 2
 
 
 @pytest.mark.parametrize("name", LAWS)

@@ -396,8 +396,8 @@ def test_a_display_is_found(no_display, monkeypatch, screen):
 
 ON_A_KEYBOARD = {
     "page down": "Next", "page up": "Prior", "right": "Right", "left": "Left", "home": "Home",
-    "end": "End", "+": "plus", "-": "minus", "tab": "Tab", "f1": "F1", "f2": "F2", "f3": "F3", "escape": "Escape",
-    "ctrl++": "ctrl+plus", "ctrl+-": "ctrl+minus", "f11": "F11",
+    "end": "End", "+": "plus", "-": "minus", "tab": "Tab", "f1": "F1", "f2": "F2", "f3": "F3",
+    "escape": "Escape", "ctrl++": "ctrl+plus", "ctrl+-": "ctrl+minus", "f11": "F11",
 }  # fmt: skip
 """What xdotool calls keys that pygame calls otherwise."""
 

@@ -71,7 +71,7 @@ def placed_names(
         x, y, radius, _ = bodies[first]
         bodies[first] = Box(x, y, *[radius + SELECTED * metres_per_point] * 2)
     labels = [shape for shape in names.shapes if isinstance(shape, Text)]
-    if len(labels) != len(bodies):
+    if not bodies or len(labels) != len(bodies):
         return names
     half = [_half(label, metres_per_point) for label in labels]
     above = _boxes(bodies, half, PLACES[:1])[:, 0]
@@ -152,8 +152,8 @@ def _bound(frame: Frame, body: int, metres_per_point: float) -> Box:
 
 def _boxes(bodies: Iterable[Box], half: Iterable[tuple[float, float]], places: Float) -> Float:
     """Return the boxes (n, k, 4) of names at k places beside their bodies."""
-    x, y, far, _ = np.array(list(bodies)).reshape(-1, 4).T[:, :, None]
-    wide, high = np.array(list(half)).reshape(-1, 2).T[:, :, None]
+    x, y, far, _ = np.array(list(bodies)).T[:, :, None]
+    wide, high = np.array(list(half)).T[:, :, None]
     ring, across, up = places.T[:, None]
     gap = (2 * ring + 0.3) * high
     made = (x + across * (far + gap + wide), y + up * (far + gap + high), wide, high)
