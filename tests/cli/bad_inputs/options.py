@@ -115,8 +115,10 @@ OF_OTHERS = [
     ),
     (
         "laws for a role of another folder",
-        "mars2d tournament corner_game --role pursuer=corner_pursuers "
-        "--role evader=corner_pursuers",
+        (
+            "mars2d tournament corner_game --role pursuer=corner_pursuers "
+            "--role evader=corner_pursuers"
+        ),
         "corner_pursuers/ahead.py",
         "pursuer",
         "not evader",
