@@ -128,7 +128,12 @@ def users_line(stack: traceback.StackSummary) -> str | None:
 def _is_users(path: Path) -> bool:
     compiled = path.suffix == ".pyx"  # for example numpy's random generators
     others = compiled or _is_ours(path) or path.is_relative_to(_STANDARD_LIBRARY)
-    return not (others or "site-packages" in path.parts or str(path).startswith("<"))
+    return not (others or "site-packages" in path.parts or _is_no_file(path))
+
+
+def _is_no_file(path: Path) -> bool:
+    """Return whether this is the name of code that was made by `eval` or `exec`."""
+    return str(path).startswith("<") or not path.name
 
 
 def _is_ours(path: Path) -> bool:
@@ -152,9 +157,12 @@ def _whole(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def definition(function: Callable[..., Any]) -> str | None:
-    """Return file and line of a function's definition; None if it is compiled or MARS2D's own."""
+    """Return file and line of a function's definition.
+
+    None if it is compiled, MARS2D's own, or made by `eval` or `exec`.
+    """
     code = getattr(inspect.unwrap(_whole(function)), "__code__", None)
-    if code is None or _is_ours(Path(code.co_filename)):
+    if code is None or _is_ours(path := Path(code.co_filename)) or _is_no_file(path):
         return None
     return _place(code.co_filename, code.co_firstlineno)
 

@@ -80,6 +80,15 @@ def test_the_file_that_starts_the_command_line_is_no_code_of_the_user():
     assert users_line(traceback.StackSummary.from_list([outer, law])) == "walk.py, line 12"
 
 
+@pytest.mark.parametrize("name", ["<string>", "", "<stdin>"])
+def test_code_that_was_made_by_eval_has_no_place_in_a_file(name):
+    made = {}
+    exec(compile("def law(world):\n    return 1 / 0\n", name, "exec"), made)
+    error = error_of(made["law"])
+    assert str(error).startswith("law raised ZeroDivisionError")
+    assert error.where is None
+
+
 def test_without_a_place_there_is_no_excerpt():
     assert excerpt_of(InputError("range = -1: expected > 0")) is None
     gone = InputError("gone")

@@ -15,9 +15,12 @@ from mars2d import Scenario, World
 from mars2d.scenario.experiment import examples, open_experiment
 from tests.physics import test_crowd_fuzz as fuzz
 from tests.physics.bustle.bustle import scenario as bustle
-from tests.physics.test_same_bits import crowd
+from tests.physics.test_same_bits import crowd, dampers
 
 STEPS = int(sys.argv[1]) if sys.argv[1:] else 60
+
+SENSITIVE, DAMPED = (10, 13), 400
+"""Seeds of `dampers`, and steps, in which the exponential of the C library would be noticed."""
 
 
 def scenarios() -> Iterator[tuple[str, Scenario]]:
@@ -37,10 +40,10 @@ def _rounded(scenario: Scenario) -> Scenario:
     return scenario.replace(addons=[chart.replace(outlines=outlines)])
 
 
-def digest(scenario: Scenario) -> str:
+def digest(scenario: Scenario, steps: int = STEPS) -> str:
     """Return the digest of a run under commands that change now and then."""
     world, rng = World(scenario, seed=1), np.random.default_rng(1)
-    while not world.over and world.iteration < STEPS:
+    while not world.over and world.iteration < steps:
         if world.iteration % 10 == 0:
             command = rng.uniform(-0.5, 0.5, (2, len(scenario.robots)))
         world.step(command)
@@ -48,4 +51,6 @@ def digest(scenario: Scenario) -> str:
 
 
 if __name__ == "__main__":
-    print(json.dumps({name: digest(each) for name, each in scenarios()}))
+    digests = {name: digest(each) for name, each in scenarios()}
+    digests |= {f"dampers {seed}": digest(dampers(seed), DAMPED) for seed in SENSITIVE}
+    print(json.dumps(digests))

@@ -9,7 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d.physics.islands.arithmetic import chord_share, cosine_sine, length, power, sine
+from mars2d.physics.islands.arithmetic import (
+    chord_share,
+    cosine_sine,
+    exponential,
+    length,
+    power,
+    sine,
+)
 
 ULP = 2.0**-53
 """Half the distance between 1 and the next number: by this much a rounded sine may be off."""
@@ -84,6 +91,16 @@ def test_powers_are_the_librarys_but_for_rounding_their_logarithms(x, exponent):
     else:
         rounding = 2 * math.ulp(1.0) * (1 + abs(math.log(expected)))
         assert power(x, exponent) == pytest.approx(expected, rel=rounding, abs=0)
+
+
+@given(y=st.one_of(st.floats(-700, 0), st.floats(-1, 0)))
+def test_exponentials_are_the_librarys_to_their_last_digit(y):
+    assert off(exponential(y), math.exp(y)) <= 2
+
+
+def test_the_ends_of_exponentials():
+    assert exponential(0.0) == exponential(-0.0) == 1.0
+    assert exponential(-701.0) == exponential(-1e300) == 0.0
 
 
 def test_the_ends_of_powers():

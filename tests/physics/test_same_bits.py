@@ -14,7 +14,7 @@ import mars2d
 from mars2d import Holonomic, MaterialPair, Record, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies import Car, Differential, Drive
-from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
+from mars2d.bodies.joints import Hinge, Joint, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Puck, Solid
 from mars2d.core.materials import RULES
 from mars2d.geometry.shapes import Polygon
@@ -164,6 +164,27 @@ def crowd(
         addons=[Map(obstacles(rng, half), friction=0.7, restitution=0.9)],
         stop_time=1e6 * fields.get("sampling_time", 0.1),
         **{"on_exit": "wall", **fields},
+    )
+
+
+def dampers(seed: int) -> Scenario:
+    """Two robots that draw two boxes each, by a spring and a hinge with one; all are damped."""
+    rng = np.random.default_rng(seed)
+    joints: list[Joint] = []
+    for k in range(2):
+        stiffness, damping, twist, slow = rng.uniform([5, 1, 0.5, 0.2], [100, 100, 20, 20]).tolist()
+        joints += [
+            Spring(a=f"robot{k}", b=f"box{2 * k}", stiffness=stiffness, damping=damping),
+            Hinge(
+                a=f"box{2 * k}", b=f"box{2 * k + 1}", anchor_a=(-0.3, 0), anchor_b=(0.3, 0),
+                stiffness=twist, damping=slow,
+            ),
+        ]  # fmt: skip
+    return Scenario(
+        robots=[Robot(pose=(1, y, 0)) for y in (-1, 1)],
+        props=[Box(length=0.4, width=0.3, pose=(x, y, 0)) for y in (-1, 1) for x in (0, -0.6)],
+        joints=joints,
+        stop_time=1e3,
     )
 
 
@@ -323,6 +344,12 @@ def test_so_does_one_of_many_surfaces(rule):
     )  # fmt: skip
     record = run_both(mixed, restless(3, mixed), 25)
     assert len(record.contacts) > 50
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_so_do_springs_with_dampers(seed):
+    scenario = dampers(seed)
+    run_both(scenario, restless(seed, scenario), 30)
 
 
 @pytest.mark.parametrize("physics", ["stop", "ideal"])

@@ -311,6 +311,57 @@ def test_after_ctrl_c_what_was_played_is_there_and_the_same_command_goes_on(even
     assert len(played_before(tmp_path / "out", planned, LIMITS)) == len(rows) - 1 > 1
 
 
+def _with_line(lines, k, line):
+    return b"".join([*lines[:k], line, *lines[k + 1 :]])
+
+
+CHANGES = {
+    "a forged winner": lambda row: row.update(winner="evader"),
+    "a forged score": lambda row: row["score"].update(pursuer=100.0),
+    "another match": lambda row: row.update(print="0" * 64),
+    "no checksum": lambda row: row.pop("sum"),
+    "no error": lambda row: row.pop("error"),
+    "no more than a name": lambda row: (row.clear(), row.update(winner="evader")),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_a_match_that_was_changed_in_the_file_is_refused(evening, tmp_path, change):
+    lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
+    row = json.loads(lines[3])
+    change(row)
+    forged = _with_line(lines, 3, json.dumps(row).encode() + b"\n")
+    (tmp_path / PLAYED).write_bytes(forged)
+    with pytest.raises(
+        InputError, match=r"played\.jsonl, line 4: was changed after it was written"
+    ):
+        Folder(tmp_path, planned_as_before(evening), LIMITS, replays=True)
+    assert (tmp_path / PLAYED).read_bytes() == forged
+
+
+@pytest.mark.parametrize("line", [b"[]", b"3", b'"winner"', b'{"sum": 3}'])
+def test_a_line_that_is_no_match_is_refused(evening, tmp_path, line):
+    lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
+    (tmp_path / PLAYED).write_bytes(_with_line(lines, 3, line + b"\n"))
+    with pytest.raises(InputError, match="line 4"):
+        Folder(tmp_path, planned_as_before(evening), LIMITS, replays=True)
+
+
+def test_a_line_that_is_there_twice_counts_once(evening, tmp_path):
+    lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
+    (tmp_path / PLAYED).write_bytes(b"".join([*lines, *lines[1:], lines[3]]))
+    planned = planned_as_before(evening)
+    assert played_before(tmp_path, planned, LIMITS) == evening.result.matches
+
+
+def test_a_folder_of_another_version_says_so(evening, tmp_path):
+    lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
+    head = json.loads(lines[0]) | {"mars2d tournament": 1}
+    (tmp_path / PLAYED).write_bytes(_with_line(lines, 0, json.dumps(head).encode() + b"\n"))
+    with pytest.raises(InputError, match="is not of this version; name another folder by --out"):
+        Folder(tmp_path, planned_as_before(evening), LIMITS, replays=True)
+
+
 # -- one match, once more --------------------------------------------------------------------------
 
 

@@ -65,6 +65,7 @@ def difference() -> str:
     from mars2d.physics.islands.chipmunk import (
         bodies_are_as_thought,
         impulses_are_where_thought,
+        springs_are_as_thought,
     )
 
     found = (
@@ -73,6 +74,7 @@ def difference() -> str:
     known = {
         "its joints have their impulses elsewhere": impulses_are_where_thought,
         "its bodies have their poses elsewhere": bodies_are_as_thought,
+        "its springs have their damping elsewhere": springs_are_as_thought,
     }
     elsewhere = (what for what, is_as_thought in known.items() if not is_as_thought())
     return next(found, "") or next(elsewhere, "")

@@ -10,7 +10,7 @@ from math import floor, fmod, sqrt
 
 from mars2d.physics.islands import shadow as cython
 
-__all__ = ["chord_share", "cosine_sine", "decay_base", "length", "power", "sine"]
+__all__ = ["chord_share", "cosine_sine", "decay_base", "exponential", "length", "power", "sine"]
 
 
 @cython.cfunc
@@ -162,10 +162,15 @@ def power(x: cython.double, exponent: cython.double) -> cython.double:
     p = p * z + 1.0 / 7.0
     p = p * z + 1.0 / 5.0
     p = p * z + 1.0 / 3.0
-    y: cython.double = exponent * (2.0 * s + 2.0 * s * z * p - k * 0.6931471805599453)
+    return exponential(exponent * (2.0 * s + 2.0 * s * z * p - k * 0.6931471805599453))
+
+
+@cython.cfunc
+def exponential(y: cython.double) -> cython.double:
+    """Return e to the power of y <= 0; 0 for y < -700."""
     if y < -700.0:
         return 0.0
-    # the exponential: y = r - n ln 2
+    # y = r - n ln 2
     n: cython.double = floor(0.5 - y * 1.4426950408889634)
     r: cython.double = y + n * 6.93147180369123816490e-01
     r = r + n * 1.90821492927058770002e-10

@@ -65,6 +65,10 @@ cdef extern from *:
         void *(*cpRotaryLimitJointInit)(void *, void *, void *, double, double);
         void *(*cpDampedRotarySpringAlloc)(void);
         void *(*cpDampedRotarySpringInit)(void *, void *, void *, double, double, double);
+        void (*cpDampedSpringSetSpringForceFunc)(void *, double (*)(void *, double));
+        void (*cpDampedRotarySpringSetSpringTorqueFunc)(void *, double (*)(void *, double));
+        void *(*cpConstraintGetSpace)(void *);
+        double (*cpSpaceGetCurrentTimeStep)(void *);
         void (*cpConstraintSetMaxForce)(void *, double);
         void (*cpConstraintSetMaxBias)(void *, double);
         void (*cpConstraintSetErrorBias)(void *, double);
@@ -264,6 +268,23 @@ cdef extern from *:
     }
     static void *first_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_a; }
     static void *second_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_b; }
+    /* Springs: the numbers are where springs_are_as_thought in chipmunk.py finds them. */
+    enum { REST = 17, REST_ANGLE = 13, LOST = 22, LOST_TURNING = 18, FELT = 27, FELT_TURNING = 19 };
+    static double fading(void *spring, int rest, int felt) {
+        void *space = engine.cpConstraintGetSpace(spring);
+        double *n = spring, h = engine.cpSpaceGetCurrentTimeStep(space);
+        return -(n[rest + 2] * h) / n[felt];
+    }
+    static double pull_of(void *spring, double length, double lost) {
+        double *n = spring;
+        n[LOST] = lost;
+        return (n[REST] - length) * n[REST + 1];
+    }
+    static double twist_to(void *spring, double angle, double lost) {
+        double *n = spring;
+        n[LOST_TURNING] = lost;
+        return (angle - n[REST_ANGLE]) * n[REST_ANGLE + 1];
+    }
     static Vector drag(void *joint) { return vector(((double *)joint)[25], ((double *)joint)[26]); }
     static double twist(void *joint) { return ((double *)joint)[18]; }
     static Contact_ *contact_at(void *arbiter, int k) { return ((Arbiter_ *)arbiter)->contacts + k; }
@@ -336,6 +357,12 @@ cdef extern from *:
         void *(*cpRotaryLimitJointInit)(void *, void *, void *, double, double) noexcept
         void *(*cpDampedRotarySpringAlloc)() noexcept
         void *(*cpDampedRotarySpringInit)(void *, void *, void *, double, double, double) noexcept
+        void (*cpDampedSpringSetSpringForceFunc)(
+            void *, double (*)(void *, double) noexcept) noexcept
+        void (*cpDampedRotarySpringSetSpringTorqueFunc)(
+            void *, double (*)(void *, double) noexcept) noexcept
+        void *(*cpConstraintGetSpace)(void *) noexcept
+        double (*cpSpaceGetCurrentTimeStep)(void *) noexcept
         void (*cpConstraintSetMaxForce)(void *, double) noexcept
         void (*cpConstraintSetMaxBias)(void *, double) noexcept
         void (*cpConstraintSetErrorBias)(void *, double) noexcept
@@ -373,6 +400,10 @@ cdef extern from *:
     double move_by(void *, double) noexcept
     void *first_body(void *) noexcept
     void *second_body(void *) noexcept
+    enum: REST, REST_ANGLE, FELT, FELT_TURNING
+    double fading(void *, int, int) noexcept
+    double pull_of(void *, double, double) noexcept
+    double twist_to(void *, double, double) noexcept
     Vector drag(void *) noexcept
     double twist(void *) noexcept
     void mend_in(void *) noexcept
@@ -552,9 +583,19 @@ cdef Handle make_joint(
         engine.cpPinJointSetDist(joint, p)
     elif kind == DAMPED_SPRING:
         engine.cpDampedSpringInit(joint, a, b, on_a, on_b, p, q, r)
+        if r > 0.0:
+            engine.cpDampedSpringSetSpringForceFunc(joint, pull)
     else:
         engine.cpDampedRotarySpringInit(joint, a, b, p, q, r)
+        if r > 0.0:
+            engine.cpDampedRotarySpringSetSpringTorqueFunc(joint, twist_back)
     return joint
+
+cdef double pull(void *spring, double length) noexcept:
+    return pull_of(spring, length, 1.0 - exponential(fading(spring, REST, FELT)))
+
+cdef double twist_back(void *spring, double angle) noexcept:
+    return twist_to(spring, angle, 1.0 - exponential(fading(spring, REST_ANGLE, FELT_TURNING)))
 
 cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
     engine.cpConstraintSetErrorBias(joint, bias)

@@ -7,12 +7,13 @@ addresses: ``chipmunk.pxi`` is this module in C. No other module here knows the 
 from __future__ import annotations
 
 from functools import cache
+from itertools import chain
 from math import sqrt
 from typing import Any, TypeAlias
 
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.physics.islands.arithmetic import cosine_sine
+from mars2d.physics.islands.arithmetic import cosine_sine, exponential
 
 __all__ = [
     "DAMPED_SPRING", "GEAR", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
@@ -238,6 +239,16 @@ def make_joint(
     joint: that one, or NOTHING. ends: the anchors in the frames of a and b, and where none are
     needed, any. p, q, r: the kind's numbers, in the order in which the engine takes them.
     """
+    made = _made(kind, joint, a, b, ends, p, q, r)
+    if kind in (DAMPED_SPRING, ROTARY_SPRING) and r > 0.0 and springs_are_as_thought():
+        _damp(kind, made)
+    return made
+
+
+def _made(
+    kind: int, joint: Handle, a: Handle, b: Handle, ends: Any, p: float, q: float, r: float
+) -> Handle:
+    """Return a joint as the engine makes it."""
     itself = _ALLOC[kind]() if joint is None else ffi.cast(_OWN[kind], joint)
     if kind == PIVOT:
         _INIT[kind](itself, a, b, ends[0], ends[1])
@@ -267,6 +278,74 @@ def set_limits(joint: Handle, least: float, largest: float) -> None:
     """Set the limits of a joint of the kind ROTARY_LIMIT."""
     lib.cpRotaryLimitJointSetMin(joint, least)
     lib.cpRotaryLimitJointSetMax(joint, largest)
+
+
+REST, REST_ANGLE = 17, 13
+"""Where the engine's springs, and those that turn, have their rest, in numbers of eight bytes.
+
+Stiffness and damping follow.
+"""
+
+LOST, LOST_TURNING, FELT, FELT_TURNING = 22, 18, 27, 19
+"""Where they have the share of speed that is lost in a step, and the mass or moment that is felt.
+
+The engine works out that share with the C library's exponential, and asks for the force right after
+it. So the functions below, which return the force, replace the share by one that rounds the same
+everywhere.
+"""
+
+
+@ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
+def _PULL(spring: Handle, length: float) -> float:  # noqa: N802
+    numbers = ffi.cast("double *", spring)
+    h = lib.cpSpaceGetCurrentTimeStep(lib.cpConstraintGetSpace(spring))
+    numbers[LOST] = 1.0 - exponential(-(numbers[REST + 2] * h) / numbers[FELT])
+    return float((numbers[REST] - length) * numbers[REST + 1])
+
+
+@ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
+def _TWIST(spring: Handle, angle: float) -> float:  # noqa: N802
+    numbers = ffi.cast("double *", spring)
+    h = lib.cpSpaceGetCurrentTimeStep(lib.cpConstraintGetSpace(spring))
+    numbers[LOST_TURNING] = 1.0 - exponential(
+        -(numbers[REST_ANGLE + 2] * h) / numbers[FELT_TURNING]
+    )
+    return float((angle - numbers[REST_ANGLE]) * numbers[REST_ANGLE + 1])
+
+
+def _damp(kind: int, spring: Handle) -> None:
+    """Let a spring be damped by our own exponential."""
+    if kind == DAMPED_SPRING:
+        lib.cpDampedSpringSetSpringForceFunc(spring, _PULL)
+    else:
+        lib.cpDampedRotarySpringSetSpringTorqueFunc(spring, _TWIST)
+
+
+@cache
+def springs_are_as_thought() -> bool:
+    """Whether springs have their numbers there: one of each kind is stepped to find out."""
+    space, body = new_space(0.0), new_body(2.0, 3.0, 0)
+    ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
+    add_body(space, body)
+    put(body, 0.5, 0.0, 0.25)
+    kinds = (
+        (DAMPED_SPRING, REST, LOST, FELT, 2.0),
+        (ROTARY_SPRING, REST_ANGLE, LOST_TURNING, FELT_TURNING, 3.0),
+    )
+    off = 0.0
+    for kind, rest, lost, felt, feels in kinds:
+        spring = _made(kind, NOTHING, ground, body, ends, 0.125, 4.0, 1.5)
+        add_joint(space, spring)
+        step(space, 0.0625, 0.5)
+        found = [_numbers(spring, *each) for each in ((rest, 3), (lost, 1), (felt, 1))]
+        wanted = [0.125, 4.0, 1.5, 1.0 - exponential(-1.5 * 0.0625 / feels), feels]
+        off = max(off, *(abs(a - b) for a, b in zip(chain(*found), wanted, strict=True)))
+        remove_joint(space, spring)
+        free_joint(spring)
+    remove_body(space, body)
+    free_body(body)
+    free_space(space)
+    return bool(off < 1e-12)
 
 
 @cache

@@ -22,7 +22,7 @@ __all__ = ["PLAYED", "Folder", "played_before"]
 PLAYED = "played.jsonl"
 """The file that is written while matches are played."""
 
-FORMAT = 1
+FORMAT = 2
 """The version of the file's format; a folder with another version is refused."""
 
 
@@ -60,7 +60,8 @@ class Folder:
 
     Each line is a match, as JSON; if the process is killed within a line, only that match is lost.
     A match is played again if its experiment, a law, a limit or a version has changed, or if it had
-    no result. Raises InputError for a folder that holds anything else, or can't be written.
+    no result. A line that was changed after it was written is refused, by its checksum. Raises
+    InputError for a folder that holds anything else, or can't be written.
     """
 
     def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
@@ -74,7 +75,8 @@ class Folder:
     def keep(self, played: Played) -> None:
         """Write a match that is done."""
         row = asdict(replace(played, match=_named(played.match)))
-        self._write({"print": self._prints[played.match.number], **row})
+        row = {"print": self._prints[played.match.number], **row}
+        self._write({"sum": _sum(row), **row})
 
     def __enter__(self) -> Folder:
         self._file = growing(self._path / PLAYED)
@@ -126,19 +128,33 @@ def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[P
         lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
     head = _json(lines[0]) if lines else _head(schedule)
     if head != _head(schedule):
-        other = head.get("experiment") if isinstance(head, dict) else None
-        of = f"of a tournament of {other}" if other else "not of this version"
+        written = head if isinstance(head, dict) else {}
+        other = written.get("experiment")
+        same = written.get("mars2d tournament") == FORMAT and other
+        of = f"of a tournament of {other}" if same else "not of this version"
         raise InputError(f"{path}: is {of}; name another folder by --out")
     known = {}
-    for line in lines[1:]:
+    for number, line in enumerate(lines[1:], 2):
         kept = _json(line)
-        if isinstance(kept, dict) and not kept["error"]:
+        if kept is None:
+            continue
+        if not isinstance(kept, dict) or kept.pop("sum", "") != _sum(kept):
+            raise InputError(
+                f"{log}, line {number}: was changed after it was written, so its match is not "
+                "counted; delete this line, and the match is played again"
+            )
+        if not kept["error"]:
             known[kept.pop("print")] = kept
     return tuple(
         _played(known[mark], match)
         for match in schedule.matches
         if (mark := prints[match.number]) in known
     )
+
+
+def _sum(row: Mapping[str, Any]) -> str:
+    """Return the checksum of a line. It is no signature: who recomputes it is not detected."""
+    return _hash([json.dumps(row).encode()])
 
 
 def _head(schedule: Schedule) -> dict[str, Any]:
