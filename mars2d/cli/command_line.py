@@ -16,6 +16,7 @@ import traceback
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache, partial
+from multiprocessing import resource_tracker
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
@@ -33,7 +34,7 @@ from mars2d.core.interrupt import (
     unwrapped,
     was_interrupted,
 )
-from mars2d.core.lastresort import look_on
+from mars2d.core.lastresort import keep_orphans, kill, look_on, started_here
 from mars2d.core.terminal import legible, warn
 from mars2d.core.words import instead
 
@@ -43,6 +44,9 @@ OK, FAULT, BAD_INPUT = 0, 1, 2
 
 LEFT = 2.0
 """How long threads and processes of the user's code may take to end after the command, seconds."""
+
+LOOK = 0.01
+"""The time between two looks at whether they have, seconds."""
 
 UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
 """Errors of paths typed by the user for which even asking whether they exist fails."""
@@ -57,6 +61,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     _hold_standard_files()
     if OURS:
         look_on([signal.SIGINT, *ENDING])
+        keep_orphans()
     try:
         with legible(), raised_once(), unwrapped(), hang_up_as_interrupt():
             code = _outcome(argv)
@@ -71,7 +76,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _leave_behind(code: int) -> None:
-    """End what the user's code has started and Python would wait for, perhaps for ever."""
+    """End what the user's code has started: threads and processes, which may never end."""
     children = [child for child in multiprocessing.active_children() if not child.daemon]
     own = threading.current_thread()
     threads = [t for t in threading.enumerate() if not t.daemon and t is not own]
@@ -79,12 +84,19 @@ def _leave_behind(code: int) -> None:
     joins = [child.join for child in children] + [thread.join for thread in threads]
     for join in joins:
         join(max(0.0, until - time.monotonic()))
+    while (others := _others()) and time.monotonic() < until:
+        time.sleep(LOOK)
     running = [child for child in children if child.is_alive()]
-    if running:
-        names = ", ".join(child.name for child in running)
-        warn(f"killed processes that did not end: {names}")
+    if names := [*(child.name for child in running), *others.values()]:
+        warn(f"killed processes that did not end: {', '.join(names)}")
     for child in running:
         child.kill()
+    killed: set[int] = set()
+    while new := others.keys() - killed:  # they may have started more
+        for process in new:
+            kill(process)
+        killed |= new
+        others = _others()
     left = [thread.name for thread in threads if thread.is_alive()]
     if not left:
         return
@@ -94,6 +106,13 @@ def _leave_behind(code: int) -> None:
         with suppress(OSError, ValueError, AttributeError):
             stream.flush()
     os._exit(code)
+
+
+def _others() -> dict[int, str]:
+    """Return the processes that the user's code has started, by number, and their names."""
+    ours = getattr(resource_tracker, "_resource_tracker", None)  # ends with this process
+    own = {getattr(ours, "_pid", None)} | {each.pid for each in multiprocessing.active_children()}
+    return {number: name for number, name in started_here().items() if number not in own}
 
 
 def _hold_standard_files() -> None:

@@ -13,8 +13,17 @@ import signal
 import sys
 import time
 from contextlib import suppress
+from pathlib import Path
 
-__all__ = ["die_with_parent", "heard", "kill_group", "look_on"]
+__all__ = [
+    "die_with_parent",
+    "heard",
+    "keep_orphans",
+    "kill",
+    "kill_group",
+    "look_on",
+    "started_here",
+]
 
 ASKED = 2.0
 """How long after a first signal that nobody has heard a second one ends the command, seconds."""
@@ -22,8 +31,9 @@ ASKED = 2.0
 HEARD = b"\xff"
 """What the command writes when it reacts to a signal; no signal has this number."""
 
-PR_SET_PDEATHSIG = 1
-"""The option of Linux's prctl that sends a signal when the parent's thread ends."""
+PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
+"""Options of Linux's prctl: send a signal when the parent's thread ends; become the parent of
+descendants whose parent ends."""
 
 SAID = (
     "mars2d: ended by force: code in C did not let it save; a log, --record OUT.mcap, keeps what "
@@ -33,18 +43,22 @@ SAID = (
 _told = -1
 """Where the process that looks on is told, or -1."""
 
+_looker = -1
+"""The process that looks on, or -1."""
+
 
 def look_on(numbers: list[signal.Signals]) -> None:
     """Start to look on: a second signal of these numbers that nobody hears ends this process.
 
     To be called once, in the main thread, before there are others. Has no effect but on Linux.
     """
-    global _told  # noqa: PLW0603 - a process has one place to which signals are told
+    global _told, _looker  # noqa: PLW0603 - a process has one that looks on
     if sys.platform != "linux" or _told >= 0:
         return
     command = os.getpid()
     read, write = os.pipe()
-    if os.fork() == 0:
+    _looker = os.fork()
+    if _looker == 0:
         os.close(write)
         with suppress(BaseException):
             _look(read, command, {int(number) for number in numbers})
@@ -77,9 +91,50 @@ def _look(told: int, command: int, numbers: set[int]) -> None:
                 if since is not None and now - since >= ASKED:
                     with suppress(OSError):
                         os.write(2, SAID.encode())
+                    left = started_here(command)
                     os.kill(command, signal.SIGKILL)
+                    for each in left:
+                        kill(each)
                     return
                 since = now if since is None else since
+
+
+def keep_orphans() -> None:
+    """Adopt processes whose parents, which this one started, end: `started_here` finds them."""
+    _prctl(PR_SET_CHILD_SUBREAPER, 1)
+
+
+def started_here(command: int | None = None) -> dict[int, str]:
+    """Return the processes that one has started, and these in turn, and their names, on Linux.
+
+    command: its number; None: this one. Those that have left its process group are not among them,
+    nor is the one that looks on, nor are those that have ended.
+    """
+    command = os.getpid() if command is None else command
+    if sys.platform != "linux":
+        return {}
+    parents, groups, names = {}, {}, {}
+    for file in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):  # it has ended meanwhile
+            before, _, after = file.read_text(errors="replace").rpartition(")")
+            state, parent, group = after.split()[:3]
+            if state not in "ZX":
+                number = int(file.parent.name)
+                parents[number], groups[number] = int(parent), int(group)
+                names[number] = before.partition("(")[2]
+    found, queue = {}, [command]
+    for above in queue:
+        queue += [number for number, parent in parents.items() if parent == above]
+    for number in queue[1:]:
+        if groups[number] == groups.get(command) and number not in (_looker, os.getpid()):
+            found[number] = names[number]
+    return found
+
+
+def kill(process: int) -> None:
+    """Kill a process, if it has not ended yet."""
+    with suppress(ProcessLookupError, PermissionError):
+        os.kill(process, signal.SIGKILL)
 
 
 def die_with_parent() -> None:
@@ -87,9 +142,13 @@ def die_with_parent() -> None:
 
     A thread of our own would never run while C code holds the interpreter.
     """
+    _prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def _prctl(option: int, value: int) -> None:
     if sys.platform == "linux":
         with suppress(OSError, AttributeError):
-            ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+            ctypes.CDLL(None).prctl(option, value)
 
 
 def kill_group(leader: int) -> None:

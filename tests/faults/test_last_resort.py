@@ -45,6 +45,14 @@ PROCESS = """\
         fork.Process(target=time.sleep, args=(1e6,), name="mine").start()
 """
 
+HELPERS = """\
+        import subprocess
+        subprocess.Popen(["sleep", "100000"])
+        subprocess.Popen(["sh", "-c", "sleep 100001 & sleep 0.1"])
+        subprocess.Popen("sleep 100002; sleep 100003", shell=True)
+"""
+"""A helper, one whose parent ends, and one that is the child of a shell."""
+
 NOTHING = "        pass\n"
 
 
@@ -126,6 +134,49 @@ def test_a_process_that_goes_on_does_not_hold_the_command(tmp_path):
     assert "mars2d: killed processes that did not end: mine\n" in ended.err
     assert "record: kept.npz" in ended.out
     assert command.left() == []
+
+
+@linux
+@pytest.mark.slow
+def test_helpers_of_a_law_end_with_the_run(tmp_path):
+    experiment(tmp_path, HELPERS, stop=3)
+    command = started(tmp_path, "run", "law.py", "--headless", "--record", "kept.npz")
+    ended = command.end(PATIENCE)
+    assert ended.code == 0, ended
+    assert ended.err.count("sleep") == 3
+    assert "mars2d: killed processes that did not end: " in ended.err
+    assert command.left() == []
+    assert mars2d.load(tmp_path / "kept.npz").finished
+
+
+@linux
+@pytest.mark.slow
+@pytest.mark.parametrize("then", ["", "        raise ValueError\n", "        while True: pass\n"])
+def test_they_end_with_it_however_it_ends(tmp_path, then):
+    command = going(tmp_path, HELPERS + then)
+    if not then.endswith("Error\n"):
+        os.kill(command.pid, signal.SIGTERM)
+    assert command.end(PATIENCE).code == (2 if then.endswith("Error\n") else 130)
+    assert command.left() == []
+
+
+@linux
+@pytest.mark.slow
+def test_they_end_with_a_run_that_is_ended_by_force(tmp_path):
+    command = going(tmp_path, HELPERS + '        open("helped", "w").close()\n' + IN_C)
+    wait_until((tmp_path / "helped").exists)
+    assert pressed_until_it_ends(command).code == -signal.SIGKILL
+    assert command.left() == []
+
+
+@linux
+@pytest.mark.slow
+def test_helpers_that_end_by_themselves_are_waited_for_and_not_mentioned(tmp_path):
+    body = '        __import__("subprocess").Popen(["sh", "-c", "sleep 0.5; echo done > helped"])\n'
+    experiment(tmp_path, body, stop=2.5)
+    ended = started(tmp_path, "run", "law.py", "--headless").end(PATIENCE)
+    assert (ended.code, ended.err) == (0, "")
+    assert (tmp_path / "helped").exists()
 
 
 SIGNALS = ["SIGTERM", "SIGUSR1", "SIGUSR2", "SIGXCPU"]
