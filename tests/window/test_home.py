@@ -238,6 +238,7 @@ def test_from_the_home_to_an_own_file_and_back(screen, tmp_path):
     command = [sys.executable, "-m", "mars2d"]
     with started(command, env=environment, stderr=subprocess.PIPE) as home:
         do = Hands(screen, home)
+        do.xdotool("mousemove", "0", "0")  # a pointer that a window opens under chooses a card
         do.wait_for("MARS2D")
         do.key("Right", "Return")
         assert "sampling_time" in home.stderr.readline()
