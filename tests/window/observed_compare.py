@@ -9,7 +9,7 @@ import sys
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.trio import Trio
-from tests.window.telling import Teller
+from tests.window.telling import Teller, unseen
 
 
 class Observed(CompareWindow):
@@ -19,6 +19,7 @@ class Observed(CompareWindow):
         super().__init__(*arguments)
         self.teller = Teller()
 
+    @unseen
     def draw(self, surface, **options):
         self.teller.shown()
         super().draw(surface, **options)

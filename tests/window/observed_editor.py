@@ -12,7 +12,7 @@ from mars2d.scenario.controllers import Controller
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, EditorWindow
-from tests.window.telling import Teller
+from tests.window.telling import Teller, unseen
 
 
 class Observed(EditorWindow):
@@ -22,6 +22,7 @@ class Observed(EditorWindow):
         super().__init__(*arguments)
         self.teller = Teller()
 
+    @unseen
     def draw(self, surface):
         self.teller.shown()
         super().draw(surface)

@@ -13,7 +13,7 @@ from mars2d.window.memory import Memory
 from mars2d.window.player import MAX_GAP
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
-from tests.window.telling import Teller
+from tests.window.telling import Teller, unseen
 from tests.worlds import ahead
 
 SCENARIO = Scenario(
@@ -35,12 +35,14 @@ class Observed(Window):
         self.passed = 0.0  # seconds of the wall clock that the player was given
         pass_time = self.player.pass_time
 
+        @unseen
         def count(wall):
             self.passed += min(wall, MAX_GAP)
             pass_time(wall)
 
         self.player.pass_time = count
 
+    @unseen
     def draw(self, surface):
         self.teller.shown()
         super().draw(surface)

@@ -22,7 +22,7 @@ from mars2d.window.source import Playback
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.window.circling import Circling, circling_scenario
-from tests.window.telling import Teller
+from tests.window.telling import Teller, unseen
 
 
 class Observed(Window):
@@ -42,6 +42,7 @@ class Observed(Window):
 
         self.notes.say = count
 
+    @unseen
     def draw(self, surface, **options):
         self.teller.shown()
         if self.silent:

@@ -11,6 +11,12 @@ PICTURES = 3
 """How many pictures after a question comes the answer: the last ones show all events before it."""
 
 
+def unseen(function):
+    """Hide a function from the watchdog, which would take it for the user's code that takes long."""
+    function.__code__ = function.__code__.replace(co_filename="<observer>")
+    return function
+
+
 class Teller:
     """Prints a state whenever it has changed, and in answer to SIGUSR1."""
 
