@@ -167,6 +167,8 @@ class Reader:
         needs_window |= bool(getattr(arguments, "human", None)) and not arguments.headless
         needs_window |= words[1:2] == ["play"] and "mars2d: " not in expected and len(words) > 2
         verb = words[1] if len(words) > 1 else ""
+        if verb == "sweep" and "--seeds" in words and not expected:
+            words[words.index("--seeds") + 1] = "1"  # its numbers are not compared
         if verb in ("run", "demo") and not (needs_window or arguments.headless):
             words.append("--headless")  # where it would open a window
         if verb == "replay":
