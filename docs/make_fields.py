@@ -20,6 +20,7 @@ from mars2d import (
     MaterialPair,
     Nearest,
     Prediction,
+    RandomStarts,
     Robot,
     Scenario,
     Within,
@@ -51,6 +52,7 @@ KINDS: tuple[type[Description], ...] = (
     Addon, *shipped("addons"), Burst,
     Everyone, Within, Nearest, Delaunay, Graph,
     MaterialPair,
+    RandomStarts,
     Prediction,
 )  # fmt: skip
 

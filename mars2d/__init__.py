@@ -26,6 +26,7 @@ from mars2d.scenario.material_pair import MaterialPair
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.scenario.parameters import Range
 from mars2d.scenario.prediction import Prediction
+from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors import Sensor
@@ -57,6 +58,7 @@ __all__ = [
     "Nearest",
     "Neighbourhood",
     "Prediction",
+    "RandomStarts",
     "Range",
     "Record",
     "Robot",

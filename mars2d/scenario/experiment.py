@@ -261,6 +261,7 @@ def open_experiment(
         plain, chart = _opened(source, rest, control, seed)
         try:
             scenario = _set(plain.scenario, rest, chart)
+            scenario = scenario if seed is None else scenario.started(seed)
             same = scenario is plain.scenario
             experiment = plain if same else dataclasses.replace(plain, scenario=scenario)
             if of_laws:

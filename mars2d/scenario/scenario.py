@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import numbers
 import sys
 from collections.abc import Callable, Sequence
@@ -30,6 +31,13 @@ from mars2d.scenario import limits, starts
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
+from mars2d.scenario.random_starts import (
+    Group,
+    RandomStarts,
+    Room,
+    drawn_poses,
+    groups_of,
+)  # fmt: skip
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.team_colors import team_colors
 
@@ -131,6 +139,10 @@ class Scenario(Description):
         check=checks.listing(MaterialPair, "MaterialPair('steel', 'ice', friction=0.03)"),
         doc="what certain materials do to each other, whatever the rule",
     )
+    random_starts: Sequence[RandomStarts] = entry(
+        default=(), check=checks.listing(RandomStarts, "RandomStarts(least_distance=1)"),
+        doc="robots and props that start elsewhere with each seed",
+    )  # fmt: skip
     addons: Sequence[Addon] = entry(
         default=(), check=checks.listing(Addon, "Map([...])"), doc="maps, measures, games"
     )
@@ -175,6 +187,8 @@ class Scenario(Description):
         self._check_sensors()
         self.neighbours.check_size(len(self.robots))
         self._check_bodies()
+        if self.random_starts:
+            self._start_at_random(self._lottery, 0)  # it always has poses
         self._check_joints()
         self._check_starts()
 
@@ -269,6 +283,40 @@ class Scenario(Description):
                 if 0 <= index < len(self.robots):
                     robot = self.robots[index]
                     limits.check_drive(str(robot.name), robot.drive, norm(*anchor))
+
+    def started(self, seed: int) -> Scenario:
+        """Return the scenario of a run with this seed: with the poses that `random_starts` draws.
+
+        What is returned starts there whatever the seed. Raises InputError if no place is found.
+        """
+        if not self.random_starts:
+            return self
+        found = copy.copy(self)  # whatever was checked holds for these starts as well
+        found._start_at_random(self._lottery, seed)
+        object.__setattr__(found, "random_starts", ())
+        return found
+
+    @cached_property
+    def _lottery(self) -> tuple[list[Group], Room]:
+        """The bodies of `random_starts`, and the room for them."""
+        of_props = [joint for prop in self.props for joint in prop.joints()]
+        ends = {str(name) for joint in (*self.joints, *of_props) for name in (joint.a, joint.b)}
+        where, count = "Scenario.random_starts", len(self.robots)
+        groups = groups_of(where, self.random_starts, self.bodies, count, ends)
+        moved = {body.name for group in groups for body in group.bodies}
+        standing = [body for body in self.bodies if body.name not in moved]
+        return groups, Room(self.workspace, self.on_exit, self.obstacles, standing)
+
+    def _start_at_random(self, lottery: tuple[list[Group], Room], seed: int) -> None:
+        """Give the bodies of `random_starts` the poses that follow from the seed."""
+        poses = drawn_poses(*lottery, seed)
+        for field in ("robots", "props"):
+            parts = [
+                part.replace(pose=poses[part.name]) if part.name in poses else part
+                for part in getattr(self, field)
+            ]
+            object.__setattr__(self, field, tuple(parts))
+        self.__dict__.pop("bodies", None)
 
     def _check_starts(self) -> None:
         """Refuse bodies that start outside the workspace, in an obstacle or in each other."""

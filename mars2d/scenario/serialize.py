@@ -22,6 +22,7 @@ from mars2d.scenario.animation import Animation
 from mars2d.scenario.controllers import Controller
 from mars2d.scenario.material_pair import MaterialPair
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.registry import FAMILIES, family_of, members, package_of, plugin
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -60,6 +61,7 @@ PARTS: dict[type[Description], dict[str, Place]] = {
         "props": Place(Prop, many=True),
         "joints": Place(Joint, many=True),
         "material_pairs": Place(MaterialPair, many=True, default=MaterialPair),
+        "random_starts": Place(RandomStarts, many=True, default=RandomStarts),
         "addons": Place(Addon, many=True),
         "neighbours": Place(Neighbourhood),
         "animation": Place(Animation, default=Animation),
@@ -321,7 +323,7 @@ def _type_of(kind: type[Description]) -> str:
 
 _KNOWN = (
     Scenario, Robot, Animation, Disc, Polygon, Compound, Burst,
-    Everyone, Within, Nearest, Delaunay, Graph, MaterialPair,
+    Everyone, Within, Nearest, Delaunay, Graph, MaterialPair, RandomStarts,
 )  # fmt: skip
 
 

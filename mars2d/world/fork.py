@@ -42,7 +42,8 @@ def _replaced(simulation: Simulation, *, laws: bool) -> Iterator[tuple[object, o
     scenario = simulation.scenario
     parts = [sensor for robot in scenario.robots for sensor in robot.sensors]
     drives = [robot.drive for robot in scenario.robots]
-    for part in (scenario, *scenario.robots, *drives, *parts, *scenario.addons):  # frozen
+    described = (scenario, simulation.declared, *scenario.robots, *drives, *parts)
+    for part in (*described, *scenario.addons):  # frozen
         yield part, part
     unrecorded = Unrecorded(scenario)
     engine = type(simulation.engine)(scenario, simulation.motion)

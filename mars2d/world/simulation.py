@@ -45,9 +45,9 @@ class Simulation(State):
     Users have a `World`, which passes their calls on to here. Laws have a `WorldView`, which leads
     nowhere else.
 
-    operator: does to the world what is done from outside. watch: called with the world between
-    sensing and control. view: the world as laws may see it. engine_seconds: how long the engine has
-    taken by now.
+    declared: the scenario with its `random_starts`. operator: does to the world what is done from
+    outside. watch: called with the world between sensing and control. view: the world as laws may
+    see it. engine_seconds: how long the engine has taken by now.
     """
 
     def __init__(
@@ -59,6 +59,7 @@ class Simulation(State):
         settings: Mapping[str, Any],
     ) -> None:
         """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
+        self.declared, scenario = scenario, scenario.started(seed)
         super().__init__(scenario, seed, storage, settings)
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None

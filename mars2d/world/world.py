@@ -78,7 +78,7 @@ class World(WorldView):
         before = self._simulation
         before.refuse_within_step("reset")
         self._simulation = Simulation(
-            before.scenario if scenario is None else _checked(scenario),
+            before.declared if scenario is None else _checked(scenario),
             before.seed if seed is None else check_seed(seed),
             before.filename,
             before.storage,

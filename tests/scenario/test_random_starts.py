@@ -1,14 +1,26 @@
-"""A scenario function with a parameter `seed` gets that of the run: starts are drawn at random."""
+"""Starts at random: by `random_starts`, or by a scenario function with a parameter `seed`."""
 
 import json
+import tomllib
+from itertools import combinations
 
+import jsonschema
+import numpy as np
 import pytest
+import shapely
 
 import mars2d
-from mars2d import InputError, World
+from mars2d import InputError, RandomStarts, Robot, Scenario, World
+from mars2d.addons import Map
+from mars2d.bodies import Bar, Box, Rope
 from mars2d.cli import command_line as cli
+from mars2d.core.plane import lines_and_areas
+from mars2d.geometry import Disc, Polygon
 from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.schema import schema
+from mars2d.scenario.starts import footprint
 from mars2d.world.timeline import Timeline
+from mars2d.world.verify import rerun
 
 FILE = """
 from mars2d import Robot, Scenario
@@ -100,3 +112,149 @@ def test_a_record_of_such_a_run_runs_again(file, tmp_path, capsys):
     again = World(mars2d.load(saved).scenario, seed=4)
     assert float(again.pose[1, 0]) == 4.0
     assert "bit" in capsys.readouterr().out
+
+
+# -- declared -------------------------------------------------------------------------------------
+
+TRIANGLE = [(-4, -4), (4, -4), (0, 4)]
+
+
+def crowd(**changes):
+    """Ten robots of three shapes among walls and a bar that stands; the crate is placed as well."""
+    robots = [
+        Robot(shape=shape, controller=law)
+        for shape in [Disc(0.3), Polygon([(-0.2, -0.2), (0.6, 0), (-0.2, 0.2)]), Disc(0.1)] * 3
+    ]
+    fields = {
+        "robots": [*robots, Robot(name="guest")],
+        "props": [Box(name="crate", length=1.0), Bar(name="bar", pose=(0, -2, 0.5), length=3)],
+        "addons": [Map([[(-3, 0), (2, 1)], [(1, 2), (2, 2), (2, 3)]])],
+        "on_exit": "wall",
+        "random_starts": [
+            RandomStarts(["guest"], area=TRIANGLE, heading=1.5),
+            RandomStarts([f"robot{i}" for i in range(9)], least_distance=1.25),
+            RandomStarts(["crate"]),
+        ],
+        "stop_time": 0.5,
+    }
+    return Scenario(**(fields | changes))
+
+
+def law(robot):
+    return 0.1, 0.0
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, 3, 2**63 - 1])
+def test_all_start_in_their_area_apart_and_clear_of_everything(seed):
+    found = crowd().started(seed)
+    found.replace()  # refuses starts that overlap, or that are in a wall
+    x, y, heading = found.initial_pose
+    assert shapely.Polygon(TRIANGLE).contains(shapely.Point(x[9], y[9]))
+    assert heading[9] == 1.5
+    apart = np.hypot(x[:9, None] - x[:9], y[:9, None] - y[:9])[np.triu_indices(9, 1)]
+    assert apart.min() >= 1.25
+    grounds = [footprint(body) for body in found.bodies]
+    walls = shapely.union_all(
+        [shapely.LinearRing(found.workspace), *lines_and_areas(found.obstacles)]
+    )
+    assert all(a.disjoint(b) for a, b in combinations(grounds, 2))
+    assert all(ground.disjoint(walls) for ground in grounds)
+
+
+def test_a_pose_follows_from_the_seed_alone():
+    one, other = (World(crowd(), seed=seed) for seed in (1, 2))
+    assert (one.pose != other.pose).all(axis=0)[:9].all()
+    assert one.scenario.props[1].pose == other.scenario.props[1].pose == (0, -2, 0.5)
+    other.reset(seed=1)
+    assert (one.pose == other.pose).all()
+    assert one.scenario == crowd().started(1) == crowd().started(1).started(5)
+    assert not one.scenario.random_starts
+
+
+def test_places_are_spread_evenly_over_their_area():
+    scenario = Scenario(random_starts=[RandomStarts(area=TRIANGLE)])
+    x, y = np.array([scenario.started(seed).initial_pose[:2, 0] for seed in range(600)]).T
+    assert np.hypot(x.mean(), y.mean() + 4 / 3) < 5 * 8 / np.sqrt(24 * 600)  # the centroid
+    assert abs((y < 0).mean() - 0.75) < 5 * np.sqrt(0.75 * 0.25 / 600)  # the lower half of it
+
+
+def test_a_run_is_that_of_the_record_and_is_run_again_to_the_bit(tmp_path):
+    record = mars2d.run(crowd(), seed=4)
+    assert record.scenario == crowd().started(4)
+    record.save(tmp_path / "a.npz")
+    again = mars2d.load(tmp_path / "a.npz")
+    assert rerun(again) is None
+    assert record.digest == mars2d.run(crowd(), seed=4).digest
+    timeline = Timeline(open_experiment(crowd(), seed=4), seed=4)
+    while not timeline.world.over:
+        timeline.world.step()
+    assert timeline.record.digest == record.digest
+
+
+def test_a_scenario_file_says_them(tmp_path):
+    scenario = crowd(robots=[Robot(name="guest")], random_starts=[RandomStarts(["guest", "crate"])])
+    scenario.save(tmp_path / "a.toml")
+    assert Scenario.from_file(tmp_path / "a.toml") == scenario
+    first = mars2d.run(tmp_path / "a.toml", seed=2)
+    assert first.scenario.robots[0].pose == scenario.started(2).robots[0].pose
+    errors = jsonschema.Draft202012Validator(schema()).iter_errors(
+        tomllib.loads((tmp_path / "a.toml").read_text())
+    )
+    assert not [*errors]
+
+
+def test_no_run_of_a_sweep_fails_for_its_start(tmp_path):
+    """Of starts that are drawn without looking, some overlap: these runs fail."""
+    near = "robots=[Robot(controller=law) for _ in range(8)], stop_time=0.2, on_exit='wall'"
+    (tmp_path / "blind.py").write_text(
+        "import numpy as np\nfrom mars2d import Robot, Scenario\n"
+        "def law(robot):\n    return 0.1, 0.0\n"
+        "def scenario(seed=0):\n"
+        "    poses = np.random.default_rng(seed).uniform(-5, 5, (8, 3))\n"
+        "    return Scenario(robots=[Robot(pose=p, controller=law) for p in poses],\n"
+        "        stop_time=0.2, on_exit='wall')\n"
+    )
+    (tmp_path / "placed.py").write_text(
+        "from mars2d import RandomStarts, Robot, Scenario\n"
+        "def law(robot):\n    return 0.1, 0.0\n"
+        f"scenario = Scenario({near}, random_starts=[RandomStarts()])\n"
+    )
+    failed = {
+        name: len(mars2d.sweep(tmp_path / name, seeds=40, workers=1).failed)
+        for name in ("blind.py", "placed.py")
+    }
+    assert failed["blind.py"] > 4
+    assert failed["placed.py"] == 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (
+            [RandomStarts(["gest"])],
+            r"random_starts\[0\]: there is no .* 'gest'; did you mean 'guest'",
+        ),
+        (
+            [RandomStarts(), RandomStarts(["guest"])],
+            r"\[1\]: 'guest' is in Scenario.random_starts\[0\]",
+        ),
+        (
+            [RandomStarts(least_distance=3.5)],
+            r"\[0\]: found no place in 20 rounds for 'robot\d', which needs 0.[16] m",
+        ),
+        ([RandomStarts(["crate"], area=[(9, 9), (8, 9), (8, 8)])], r"for 'crate', which needs"),
+        (RandomStarts(), r"Scenario.random_starts = RandomStarts\(\): expected a list"),
+    ],
+)
+def test_bad_ones_are_refused_in_words(changes, words):
+    with pytest.raises(InputError, match=words):
+        crowd(random_starts=changes)
+
+
+def test_what_a_joint_ties_and_what_has_no_area_is_refused():
+    with pytest.raises(InputError, match=r"\[0\]: a joint ties 'crate'"):
+        crowd(joints=[Rope(a="crate", b="bar")], random_starts=[RandomStarts(["crate"])])
+    with pytest.raises(InputError, match=r"\[0\]: expected an area, since the scenario has no"):
+        Scenario(workspace=None, random_starts=[RandomStarts()])
+    with pytest.raises(InputError, match=r"RandomStarts.bodies = 'red': expected a list of names"):
+        RandomStarts("red")
