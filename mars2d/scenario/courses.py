@@ -30,6 +30,7 @@ COURSES: Mapping[str, tuple[str, ...]] = {
         "flocking", "formation", "leader_following", "follow_the_leader", "rendezvous",
         "token_ring", "herding",
     ),
+    "Planning": ("plan_push",),
     "First laws and games": ("go_to_point", "corner_game"),
 }  # fmt: skip
 """The names of all examples, by course."""

@@ -43,6 +43,7 @@ DIGESTS = {
     "obstacle_avoidance": "ad0d30660f25c2824212b7dcf06367f6731bcecd733d0e30efd0d8944d3a7b19",
     "own_sensor_and_addon": "7f35607de2e0202f3307952717f018f52190d55f74f4b21b03d041d6371913f6",
     "path_planning": "8122c21af1ea2beed9a916b43b1604b1951ce13e09ba03c12e8bbed59297be3b",
+    "plan_push": "49885d9aef0d39599a2b3a5999f789eeae0a8e029986b926418f0dafb7d00225",
     "pursuit_corners": "3d9f884527c7cf3c8ace85397f792879e5761ebadd259e839810998de692ac9d",
     "pursuit_voronoi": "d722c03b8229e22cd6d37f023bbf52531d99f1122752ee40d3627f983373b37b",
     "push_box": "7da670f4906e87cdde4aa25bb5bfbecd97968bbe42c8b3feecc976f7c43c6821",
