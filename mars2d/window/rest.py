@@ -14,8 +14,11 @@ QUIET = 0.5
 """How long nothing has to move before a window rests, seconds; what lags is there by then."""
 LOOK = 0.25
 """How long a window that rests waits for an event before it looks at its files, seconds."""
-NAP = 0.008
-"""The time between two looks for events, seconds. SDL's own waiting looks every millisecond."""
+NAP, LONG_NAP = 0.004, 0.016
+"""The time between two looks for events, seconds: while somebody steps, and after a while of quiet.
+SDL's own waiting looks every millisecond."""
+AWHILE = 2.0
+"""The time of quiet after which naps are long, seconds."""
 
 
 class Rest:
@@ -42,7 +45,8 @@ class Rest:
         until = time.monotonic() + LOOK
         while not (events := pygame.event.get()) and self.resting and time.monotonic() < until:
             display_loss.check()
-            time.sleep(NAP)
+            quiet = time.monotonic() - self._moved
+            time.sleep(NAP if quiet < AWHILE else LONG_NAP)
         if events:
             self.stir()
         return events
