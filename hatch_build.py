@@ -1,8 +1,12 @@
-"""Compiles the engine while the package is installed; without a compiler all works, more slowly."""
+"""Compiles the engine while the package is installed, and prepares the README for package indexes.
+
+Without a compiler all works, more slowly.
+"""
 
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -12,11 +16,24 @@ from pathlib import Path
 from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.metadata.plugin.interface import MetadataHookInterface
 
 ISLANDS = Path("mars2d") / "physics" / "islands"
 
 LONGEST = 900
 """How long the compiler may take, seconds; it takes 20 on a laptop. One that hangs is ended."""
+
+
+class AddressesHook(MetadataHookInterface):
+    """Gives the links of the README their addresses, so that a package index can follow them."""
+
+    def update(self, metadata: dict[str, Any]) -> None:
+        """Set the description of the package."""
+        home = metadata["urls"]["Homepage"]
+        text = (Path(self.root) / "README.md").read_text(encoding="utf-8")
+        text = re.sub(r"(!\[[^]]*\]\()(?!https?:|#)", rf"\1{home}/raw/main/", text)
+        text = re.sub(r"(?<!!)(\[[^]]*\]\()(?!https?:|#)", rf"\1{home}/blob/main/", text)
+        metadata["readme"] = {"content-type": "text/markdown", "text": text}
 
 
 class CustomBuildHook(BuildHookInterface):  # type: ignore[type-arg]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.metadata import PackageNotFoundError, requires
 
 from mars2d.core.errors import MissingExtraError
 
@@ -11,12 +13,21 @@ __all__ = ["extra", "pip_line"]
 
 
 def pip_line(name: str) -> str:
-    """Return the command that installs an extra.
+    """Return the command that installs the libraries of an extra, wherever MARS2D came from.
 
     >>> pip_line("video")
-    'pip install "mars2d[video]"'
+    'pip install "av>=17"'
     """
-    return f'pip install "mars2d[{name}]"'
+    try:
+        declared = requires("mars2d") or []
+    except PackageNotFoundError:  # it runs from its folder without being installed
+        return f'pip install ".[{name}]"'
+    wanted = [
+        library
+        for library, _, condition in (each.partition(";") for each in declared)
+        if re.search(rf"""extra == ['"]{name}['"]""", condition)
+    ]
+    return " ".join(["pip install", *(f'"{library.strip()}"' for library in wanted)])
 
 
 @contextmanager

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping
+from pathlib import Path
 
 from mars2d.scenario.experiment import examples
 
-__all__ = ["COURSES", "GAMES", "courses", "title_of"]
+__all__ = ["COURSES", "GAMES", "courses", "files_of", "title_of"]
 
 COURSES: Mapping[str, tuple[str, ...]] = {
     "Experiments of the MARS paper": (
@@ -57,3 +59,16 @@ def title_of(name: str) -> tuple[str, str]:
     first = examples()[name].read_text(encoding="utf-8").partition("\n")[0].strip('" ')
     title = name.replace("_", " ").replace("voronoi", "Voronoi")
     return title[0].upper() + title[1:], first
+
+
+def files_of(name: str) -> list[Path]:
+    """Return an example's file, and the files and folders beside it that its text names."""
+    path = examples()[name]
+    constants = (
+        node.value
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    )
+    first = {text.partition("/")[0] for text in constants if "/" in text[1:] and "\n" not in text}
+    beside = [path.parent / each for each in sorted(first - {""})]
+    return [path, *(each for each in beside if each.exists())]

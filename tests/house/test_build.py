@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -134,6 +135,10 @@ def test_nothing_is_compiled_where_the_environment_says_so(project):
     wheel, printed = built(project, "wheel", MARS2D_PLAIN="1")
     assert wheel.name.endswith("none-any.whl")
     assert "compiled" not in printed
+    [metadata] = [*unpacked(wheel).glob("*.dist-info/METADATA")]
+    links = re.findall(r"\]\(([^)]+)\)", metadata.read_text(encoding="utf-8"))
+    assert links  # which an index of packages can follow
+    assert all(link.startswith("https://") for link in links)
 
 
 @compiles

@@ -13,6 +13,7 @@ from PIL import Image
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.extras import pip_line
 from mars2d.output.films.film import (
     cut_of,
     film_record,
@@ -156,7 +157,7 @@ def test_mp4_without_pyav_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setattr(builtins, "__import__", without_av)
     with pytest.raises(MissingExtraError) as told:
         save_film(frames(), tmp_path / "film.mp4")
-    assert 'pip install "mars2d[video]"' in str(told.value)
+    assert pip_line("video") in str(told.value)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -12,6 +12,8 @@ __all__ = ["VERBS"]
 
 NAMES = (
     "demo",
+    "new",
+    "copy",
     "run",
     "play",
     "edit",
@@ -26,6 +28,7 @@ NAMES = (
     "paper",
     "bench",
     "doctor",
+    "completion",
 )
 """The names of the verbs, in the order in which the help lists them."""
 

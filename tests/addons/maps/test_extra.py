@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from mars2d.core.extras import pip_line
 from mars2d.scenario.experiment import examples
 from tests.house.test_examples import DIGESTS
 
@@ -40,5 +41,5 @@ def test_a_kind_of_file_that_needs_it_says_how_to_install_it(child, tmp_path, na
         "except MissingExtraError as error:\n    print(error)"
     )
     assert done.stdout.startswith(f"{name}: "), done.stderr
-    for part in (f"needs {library}", 'pip install "mars2d[maps]"', "GeoJSON"):
+    for part in (f"needs {library}", pip_line("maps"), "GeoJSON"):
         assert part in done.stdout

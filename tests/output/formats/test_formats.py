@@ -18,6 +18,7 @@ from scipy.io import loadmat, savemat
 
 import mars2d
 from mars2d import InputError, Robot, Scenario
+from mars2d.core.extras import pip_line
 from mars2d.output import formats
 from mars2d.output.formats.columns import KEYWORDS, MAX_NAME, plain_names
 from mars2d.output.formats.header import as_text
@@ -459,12 +460,12 @@ def test_without_extras_all_but_netcdf_can_be_written(child, tmp_path):
         "said(record.to_xarray)\nsaid(record.to_frame)\n"
     )
     result = child(code)
-    needed = 'netCDF needs xarray: pip install "mars2d[data]"; .npz, .mat and .csv need nothing'
+    needed = f"netCDF needs xarray: {pip_line('data')}; .npz, .mat and .csv need nothing"
     assert result.stdout.splitlines() == [
         "True", "True", "True",
         f"{tmp_path}/run.nc: {needed}",
-        'datasets need xarray: pip install "mars2d[data]"',
-        'tables need pandas: pip install "mars2d[data]"',
+        f'datasets need xarray: {pip_line("data")}',
+        f'tables need pandas: {pip_line("data")}',
     ], result.stderr  # fmt: skip
 
 

@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 
 import mars2d
 from mars2d import InputError, LawError, Record, Robot, Scenario, World
+from mars2d.core.extras import pip_line
 from mars2d.output.formats.mcap import Log
 from mars2d.output.formats.mcap.reading import BROKEN_OFF
 from mars2d.output.formats.mcap.row import Row, decoded, encoded, schema
@@ -110,7 +111,7 @@ def test_without_a_library_a_log_says_what_to_install(library, child, tmp_path) 
         "sys.exit(cli.main(['run', 'head_on', '--headless', '--record', path]))\n"
     )
     result = child(code)
-    told = f'mars2d: {tmp_path}/a.mcap: a log needs mcap: pip install "mars2d[log]"\n'
+    told = f"mars2d: {tmp_path}/a.mcap: a log needs mcap: {pip_line('log')}\n"
     assert (result.returncode, result.stderr) == (2, told)
     assert list(tmp_path.iterdir()) == []
 

@@ -1,0 +1,45 @@
+"""The verb ``copy``."""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+import shutil
+from pathlib import Path
+
+from mars2d.core.errors import InputError, nearest
+from mars2d.core.terminal import tell
+from mars2d.scenario.courses import files_of
+from mars2d.scenario.experiment import examples
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the example, and the folder."""
+    parser.add_argument("example", metavar="EXAMPLE", help="its name, as in mars2d demo")
+    parser.add_argument(
+        "folder", metavar="FOLDER", nargs="?", default=".", help="where to; else here"
+    )
+
+
+def execute(arguments: argparse.Namespace) -> None:
+    """Copy an example, with its laws and maps, to change it."""
+    name, folder = arguments.example, Path(arguments.folder)
+    if name not in examples():
+        raise InputError(f"there is no example {name!r}{nearest(name, examples())}")
+    sources = files_of(name)
+    for source in sources:
+        if (folder / source.name).exists():
+            raise InputError(
+                f"{folder / source.name}: is there already; name a folder, as "
+                f"mars2d copy {name} mine"
+            )
+    folder.mkdir(parents=True, exist_ok=True)
+    for source in sources:
+        if source.is_dir():
+            unwanted = shutil.ignore_patterns("__pycache__")
+            shutil.copytree(source, folder / source.name, ignore=unwanted)
+        else:
+            shutil.copyfile(source, folder / source.name)
+    copied = ", ".join(f"{each.name}/" if each.is_dir() else each.name for each in sources)
+    run = shlex.join(["mars2d", "run", str(folder / f"{name}.py")])
+    tell(f"{copied}: copied; run it: {run}")
