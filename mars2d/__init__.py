@@ -29,7 +29,7 @@ from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors import Sensor
-from mars2d.session import run
+from mars2d.window.run import run
 from mars2d.world.world import World
 
 if TYPE_CHECKING:

@@ -1,0 +1,236 @@
+"""Observations: what a robot's law may see, as a row of numbers with bounds, for learners."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from math import cos, inf, isfinite, sin
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import InputError, nearest, shown
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Observation", "Part"]
+
+Float = NDArray[np.float64]
+Row = NDArray[np.float32]
+
+SENSED = "sense."
+"""The beginning of the names of parts that are readings of sensors."""
+
+
+class Part(NamedTuple):
+    """Some numbers of an observation: their name, and the least and largest value of each."""
+
+    name: str
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+
+
+class Observation:
+    """Turns what a robot's law may see into a row of numbers (k,), float32, within bounds.
+
+    Its parts depend on `Robot.sees`:
+
+    - "pose": x, y [m], cos and sin of the heading; not with "sensors";
+    - "positions": of each other robot, by index, its position seen from the robot [m], in the
+      frame of the drive's commands: ahead and left, or along x and y for a drive that moves in the
+      world's frame. Zeros for one that is no neighbour now. Only with "positions";
+    - "poses": the same, and cos and sin of its heading in that frame; with "partial" and "full";
+    - "props": the same of each prop; with "full";
+    - "sense.NAME": the reading of each sensor. A missing distance is the sensor's range, any other
+      missing number 0.
+
+    Positions are bounded by the workspace, readings by what the sensor can measure. Numbers beyond
+    are clipped.
+    """
+
+    def __init__(self, parts: Sequence[Part]) -> None:
+        """Take the parts, in order."""
+        self.parts = tuple(parts)
+        self.low: Float = np.array([x for part in parts for x in part.low])
+        self.high: Float = np.array([x for part in parts for x in part.high])
+        self._readers: list[tuple[Callable[[Any, Any], list[float]], Any, int]] = []
+        for name, low, _ in parts:
+            reader, key = (_read_sensor, name[len(SENSED):]) if name.startswith(SENSED) else (
+                READERS[name], len(low)
+            )  # fmt: skip
+            self._readers.append((reader, key, len(low)))
+        finite = np.isfinite(self.high)
+        self._most: Float = np.where(finite, self.high, 0.0)
+
+    @classmethod
+    def of(cls, scenario: Scenario, robot: int, view: Any) -> Self:
+        """Return the observation of a robot, by its index.
+
+        view: the robot as its law sees it, with readings. Raises InputError where it sees nothing,
+        and for a sensor whose readings are not a fixed number of numbers.
+        """
+        who = scenario.robots[robot]
+        xmin, xmax, ymin, ymax = scenario.bounds
+        extent = max(map(abs, scenario.bounds))
+        across = float(np.hypot(xmax - xmin, ymax - ymin))
+        place, turn = (across, across), (1.0, 1.0)
+        others, parts = len(scenario.robots) - 1, []
+
+        def add(name: str, high: tuple[float, ...]) -> None:
+            if high:
+                parts.append(Part(name, tuple(-x for x in high), high))
+
+        if who.sees != "sensors":
+            parts.append(Part("pose", (xmin, ymin, -1.0, -1.0), (xmax, ymax, 1.0, 1.0)))
+            headings = who.sees != "positions"
+            add("poses" if headings else "positions", (place + turn * headings) * others)
+        if who.sees == "full":
+            add("props", (place + turn) * len(scenario.props))
+        for sensor in who.sensors:
+            reading = getattr(view.sense, sensor.key)
+            low, high = sensor.limits(extent)
+            count = _numbers_of(reading, f"{who.name}: sensor {sensor.key!r}").size
+            times, rest = divmod(count, len(low))
+            if rest:
+                times, low, high = count, np.array([-inf]), np.array([inf])
+            parts.append(
+                Part(SENSED + sensor.key, tuple(low.tolist()) * times, tuple(high.tolist()) * times)
+            )
+        if not parts:
+            raise InputError(
+                f"{who.name} sees sensors only, and carries none: give it sensors, or another sees"
+            )
+        return cls(parts)
+
+    def __call__(self, view: Any) -> Row:
+        """Return what a robot sees now, (k,), float32, within the bounds.
+
+        Raises InputError where the robot's view has other parts, or of another size.
+        """
+        row: list[float] = []
+        for (read, key, size), part in zip(self._readers, self.parts, strict=True):
+            values = read(view, key)
+            if len(values) != size:
+                raise InputError(
+                    f"{part.name} of {view.name} has {len(values)} numbers, expected {size}"
+                )
+            row += values
+        return self._bounded(row)
+
+    def _bounded(self, row: list[float]) -> Row:
+        values = np.array(row)
+        if not isfinite(values.sum()):
+            values = np.where(np.isnan(values), 0.0, values)
+            values = np.where(np.isposinf(values), self._most, values)
+        np.maximum(values, self.low, out=values)
+        np.minimum(values, self.high, out=values)
+        return values.astype(np.float32)
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Return the parts as JSON, with None for a bound that is infinite."""
+        return [
+            {"name": p.name, "low": [_finite(x) for x in p.low], "high": [_finite(x) for x in p.high]}
+            for p in self.parts
+        ]
+
+    @classmethod
+    def of_json(cls, given: Any) -> Self:
+        """Return the observation that `to_json` has described. Raises InputError for others."""
+        try:
+            parts = []
+            for each in given:
+                low = [-inf if x is None else float(x) for x in each["low"]]
+                high = [inf if x is None else float(x) for x in each["high"]]
+                if len(low) != len(high):
+                    raise ValueError(each)  # noqa: TRY301
+                parts.append(Part(str(each["name"]), tuple(low), tuple(high)))
+        except (TypeError, KeyError, ValueError) as error:
+            raise InputError(f"its observation is {shown(json.dumps(given))}") from error
+        for part in parts:
+            if part.name not in READERS and not part.name.startswith(SENSED):
+                raise InputError(
+                    f"its observation has a part {part.name!r}{nearest(part.name, READERS)}"
+                )
+        return cls(parts)
+
+
+def _finite(number: float) -> float | None:
+    return number if isfinite(number) else None
+
+
+def _numbers_of(reading: Any, name: str) -> Float:
+    """Return a reading as numbers (k,). Raises InputError if it is anything else."""
+    try:
+        values = np.asarray(reading)
+    except ValueError:
+        values = np.empty(0, dtype=object)
+    if values.dtype.kind not in "fiub" or not values.size:
+        raise InputError(
+            f"{name} reads {shown(reading)}, not a fixed number of numbers: a learner can't use it"
+        )
+    return values.ravel().astype(float)
+
+
+def _read_sensor(view: Any, key: str) -> list[float]:
+    reading = getattr(view.sense, key)
+    if isinstance(reading, np.ndarray):
+        return reading.ravel().tolist()  # type: ignore[no-any-return]
+    if isinstance(reading, (bool, int, float)):
+        return [float(reading)]
+    return _numbers_of(reading, f"{view.name}: sensor {key!r}").tolist()  # type: ignore[no-any-return]
+
+
+def _read_pose(view: Any, _: int) -> list[float]:
+    x, y, theta = view.pose.tolist()
+    return [x, y, cos(theta), sin(theta)]
+
+
+class _Frame:
+    """The frame of a robot's commands: the axes from which it sees others."""
+
+    def __init__(self, view: Any) -> None:
+        self.x, self.y, self.theta = view.pose.tolist()
+        if view.drive.frame == "world":
+            self.theta = 0.0
+        self.c, self.s = cos(self.theta), sin(self.theta)
+
+    def place(self, x: float, y: float) -> list[float]:
+        dx, dy = x - self.x, y - self.y
+        return [self.c * dx + self.s * dy, self.c * dy - self.s * dx]
+
+    def pose(self, x: float, y: float, theta: float) -> list[float]:
+        turned = theta - self.theta
+        return [*self.place(x, y), cos(turned), sin(turned)]
+
+
+def _read_positions(view: Any, size: int) -> list[float]:
+    frame = _Frame(view)
+    return _slots(view, size, 2, lambda other: frame.place(*other.position.tolist()))
+
+
+def _read_poses(view: Any, size: int) -> list[float]:
+    frame = _Frame(view)
+    return _slots(view, size, 4, lambda other: frame.pose(*other.pose.tolist()))
+
+
+def _slots(view: Any, size: int, each: int, read: Callable[[Any], list[float]]) -> list[float]:
+    """Return the numbers of each other robot in a place of its own; zeros where it is not seen."""
+    row, mine = [0.0] * size, view.index
+    for other in view.neighbours:
+        at = each * (other.index - (other.index > mine))
+        row[at : at + each] = read(other)
+    return row
+
+
+def _read_props(view: Any, _: int) -> list[float]:
+    frame = _Frame(view)
+    return [x for pose in view.world.prop_pose.T.tolist() for x in frame.pose(*pose)]
+
+
+READERS: Mapping[str, Callable[[Any, int], list[float]]] = {
+    "pose": _read_pose,
+    "positions": _read_positions,
+    "poses": _read_poses,
+    "props": _read_props,
+}
+"""How the parts of an observation are read from a robot's view."""
