@@ -18,7 +18,7 @@ with extra("rl", "environments need gymnasium"):
     import gymnasium
     from gymnasium.spaces import Box
 
-__all__ = ["Environment", "action_space", "observation_space"]
+__all__ = ["Environment", "observation_space"]
 
 Row = NDArray[np.float32]
 
@@ -32,20 +32,14 @@ def observation_space(episode: Episode, k: int) -> Box:
     return Box(seen.low.astype(np.float32), seen.high.astype(np.float32), dtype=np.float32)
 
 
-def action_space(episode: Episode, k: int) -> Box:
-    """Return the space of learner k's commands: the bounds of its drive."""
-    low, high = episode.scenario.robots[episode.learners[k]].drive.bounds.astype(np.float32)
-    return Box(low, high, dtype=np.float32)
-
-
 class Environment(gymnasium.Env[Row, Row]):
     """One robot of an experiment learns, and laws drive the others.
 
     >>> environment = Environment("corner_game", "pursuer")
     >>> observation, info = environment.reset(seed=1)
-    >>> observation, reward, terminated, truncated, info = environment.step([0.4, 0.0])
+    >>> observation, reward, terminated, truncated, info = environment.step([1.0, 0.0])
     >>> environment.action_space
-    Box(-0.45, 0.45, (2,), float32)
+    Box(-1.0, 1.0, (2,), float32)
 
     experiment: a file, the name of an example, or a Scenario. robot: who learns: a name, an index,
     or a game's role, of which the first robot learns. reward: called after each step with the world
@@ -56,7 +50,7 @@ class Environment(gymnasium.Env[Row, Row]):
     keep a record, which `record` then returns.
 
     An observation is what the robot's law may see, see `mars2d.scenario.observation.Observation`;
-    an action is the robot's command, limited by its drive. An episode is terminated when something
+    an action is a command in shares of the drive's bounds, `Drive.bounds`, from -1 to 1. An episode is terminated when something
     ends the experiment, such as a capture, and truncated at its stop time. The seed of `reset` is
     that of all random streams, and of the starts where the experiment draws them.
 
@@ -83,7 +77,7 @@ class Environment(gymnasium.Env[Row, Row]):
             "render_modes": MODES, "render_fps": 1 / self._episode.scenario.sampling_time,
         }  # fmt: skip
         self.observation_space = observation_space(self._episode, 0)
-        self.action_space = action_space(self._episode, 0)
+        self.action_space = Box(-1.0, 1.0, (2,), np.float32)
         self._learner = self._episode.learners[0]
         self._size, self._screen = size, None if render_mode is None else self._opened(size)
 
@@ -120,7 +114,7 @@ class Environment(gymnasium.Env[Row, Row]):
     def step(self, action: Any) -> tuple[Row, float, bool, bool, dict[str, Any]]:
         """Do one control step; return observation, reward, terminated, truncated and info.
 
-        action: the command (2,). info: ``over``, why the episode has ended, once it has. Raises
+        action: shares of the drive's bounds (2,). info: ``over``, why the episode has ended, once it has. Raises
         InputError for an action of another shape or that is not finite, and after the end.
         """
         episode = self._episode

@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.quantity import UNKNOWN
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import load_law, open_experiment
-from mars2d.scenario.observation import Observation
+from mars2d.scenario.observation import Action, Observation
 from mars2d.scenario.policy import describe
 from mars2d.scenario.roles import contests_of, robots_named, role_of, roles_of
 from mars2d.scenario.scenario import Scenario
@@ -34,7 +34,8 @@ Reward = Callable[[World, RobotView], float]
 class Episode:
     """A world that begins anew with each `start`, and the robots in it that learn.
 
-    learners: their indices. observations: what each of them sees. world: the live one.
+    learners: their indices. observations, actions: what each
+    of them sees and does. world: the live one.
     """
 
     def __init__(
@@ -76,7 +77,10 @@ class Episode:
             Observation.of(scenario, i, self.world.robots[i]) for i in self.learners
         ]
         self.names = [str(scenario.robots[i].name) for i in self.learners]
-        self._count = 0
+        self.actions = [
+            Action.of(scenario.robots[i].drive, name)
+            for i, name in zip(self.learners, self.names, strict=True)
+        ]
 
     @property
     def scenario(self) -> Scenario:
@@ -93,7 +97,10 @@ class Episode:
     def metadata_of(self, k: int) -> str:
         """Return what a policy's file says of learner k: its spaces, and where it learned."""
         drive = self.scenario.robots[self.learners[k]].drive
-        return describe(self.observations[k], drive, self.experiment, self.names[k])
+        return describe(
+            self.observations[k], self.actions[k], type(drive).__name__, self.experiment,
+            self.names[k],
+        )  # fmt: skip
 
     def _cast(self, scenario: Scenario) -> Scenario:
         """Return a scenario in which learners have no laws, and others those that were given."""
@@ -154,28 +161,28 @@ class Episode:
         return worth
 
     def command(self, k: int, action: Any) -> tuple[float, float]:
-        """Return learner k's command. Raises InputError unless it is two finite numbers."""
+        """Return learner k's command: an action of -1 is the drive's least one, 1 the largest.
+
+        Actions beyond are clipped. Raises InputError unless it is two finite numbers.
+        """
         try:
             values = np.asarray(action, dtype=float)
         except (TypeError, ValueError):
             values = np.empty(0)
         if values.shape != (2,):
-            shape = f"an array of shape {values.shape}" if values.size else shown(action)
-            raise InputError(
-                f"the action of {self.names[k]} is {shape}: expected {self._inputs(k)}, shape (2,)"
-            )
+            found = f"an array of shape {values.shape}" if values.size else shown(action)
+            self._refuse(k, found, "shape (2,)")
         first, second = values.tolist()
         if not abs(first) + abs(second) < np.inf:
-            raise InputError(
-                f"the action of {self.names[k]} is {shown((first, second))}: expected "
-                f"{self._inputs(k)}, both finite"
-            )
-        return first, second
+            self._refuse(k, shown((first, second)), "both finite")
+        return self.actions[k](first, second)
 
-    def _inputs(self, k: int) -> str:
-        drive = self.scenario.robots[self.learners[k]].drive
-        return "({})".format(
-            ", ".join(f"{q.name} [{q.unit}]" for q in drive.quantities or UNKNOWN).replace(" []", "")
+    def _refuse(self, k: int, found: str, expected: str) -> NoReturn:
+        quantities = self.scenario.robots[self.learners[k]].drive.quantities or UNKNOWN
+        names = ", ".join(quantity.name for quantity in quantities)
+        raise InputError(
+            f"the action of {self.names[k]} is {found}: expected shares of its bounds for "
+            f"({names}), from -1 to 1, {expected}"
         )
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 from mars2d.record.record import Record
-from mars2d.rl.environment import SEEDS, action_space, observation_space
+from mars2d.rl.environment import SEEDS, observation_space
 from mars2d.rl.episode import Episode, Law, Reward, Source, index_of
 from mars2d.rl.screen import MODES, Screen, checked_mode
 from mars2d.world.world import World
@@ -60,7 +60,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         }  # fmt: skip
         count = range(len(episode.names))
         self.observation_spaces = {episode.names[k]: observation_space(episode, k) for k in count}
-        self.action_spaces = {episode.names[k]: action_space(episode, k) for k in count}
+        self.action_spaces = {name: Box(-1.0, 1.0, (2,), np.float32) for name in episode.names}
         self._random = np.random.default_rng()
         self._screen = None if render_mode is None else Screen(size, render_mode == "human")
 

@@ -1,4 +1,4 @@
-"""Observations: what a robot's law may see, as a row of numbers with bounds, for learners."""
+"""What a learner sees and does: a row of numbers with bounds, and shares of a drive's bounds."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.bodies.drives.base import Drive
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Observation", "Part"]
+__all__ = ["Action", "Observation", "Part"]
 
 Float = NDArray[np.float64]
 Row = NDArray[np.float32]
@@ -152,6 +153,32 @@ class Observation:
                     f"its observation has a part {part.name!r}{nearest(part.name, READERS)}"
                 )
         return cls(parts)
+
+
+class Action(NamedTuple):
+    """Turns two shares, from -1 to 1, into a command: from its least value to its largest one."""
+
+    low: tuple[float, float]
+    high: tuple[float, float]
+
+    @classmethod
+    def of(cls, drive: Drive, robot: str) -> Self:
+        """Return the action of a robot's drive. Raises InputError if that has no bounds."""
+        (a, b), (c, d) = drive.bounds.tolist()
+        if not isfinite(a + b + c + d):
+            raise InputError(
+                f"{robot}: its drive, {type(drive).__name__}, does not limit its commands: a "
+                "learner needs bounds; give it a `saturate` that has some"
+            )
+        return cls((a, b), (c, d))
+
+    def __call__(self, first: float, second: float) -> tuple[float, float]:
+        """Return the command for two finite shares; beyond -1 and 1 they are clipped."""
+        (a, b), (c, d) = self
+        return (
+            a + (c - a) * (min(max(first, -1.0), 1.0) + 1) / 2,
+            b + (d - b) * (min(max(second, -1.0), 1.0) + 1) / 2,
+        )
 
 
 def _finite(number: float) -> float | None:

@@ -8,10 +8,10 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from mars2d.core.errors import InputError, LawError, Mars2dError, likely, one_line
+from mars2d.core.errors import InputError, LawError, Mars2dError, likely, one_line, shown
 from mars2d.core.extras import extra
 from mars2d.core.files import note_file
-from mars2d.scenario.observation import Observation
+from mars2d.scenario.observation import Action, Observation
 
 __all__ = ["KEY", "SUFFIX", "Policy", "describe"]
 
@@ -22,34 +22,25 @@ KEY = "mars2d"
 
 
 def describe(
-    observation: Observation, drive: Any, experiment: str = "", robot: str = ""
+    observation: Observation, action: Action, drive: str, experiment: str = "", robot: str = ""
 ) -> str:
-    """Return the metadata of a policy: its observation, and the commands of its drive, as JSON.
+    """Return the metadata of a policy, as JSON: its observation, its action, the drive's name.
 
     experiment, robot: where it was learned, so that `mars2d check` can try it there.
     """
-    low, high = drive.bounds.tolist()
-    return json.dumps(
-        {
-            "observation": observation.to_json(),
-            "drive": type(drive).__name__,
-            "action": {
-                "names": [f"{q.name} [{q.unit}]" for q in drive.quantities],
-                "low": [x if abs(x) < np.inf else None for x in low],
-                "high": [x if abs(x) < np.inf else None for x in high],
-            },
-            "experiment": experiment,
-            "robot": robot,
-        }
-    )
+    described = {
+        "observation": observation.to_json(), "action": action._asdict(), "drive": drive,
+        "experiment": experiment, "robot": robot,
+    }  # fmt: skip
+    return json.dumps(described)
 
 
 class Policy:
     """A law that was learned: a network from observations to commands, read from an ONNX file.
 
     It has no memory: copies of it are itself. Its network takes one input (1, k), float32, and
-    returns a command (1, 2), which is clipped to the bounds that it was learned with. The file's
-    metadata say which observation that is, see `mars2d.rl`.
+    returns an action (1, 2), from -1 for the least command that it was learned with to 1 for the
+    largest. The file's metadata say which observation and commands these are, see `mars2d.rl`.
     """
 
     def __init__(self, file: Path) -> None:
@@ -82,11 +73,9 @@ class Policy:
         try:
             given = json.loads(metadata[KEY])
             self.drive, action = str(given["drive"]), given["action"]
-            self._low = [-np.inf if x is None else float(x) for x in action["low"]]
-            self._high = [np.inf if x is None else float(x) for x in action["high"]]
+            (a, b), (c, d) = action["low"], action["high"]
+            self.action = Action((float(a), float(b)), (float(c), float(d)))
             self.experiment, self.robot = str(given["experiment"]), str(given["robot"])
-            if len(self._low) != 2 or len(self._high) != 2:
-                self._refuse("has an action of other than two numbers")
             observed = given["observation"]
         except (ValueError, TypeError, KeyError):
             self._refuse(f"has metadata {KEY!r} that can't be read{hint}")
@@ -100,7 +89,7 @@ class Policy:
             found = ", ".join(f"{each.type} {each.shape}" for each in inputs)
             self._refuse(f"takes {found}; its metadata say one tensor(float) [1, {size}]")
         if outputs[0].shape[-1] != 2:
-            self._refuse(f"returns {outputs[0].shape}, expected a command [1, 2]")
+            self._refuse(f"returns {outputs[0].shape}, expected an action [1, 2]")
         self._input = inputs[0].name
 
     def _refuse(self, why: str) -> NoReturn:
@@ -118,11 +107,9 @@ class Policy:
             self._check(robot)
         (result, *_) = self._session.run(None, {self._input: self.observation(robot)[None]})
         first, second = result[0].tolist()
-        low, high = self._low, self._high
-        return (
-            min(max(first, low[0]), high[0]) if first == first else first,  # noqa: PLR0124 - NaN
-            min(max(second, low[1]), high[1]) if second == second else second,  # noqa: PLR0124
-        )
+        if not abs(first) + abs(second) < np.inf:
+            raise LawError(f"{self.file.name} returned {shown((first, second))}: expected numbers")
+        return self.action(first, second)
 
     def _check(self, robot: Any) -> None:
         """Raise LawError unless a robot has the drive and the parts that it was learned with."""
