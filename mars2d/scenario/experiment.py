@@ -447,8 +447,8 @@ def _find(source: str | Path) -> Path:
 def _load(path: Path, what: str = "an experiment") -> ModuleType:
     """Run a file as a module of its own, which no other module can see."""
     if path.suffix != ".py":
-        or_toml = " or .toml" if what == "an experiment" else ""
-        raise InputError(f"{path}: expected {what}, a file that ends in .py{or_toml}")
+        other = ".toml" if what == "an experiment" else SUFFIX
+        raise InputError(f"{path}: expected {what}, a file that ends in .py or {other}")
     note_file(path)
     name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
