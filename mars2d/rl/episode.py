@@ -60,7 +60,7 @@ class Episode:
         self.learners = (
             tuple(range(len(scenario.robots)))
             if learners is None
-            else _indices(scenario, learners, "learner")
+            else _indices(scenario, learners, "learner =")
         )
         self._laws = _laws_of(scenario, laws or {}, self.learners)
         if reward is None and not contests_of(scenario):
@@ -207,12 +207,12 @@ def _indices(
 ) -> tuple[int, ...]:
     """Return robots by names, indices or roles; a single name stands for one robot."""
     if isinstance(named, (str, int)):
-        return robots_named(scenario, named, f"{field} =")
+        return robots_named(scenario, named, field)
     roles = roles_of(scenario)
     found = [
         robot
         for who in named
-        for robot in (roles.get(str(who)) or robots_named(scenario, who, f"{field} ="))
+        for robot in (roles.get(str(who)) or robots_named(scenario, who, field))
     ]
     return tuple(dict.fromkeys(found))
 
