@@ -242,7 +242,10 @@ def _read_poses(view: Any, size: int) -> list[float]:
 
 def _slots(view: Any, size: int, each: int, read: Callable[[Any], list[float]]) -> list[float]:
     """Return the numbers of each other robot in a place of its own; zeros where it is not seen."""
-    row, mine = [0.0] * size, view.index
+    needed = each * (len(view._world.scenario.robots) - 1)
+    row, mine = [0.0] * needed, view.index
+    if needed != size:
+        return row  # which is refused by its size
     for other in view.neighbours:
         at = each * (other.index - (other.index > mine))
         row[at : at + each] = read(other)
