@@ -129,7 +129,8 @@ class Episode:
         world = self.world
         if world.over:
             raise InputError(f"the episode is over: {world.over_message}; reset() begins another")
-        world.step(commands)
+        every = len(commands) == len(world.robots)
+        world.step(np.array([commands[i] for i in range(len(commands))]).T if every else commands)
         world.observe()
         gone = self._room is not None and self._room.left(world.pose[:2])
         if not world.over and (gone or self.time_is_over):

@@ -35,12 +35,12 @@ def _nearer(world: World, robot: RobotView) -> float:
 
 
 def pursuit(**given: Any) -> Environment:
-    """Return the game `corner_game`, in which the pursuer learns, as fast as the evader.
+    """Return the game `corner_game`, in which the pursuer learns, 1.2 times as fast as the evader.
 
     Observation (6,), action (vx, vy), 60 s. Reward: the metres that it comes nearer, 10 for the
     capture.
     """
-    options = {"stop_time": 60.0, "mu": 1.0, **given.pop("options", {})}
+    options = {"stop_time": 60.0, "mu": 1.2, **given.pop("options", {})}
     return Environment("corner_game", "pursuer", **{"reward": _nearer, "options": options, **given})
 
 

@@ -54,14 +54,15 @@ class Observation:
         self.parts = tuple(parts)
         self.low: Float = np.array([x for part in parts for x in part.low])
         self.high: Float = np.array([x for part in parts for x in part.high])
-        self._readers: list[tuple[Callable[[Any, Any], list[float]], Any, int]] = []
-        for name, low, _ in parts:
-            reader, key = (_read_sensor, name[len(SENSED):]) if name.startswith(SENSED) else (
-                READERS[name], len(low)
-            )  # fmt: skip
-            self._readers.append((reader, key, len(low)))
-        finite = np.isfinite(self.high)
-        self._most: Float = np.where(finite, self.high, 0.0)
+        self._readers = [
+            (_read_sensor, name[len(SENSED):]) if name.startswith(SENSED)
+            else (READERS[name], len(low))
+            for name, low, _ in parts
+        ]  # fmt: skip
+        self._sizes = [len(low) for _, low, _ in parts]
+        self._posed = any(not part.name.startswith(SENSED) for part in parts)
+        self._least, self._most = self.low.astype(np.float32), self.high.astype(np.float32)
+        self._missing: Float = np.where(np.isfinite(self.high), self.high, 0.0)
 
     @classmethod
     def of(cls, scenario: Scenario, robot: int, view: Any) -> Self:
@@ -106,11 +107,13 @@ class Observation:
     def __call__(self, view: Any) -> Row:
         """Return what a robot sees now, (k,), float32, within the bounds.
 
-        Raises InputError where the robot's view has other parts, or of another size.
+        Raises InputError where a part is of another size. It does not ask whether the robot's law
+        may see all parts: `check` does.
         """
+        look = _Look(view) if self._posed else None
         row: list[float] = []
-        for (read, key, size), part in zip(self._readers, self.parts, strict=True):
-            values = read(view, key)
+        for (read, key), size, part in zip(self._readers, self._sizes, self.parts, strict=True):
+            values = read(view, key, look)
             if len(values) != size:
                 raise InputError(
                     f"{part.name} of {view.name} has {len(values)} numbers, expected {size}"
@@ -118,14 +121,26 @@ class Observation:
             row += values
         return self._bounded(row)
 
+    def check(self, view: Any) -> None:
+        """Raise InputError or LawError for a robot that can't be observed so, or may not see it."""
+        seen = {
+            "pose": lambda: view.pose,
+            "positions": lambda: [other.position for other in view.neighbours],
+            "poses": lambda: [other.pose for other in view.neighbours],
+            "props": lambda: view.world.prop_pose,
+        }
+        for part in self.parts:
+            seen.get(part.name, tuple)()
+        self(view)
+
     def _bounded(self, row: list[float]) -> Row:
         values = np.array(row)
-        if not isfinite(values.sum()):
+        if not isfinite(sum(row)):
             values = np.where(np.isnan(values), 0.0, values)
-            values = np.where(np.isposinf(values), self._most, values)
-        np.maximum(values, self.low, out=values)
-        np.minimum(values, self.high, out=values)
-        return values.astype(np.float32)
+            values = np.where(np.isposinf(values), self._missing, values)
+        bounded = values.astype(np.float32)
+        np.maximum(bounded, self._least, out=bounded)
+        return np.minimum(bounded, self._most, out=bounded)
 
     def to_json(self) -> list[dict[str, Any]]:
         """Return the parts as JSON, with None for a bound that is infinite."""
@@ -198,7 +213,28 @@ def _numbers_of(reading: Any, name: str) -> Float:
     return values.ravel().astype(float)
 
 
-def _read_sensor(view: Any, key: str) -> list[float]:
+class _Look:
+    """What the parts of one observation share: all poses, and the axes of the robot's commands."""
+
+    def __init__(self, view: Any) -> None:
+        self.world, self.me = view._world, view._index
+        self.xs, self.ys, self.thetas = self.world.pose.tolist()
+        self.x, self.y = self.xs[self.me], self.ys[self.me]
+        self.heading = self.thetas[self.me]
+        self.turn = 0.0 if view.drive.frame == "world" else self.heading
+        self.c, self.s = cos(self.turn), sin(self.turn)
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """Return a point in the frame of the commands, m."""
+        dx, dy = x - self.x, y - self.y
+        return self.c * dx + self.s * dy, self.c * dy - self.s * dx
+
+    def others(self, each: int) -> list[float]:
+        """Return a row with a place for each other robot, and zeros in it."""
+        return [0.0] * (each * (len(self.xs) - 1))
+
+
+def _read_sensor(view: Any, key: Any, look: Any) -> list[float]:  # noqa: ARG001
     reading = getattr(view.sense, key)
     if isinstance(reading, np.ndarray):
         return reading.ravel().tolist()  # type: ignore[no-any-return]
@@ -207,60 +243,37 @@ def _read_sensor(view: Any, key: str) -> list[float]:
     return _numbers_of(reading, f"{view.name}: sensor {key!r}").tolist()  # type: ignore[no-any-return]
 
 
-def _read_pose(view: Any, _: int) -> list[float]:
-    x, y, theta = view.pose.tolist()
-    return [x, y, cos(theta), sin(theta)]
+def _read_pose(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+    return [look.x, look.y, cos(look.heading), sin(look.heading)]
 
 
-class _Frame:
-    """The frame of a robot's commands: the axes from which it sees others."""
-
-    def __init__(self, view: Any) -> None:
-        self.x, self.y, self.theta = view.pose.tolist()
-        if view.drive.frame == "world":
-            self.theta = 0.0
-        self.c, self.s = cos(self.theta), sin(self.theta)
-
-    def place(self, x: float, y: float) -> list[float]:
-        dx, dy = x - self.x, y - self.y
-        return [self.c * dx + self.s * dy, self.c * dy - self.s * dx]
-
-    def pose(self, x: float, y: float, theta: float) -> list[float]:
-        turned = theta - self.theta
-        return [*self.place(x, y), cos(turned), sin(turned)]
-
-
-def _read_positions(view: Any, size: int) -> list[float]:
-    frame = _Frame(view)
-    return _slots(view, size, 2, lambda other: frame.place(*other.position.tolist()))
-
-
-def _read_poses(view: Any, size: int) -> list[float]:
-    frame = _Frame(view)
-    return _slots(view, size, 4, lambda other: frame.pose(*other.pose.tolist()))
-
-
-def _slots(view: Any, size: int, each: int, read: Callable[[Any], list[float]]) -> list[float]:
-    """Return the numbers of each other robot in a place of its own; zeros where it is not seen."""
-    needed = each * (len(view._world.scenario.robots) - 1)
-    row, mine = [0.0] * needed, view.index
-    if needed != size:
-        return row  # which is refused by its size
-    for other in view.neighbours:
-        at = each * (other.index - (other.index > mine))
-        row[at : at + each] = read(other)
+def _read_positions(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+    row, me = look.others(2), look.me
+    for j in look.world.neighbour_indices(me):
+        at = 2 * (j - (j > me))
+        row[at : at + 2] = look.place(look.xs[j], look.ys[j])
     return row
 
 
-def _read_props(view: Any, _: int) -> list[float]:
-    frame = _Frame(view)
-    return [x for pose in view.world.prop_pose.T.tolist() for x in frame.pose(*pose)]
+def _read_poses(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+    row, me = look.others(4), look.me
+    for j in look.world.neighbour_indices(me):
+        at, turned = 4 * (j - (j > me)), look.thetas[j] - look.turn
+        row[at : at + 4] = *look.place(look.xs[j], look.ys[j]), cos(turned), sin(turned)
+    return row
 
 
-READERS: Mapping[str, Callable[[Any, int], list[float]]] = {
+def _read_props(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+    row: list[float] = []
+    for x, y, theta in look.world.prop_pose.T.tolist():
+        row += *look.place(x, y), cos(theta - look.turn), sin(theta - look.turn)
+    return row
+
+
+READERS: Mapping[str, Callable[[Any, Any, Any], list[float]]] = {
     "pose": _read_pose,
     "positions": _read_positions,
     "poses": _read_poses,
     "props": _read_props,
 }
-"""How the parts of an observation are read from a robot's view."""
+"""How the parts of an observation are read, besides sensors."""
