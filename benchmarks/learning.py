@@ -2,7 +2,7 @@
 
     python benchmarks/learning.py [--json OUT.json] [--rounds N]
 
-All are timed in turns, some hundred steps each, so that what other programs do befalls all. The game
+All are timed in turns, a hundred steps each, so that what other programs do befalls all. The game
 is one pursuer and one evader; both are commanded, and in `Environment` the evader has a law. `World.step` keeps no record, as in an environment, and
 calls `observe` after each step, as whoever wants to know of a capture has to. mpe2 and VMAS, with one
 environment, are timed where they are installed: pip install mpe2 vmas.
@@ -25,7 +25,7 @@ from mars2d import Holonomic, Robot, Scenario, World
 from mars2d.addons import Game
 from mars2d.rl import Environment, ParallelEnvironment
 
-TURN = 300
+TURN = 100
 """Steps in a row."""
 
 Step = Callable[[], object]
@@ -125,7 +125,7 @@ def measure(rounds: int) -> dict[str, Any]:
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description="what an environment costs a learner")
-    parser.add_argument("--rounds", type=int, default=10)
+    parser.add_argument("--rounds", type=int, default=40)
     parser.add_argument("--json", type=Path, metavar="OUT.json", help="write the figures")
     arguments = parser.parse_args()
     measured = measure(arguments.rounds)
