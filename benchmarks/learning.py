@@ -2,10 +2,11 @@
 
     python benchmarks/learning.py [--json OUT.json] [--rounds N]
 
-All are timed in turns, a hundred steps each, so that what other programs do befalls all. The game
-is one pursuer and one evader; both are commanded, and in `Environment` the evader has a law. `World.step` keeps no record, as in an environment, and
-calls `observe` after each step, as whoever wants to know of a capture has to. mpe2 and VMAS, with one
-environment, are timed where they are installed: pip install mpe2 vmas.
+All are timed in turns, a hundred steps each, so that what other programs do befalls all. The game is
+one pursuer and one evader; both are commanded, and in `Environment` the evader has a law.
+`World.step` keeps no record, as in an environment, and calls `observe` after each step, as whoever
+wants to know of a capture has to. mpe2 and VMAS, with one environment, are timed where they are
+installed: pip install mpe2 vmas.
 """
 
 from __future__ import annotations
@@ -38,11 +39,11 @@ def chase() -> Scenario:
         robots=[robot.at(-4, 0).replace(name="red"), robot.at(4, 0).replace(name="blue")],
         on_exit="ignore",
         stop_time=1e6,
-        addons=[Game({"pursuer": ["red"], "evader": ["blue"]})],
+        addons=[Game((("pursuer", ("red",)), ("evader", ("blue",))))],
     )
 
 
-def flee(robot: Any) -> tuple[float, float]:
+def flee(robot: Any) -> tuple[float, float]:  # noqa: ARG001
     """Go slowly to the right."""
     return 0.01, 0.0
 

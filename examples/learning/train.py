@@ -19,8 +19,6 @@ from onnx import TensorProto, helper, numpy_helper
 from stable_baselines3 import PPO
 from stable_baselines3.common.env_util import make_vec_env
 
-import mars2d.rl
-
 
 def rescaled(environment):
     return RescaleObservation(environment, np.float32(-1), np.float32(1))
@@ -30,7 +28,9 @@ def layers_of(policy, space):
     """Return weights and biases of the network, which takes what the robot sees, not rescaled."""
     network = [*policy.mlp_extractor.policy_net, policy.action_net]
     linear = [layer for layer in network if isinstance(layer, torch.nn.Linear)]
-    layers = [[p.detach().cpu().numpy().astype(float) for p in layer.parameters()] for layer in linear]
+    layers = [
+        [p.detach().cpu().numpy().astype(float) for p in layer.parameters()] for layer in linear
+    ]
     scale = 2.0 / (space.high.astype(float) - space.low)
     weight, bias = layers[0]
     layers[0] = [weight * scale, bias + weight @ (-1.0 - scale * space.low)]

@@ -50,9 +50,10 @@ class Environment(gymnasium.Env[Row, Row]):
     keep a record, which `record` then returns.
 
     An observation is what the robot's law may see, see `mars2d.scenario.observation.Observation`;
-    an action is a command in shares of the drive's bounds, `Drive.bounds`, from -1 to 1. An episode is terminated when something
-    ends the experiment, such as a capture, and truncated at its stop time. The seed of `reset` is
-    that of all random streams, and of the starts where the experiment draws them.
+    an action is a command in shares of the drive's bounds, `Drive.bounds`, from -1 to 1. An episode
+    is terminated when something ends the experiment, such as a capture, and truncated at its stop
+    time. The seed of `reset` is that of all random streams, and of the starts where the experiment
+    draws them.
 
     Raises InputError for anything else.
     """
@@ -100,7 +101,10 @@ class Environment(gymnasium.Env[Row, Row]):
         return self._episode.metadata_of(0)
 
     def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+        self,
+        *,
+        seed: int | None = None,
+        options: dict[str, Any] | None = None,  # noqa: ARG002
     ) -> tuple[Row, dict[str, Any]]:
         """Begin an episode; return what the robot sees, and an empty dict.
 
@@ -114,8 +118,9 @@ class Environment(gymnasium.Env[Row, Row]):
     def step(self, action: Any) -> tuple[Row, float, bool, bool, dict[str, Any]]:
         """Do one control step; return observation, reward, terminated, truncated and info.
 
-        action: shares of the drive's bounds (2,). info: ``over``, why the episode has ended, once it has. Raises
-        InputError for an action of another shape or that is not finite, and after the end.
+        action: shares of the drive's bounds (2,). info: ``over``, why the episode has ended, once
+        it has. Raises InputError for an action of another shape or that is not finite, and after
+        the end.
         """
         episode = self._episode
         episode.step({self._learner: episode.command(0, action)})

@@ -231,7 +231,7 @@ def _laws_of(
             found[robot] = load_law(law) if isinstance(law, (str, Path)) else law
             if not callable(found[robot]):
                 raise InputError(
-                    f"laws[{who!r}] = {shown(law)}: expected a law: a function of the robot, or a file"
+                    f"laws[{who!r}] = {shown(law)}: expected a function of the robot, or a file"
                 )
     return found
 

@@ -90,7 +90,9 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         return self._episode.metadata_of(self._place(agent))
 
     def reset(
-        self, seed: int | None = None, options: dict[str, Any] | None = None  # noqa: ARG002
+        self,
+        seed: int | None = None,
+        options: dict[str, Any] | None = None,  # noqa: ARG002
     ) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
         """Begin an episode; return what each agent sees, and empty dicts."""
         if seed is not None:
@@ -103,7 +105,11 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
     def step(
         self, actions: Mapping[str, Any]
     ) -> tuple[
-        dict[str, Row], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]
+        dict[str, Row],
+        dict[str, float],
+        dict[str, bool],
+        dict[str, bool],
+        dict[str, dict[str, Any]],
     ]:
         """Do one control step under the action (2,) of each agent.
 

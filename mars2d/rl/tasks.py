@@ -18,7 +18,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.world.views import RobotView
 from mars2d.world.world import World
 
-__all__ = ["coverage", "push", "pursuit", "sumo"]
+__all__ = ["coverage", "pursuit", "push", "sumo"]
 
 
 def _gain(robot: RobotView, now: float) -> float:

@@ -123,14 +123,15 @@ class Observation:
 
     def check(self, view: Any) -> None:
         """Raise InputError or LawError for a robot that can't be observed so, or may not see it."""
-        seen = {
+        seen: dict[str, Callable[[], Any]] = {
             "pose": lambda: view.pose,
             "positions": lambda: [other.position for other in view.neighbours],
             "poses": lambda: [other.pose for other in view.neighbours],
             "props": lambda: view.world.prop_pose,
         }
         for part in self.parts:
-            seen.get(part.name, tuple)()
+            if part.name in seen:
+                seen[part.name]()
         self(view)
 
     def _bounded(self, row: list[float]) -> Row:
@@ -145,7 +146,11 @@ class Observation:
     def to_json(self) -> list[dict[str, Any]]:
         """Return the parts as JSON, with None for a bound that is infinite."""
         return [
-            {"name": p.name, "low": [_finite(x) for x in p.low], "high": [_finite(x) for x in p.high]}
+            {
+                "name": p.name,
+                "low": [_finite(x) for x in p.low],
+                "high": [_finite(x) for x in p.high],
+            }
             for p in self.parts
         ]
 
@@ -237,7 +242,7 @@ class _Look:
 def _read_sensor(view: Any, key: Any, look: Any) -> list[float]:  # noqa: ARG001
     reading = getattr(view.sense, key)
     if isinstance(reading, np.ndarray):
-        return reading.ravel().tolist()  # type: ignore[no-any-return]
+        return reading.ravel().tolist()
     if isinstance(reading, (bool, int, float)):
         return [float(reading)]
     return _numbers_of(reading, f"{view.name}: sensor {key!r}").tolist()  # type: ignore[no-any-return]

@@ -115,7 +115,9 @@ class Policy:
         """Raise LawError unless a robot has the drive and the parts that it was learned with."""
         drive = type(robot.drive).__name__
         if drive != self.drive:
-            raise LawError(f"{self.file.name} commands a {self.drive}, and {robot.name} is a {drive}")
+            raise LawError(
+                f"{self.file.name} commands a {self.drive}, and {robot.name} is a {drive}"
+            )
         try:
             self.observation.check(robot)
         except (Mars2dError, IndexError, ValueError) as error:

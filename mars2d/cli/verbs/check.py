@@ -57,7 +57,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file",
         metavar="FILE",
         help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
-        f"a learned law ({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map",
+        f"a learned law ({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), "
+        "or a map",
     )
     parser.add_argument(
         "--laws",

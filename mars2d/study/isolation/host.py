@@ -48,6 +48,7 @@ CUT_OFF = 70
 LATE_SHARE = 0.6
 """After this share of its time, a law is late, and its current line is sent."""
 
+
 def main(channel: socket.socket, output: socket.socket) -> NoReturn:
     """Serve one match and end the process.
 
