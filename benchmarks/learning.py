@@ -2,8 +2,8 @@
 
     python benchmarks/learning.py [--json OUT.json] [--rounds N]
 
-All are timed in turns, a hundred steps each, so that what other programs do befalls all. The game is
-one pursuer and one evader; both are commanded, and in `Environment` the evader has a law.
+All are timed in turns, a hundred steps each, so that what other programs do befalls all. The game
+is one pursuer and one evader; both are commanded, and in `Environment` the evader has a law.
 `World.step` keeps no record, as in an environment, and calls `observe` after each step, as whoever
 wants to know of a capture has to. mpe2 and VMAS, with one environment, are timed where they are
 installed: pip install mpe2 vmas.
