@@ -63,7 +63,6 @@ class Policy:
         except Exception as error:  # of many kinds, of the library's own
             raise InputError(f"{file}: no network in the format ONNX: {one_line(error)}") from error
         self._take(self._session.get_modelmeta().custom_metadata_map)
-        self._fits: set[str] = set()
 
     def _take(self, metadata: dict[str, str]) -> None:
         """Take the spaces of its metadata, and compare them with those of the network."""
@@ -103,7 +102,7 @@ class Policy:
 
         Raises LawError for a robot with another drive, or another observation.
         """
-        if robot.name not in self._fits:
+        if getattr(robot.memory, "_fits", None) is not self:
             self._check(robot)
         (result, *_) = self._session.run(None, {self._input: self.observation(robot)[None]})
         first, second = result[0].tolist()
@@ -125,4 +124,4 @@ class Policy:
             raise LawError(
                 f"{self.file.name} does not fit: it observes {names}; {one_line(error)}"
             ) from error
-        self._fits.add(robot.name)
+        robot.memory._fits = self

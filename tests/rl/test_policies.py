@@ -72,10 +72,22 @@ def test_a_world_with_a_policy_forks(policy):
 
 def test_it_is_checked_where_it_was_learned_and_in_a_game(policy, capsys):
     assert main(["check", str(policy)]) == 0
-    assert "law hunter of red: sound" in capsys.readouterr().out
+    assert "law hunter of red: sound\n" in capsys.readouterr().out
     command = ["check", str(policy), "--for", "corner_game", "--role", "pursuer"]
     assert main([*command, "--set", "stop_time=2"]) == 0
     assert "forfeited none" in capsys.readouterr().out
+
+
+def test_the_trained_pursuer_catches_and_forfeits_nothing_in_the_default_game(capsys):
+    from mars2d.scenario.experiment import examples
+
+    file = examples()["corner_game"].parent / "learning" / "pursuit.onnx"
+    command = ["check", str(file), "--for", "corner_game", "--role", "pursuer"]
+    assert main([*command, "--set", "stop_time=3"]) == 0
+    assert "forfeited none" in capsys.readouterr().out
+    options = {"pursuer": str(file), "mu": 1.2}
+    record = mars2d.run("corner_game", stop_time=60, seed=1, options=options)
+    assert "red catches blue" in record.over_message
 
 
 def test_a_folder_of_laws_in_a_tournament_has_policies_too(policy):
