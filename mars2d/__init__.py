@@ -30,13 +30,13 @@ from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors import Sensor
-from mars2d.session import run
 from mars2d.world.world import World
 
 if TYPE_CHECKING:
     from mars2d.study.sweep import sweep
     from mars2d.study.table import Table
     from mars2d.study.tournament.tournament import tournament
+    from mars2d.window.run import run
 
 __version__ = "0.1.0"
 
@@ -76,21 +76,22 @@ __all__ = [
     "tournament",
 ]
 
-_OF_MANY_RUNS = {
+_LATER = {
     "Table": "mars2d.study.table",
+    "run": "mars2d.window.run",
     "sweep": "mars2d.study.sweep",
     "tournament": "mars2d.study.tournament.tournament",
 }
-"""The names that are imported when they are first asked for: most programs run one experiment."""
+"""The names that are imported when they are first asked for: not every program needs them."""
 
 if not any(isinstance(finder, FormerNames) for finder in sys.meta_path):
     sys.meta_path.append(FormerNames())
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _OF_MANY_RUNS:
+    if name not in _LATER:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_OF_MANY_RUNS[name]), name)
+    return getattr(import_module(_LATER[name]), name)
 
 
 def __dir__() -> list[str]:

@@ -46,6 +46,7 @@ NOW = {
     "rerun": "world.verify",
     "robot": "scenario.robot",
     "scene": "core.scene",
+    "session": "window.run",
     "shapes": "geometry.shapes",
     "storage": "record.columns",
     "tessellation": "geometry.voronoi",

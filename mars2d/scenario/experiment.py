@@ -37,6 +37,7 @@ from mars2d.scenario.law_parameters import PREFIX
 from mars2d.scenario.map_option import MapOption, reading_options
 from mars2d.scenario.options import override
 from mars2d.scenario.parameters import Parameter
+from mars2d.scenario.policy import SUFFIX, Policy
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.scenario import Scenario
 
@@ -371,6 +372,7 @@ def load_law(
     """Return the law called `name` from a file: a function or generator of the robot.
 
     path: a relative path is looked for beside the file that calls this, then in the current folder.
+    An ``.onnx`` file is a law that was learned, see `mars2d.rl`; it has neither name nor arguments.
     arguments, values: of the function, before the robot and by name, as for functools.partial. Each
     call runs the file anew, so that robots with the same law share nothing. Raises InputError,
     which points at file and line.
@@ -380,7 +382,7 @@ def load_law(
     if not isinstance(name, str):
         raise wrong("load_law(name)", name, "the name of a function, as 'control'")
     caller = Path(sys._getframe(1).f_code.co_filename)
-    file = file_beside(Path(path), caller, "a law", [".py"])
+    file = file_beside(Path(path), caller, "a law", [".py", SUFFIX])
     return law_in(file, name, given=(arguments, values))
 
 
@@ -394,6 +396,10 @@ def law_in(
 
     subject: the robot or world. given: the arguments of the function that are given.
     """
+    if file.suffix == SUFFIX:
+        if name != "control" or given != ((), {}):
+            raise InputError(f"{file.name}: a learned law has no other names and no arguments")
+        return Policy(file)
     module = _load(file, "a law")
     try:
         return _law_of(module, name, subject, *given)
@@ -442,8 +448,8 @@ def _find(source: str | Path) -> Path:
 def _load(path: Path, what: str = "an experiment") -> ModuleType:
     """Run a file as a module of its own, which no other module can see."""
     if path.suffix != ".py":
-        or_toml = " or .toml" if what == "an experiment" else ""
-        raise InputError(f"{path}: expected {what}, a file that ends in .py{or_toml}")
+        other = ".toml" if what == "an experiment" else SUFFIX
+        raise InputError(f"{path}: expected {what}, a file that ends in .py or {other}")
     note_file(path)
     name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)

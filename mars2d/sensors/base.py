@@ -366,6 +366,24 @@ class Sensor(Stateful):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view and the reading for a robot at `pose` (3,); by default nothing."""
 
+    def limits(self, extent: float) -> tuple[Float, Float]:
+        """Return the least and the largest value of each of its quantities, (q,) each.
+
+        extent: how far a position may be from the origin, m. A number of another unit than m is not
+        bounded: +-inf.
+        """
+        ranges = {
+            "distance": (0.0, getattr(self, "range", 2 * extent)),
+            "angle": (-pi, pi), "color": (0.0, 1.0), "flag": (0.0, 1.0),
+        }  # fmt: skip
+        free = {"m": (-extent, extent)}
+        each = [
+            ranges.get(quantity.kind) or free.get(quantity.unit, (-inf, inf))
+            for quantity in self.quantities
+        ]
+        low, high = np.array(each, dtype=float).T
+        return low, high
+
     @property
     def fan(self) -> Fan | None:
         """The beams that it reads distances along and that `draw` draws; None for other sensors.

@@ -320,15 +320,15 @@ NASTY = {
     "many quick steps": ("clock", "its commands took more than 0.3 s in all", """
         import time
         def control(robot): time.sleep(0.05); return 0, 0"""),
-    "a memory bomb": ("memory", "line 4: control raised MemoryError; it may take 200 MB", """
+    "a memory bomb": ("memory", "line 4: took too much memory; it may take 200 MB", """
         kept = []
         def control(robot):
             while True: kept.append("x" * 10_000_000 + str(len(kept)))"""),
-    "a huge array": ("memory", "line 3: control raised", """
+    "a huge array": ("memory", "line 3: took too much", """
         import numpy as np
         def control(robot): return np.ones(10**9)"""),
-    "a memory bomb while it is loaded": ("memory", "line 2: MemoryError; it may take 200 MB", """
-        kept = [0] * 10**9"""),
+    "a memory bomb while it is loaded": ("memory", "line 2: took too much memory; it may", """
+        kept = [0] * 2 * 10**9"""),
     "an exception": ("error", "line 2: control raised ZeroDivisionError: division by zero", """
         def control(robot): return 1 / 0, 0"""),
     "a misspelt name": ("error", "line 3: control raised NameError: name 'speeed' is not", """
@@ -481,13 +481,19 @@ BEYOND = {
                 if not all(os.fork() for _ in range(30)): time.sleep(100)
                 print("done")
             return 0, 0"""),
-    "eases its limit of memory": ("it takes 230 MB where 200 are allowed", """
-        import resource
+    "lets a program take memory": ("the program's 230 MB do not count", """
+        import subprocess, sys
         def control(robot):
             if not robot.time:
-                _, most = resource.getrlimit(resource.RLIMIT_AS)
-                resource.setrlimit(resource.RLIMIT_AS, (most, most))
-                assert len(bytearray(230_000_000))
+                code = "import time; kept = bytes(230_000_000); time.sleep(100)"
+                subprocess.Popen([sys.executable, "-c", code])
+                print("done")
+            return 0, 0"""),
+    "reserves memory that it does not use": ("nothing: only memory in use counts", """
+        import mmap
+        def control(robot):
+            if not robot.time:
+                robot.memory.kept = mmap.mmap(-1, 14_000_000_000)
                 print("done")
             return 0, 0"""),
     "deletes its file and changes its folder": ("the match goes on; it can't be played again", """

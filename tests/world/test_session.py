@@ -300,7 +300,7 @@ def test_a_mistake_in_a_laws_file_points_into_it(duel, tmp_path, text, where, wo
         ("red", "did you mean 'red.py'?"),
         ("players/foward.py", "did you mean 'players/forward.py'?"),
         ("players", "players: a folder; expected a law"),
-        ("red.txt", "red.txt: expected a law, a file that ends in .py"),
+        ("red.txt", "red.txt: expected a law, a file that ends in .py or .onnx"),
         ("/nowhere/at/all/red.py", "/nowhere/at/all/red.py: there is no such file"),
         (3, "load_law(path) = 3: expected the name of a law's file"),
     ],

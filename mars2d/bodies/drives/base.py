@@ -19,6 +19,9 @@ Float = NDArray[np.float64]
 STICK_TURN = 1.5
 """How quickly a robot turns by a stick that is held to the side, rad/s, if its wheels can."""
 
+HUGE = 1e9
+"""A number of a command, in any unit, that every limited drive limits."""
+
 ROUNDING = 1e-12
 """The share by which a command may exceed its limits, so that limiting twice changes nothing."""
 
@@ -97,6 +100,22 @@ class Drive(Description):
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) within the actuators' limits; by default, unchanged."""
         return command
+
+    @cached_property
+    def bounds(self) -> Float:
+        """The least (row 0) and the largest value (row 1) of each number of a command, (2, 2).
+
+        +-inf where `saturate` does not limit it. Not every command within these bounds can be
+        followed: two wheels at their limit can't turn.
+
+        >>> from mars2d import Holonomic
+        >>> Holonomic(max_linear_speed=0.5).bounds.tolist()
+        [[-0.5, -0.5], [0.5, 0.5]]
+        """
+        ends = HUGE * np.array([[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0]])
+        reached = self.saturate(ends)
+        pairs = np.array([reached[0, :2], reached[1, 2:]]).T
+        return np.where(np.abs(pairs) >= HUGE, np.copysign(inf, pairs), pairs)
 
     def twist(self, command: Float) -> Float:
         """Return (3, n): two components of velocity [m/s], in `frame`, and spin [rad/s]."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -25,6 +26,8 @@ from mars2d.record.record import Record, load
 from mars2d.scenario.experiment import Experiment, examples, open_experiment, open_module
 from mars2d.scenario.map_option import reading_options
 from mars2d.scenario.options import parse_setting, settings_in_words
+from mars2d.scenario.policy import SUFFIX as LEARNED
+from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.tournament.match import play
@@ -54,7 +57,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "file",
         metavar="FILE",
         help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
-        f"a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map",
+        f"a learned law ({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), "
+        "or a map",
     )
     parser.add_argument(
         "--laws",
@@ -97,12 +101,12 @@ def execute(arguments: argparse.Namespace) -> None:
         record = _check_record(path)
         if arguments.laws is not None:
             _ask_laws(path, record, arguments.laws, dict(map(parse_setting, arguments.set)))
-    elif path.suffix in ("", ".py", ".toml"):
+    elif path.suffix in ("", ".py", ".toml", LEARNED):
         _check_code(arguments.file)
     else:
         raise InputError(
-            f"{path}: expected a Python file (.py), a scenario (.toml), a record "
-            f"({', '.join(formats.SUFFIXES)}) or a map ({', '.join(maps.SUFFIXES)})"
+            f"{path}: expected a Python file (.py), a learned law ({LEARNED}), a scenario (.toml), "
+            f"a record ({', '.join(formats.SUFFIXES)}) or a map ({', '.join(maps.SUFFIXES)})"
             f"{maps.advice(path)}"
         )
 
@@ -178,12 +182,33 @@ def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
         with limit:
             if Path(source).suffix == ".toml":
                 return ModuleType(source), open_experiment(source)
+            if Path(source).suffix == LEARNED:
+                return ModuleType(source), _where_it_learned(Path(source))
             module = open_module(source)
             if not hasattr(module, "scenario") and any(True for _ in trials(module, None)):
                 return module, None
             return module, open_experiment(module)
     except Late:
         raise _late(source, limit) from None
+
+
+def _where_it_learned(path: Path) -> Experiment:
+    """Return the experiment in which a law was learned, with the law on its robot."""
+    if not path.is_file():
+        raise InputError(f"{path}: there is no such file")
+    law = Policy(path)
+    if not law.experiment:
+        raise InputError(
+            f"{path}: does not say in which experiment it was learned: try it in a game, by "
+            "--for GAME --role ROLE"
+        )
+    experiment = open_experiment(law.experiment)
+    learner = experiment.scenario.index_of(f"{path}: its robot", law.robot)
+    robots = [
+        robot.replace(controller=law) if i == learner else robot
+        for i, robot in enumerate(experiment.scenario.robots)
+    ]
+    return replace(experiment, scenario=experiment.scenario.replace(robots=robots))
 
 
 def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline) -> list[Finding]:

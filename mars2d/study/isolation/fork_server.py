@@ -27,7 +27,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.lastresort import kill_group
 from mars2d.study import ONE_THREAD
 
-__all__ = ["Ended", "serve", "spawn", "start"]
+__all__ = ["Ended", "Started", "serve", "spawn", "start"]
 
 Sockets = tuple[socket.socket, socket.socket]
 
@@ -52,12 +52,18 @@ class Ended(NamedTuple):
     forced: bool
 
 
-End = Callable[[float], Ended]
-"""Ends a process and all that it has started; it has some seconds to end by itself."""
+class Started(NamedTuple):
+    """The id of a process, and the function that ends it and all that it has started.
+
+    The function is given how many seconds the process has to end by itself.
+    """
+
+    process: int
+    end: Callable[[float], Ended]
 
 
-def start(sockets: Sockets) -> End:
-    """Start a law's process, and return the function that ends it.
+def start(sockets: Sockets) -> Started:
+    """Start a law's process.
 
     sockets: its channel and its output, which are closed in this process. Raises InputError if no
     process can be started.
@@ -73,7 +79,7 @@ def start(sockets: Sockets) -> End:
             each.close()
 
 
-def _fork(sockets: Sockets) -> End:
+def _fork(sockets: Sockets) -> Started:
     """Let the fork server start a process; a new server, if a law has killed it."""
     server = _server(os.getpid())
     try:
@@ -81,10 +87,10 @@ def _fork(sockets: Sockets) -> End:
     except ConnectionError:
         server = _server(os.getpid())
         process = server.fork(sockets)
-    return functools.partial(server.end, process)
+    return Started(process, functools.partial(server.end, process))
 
 
-def spawn(sockets: Sockets) -> End:
+def spawn(sockets: Sockets) -> Started:
     """Start a law's process without a fork server."""
     windows = sys.platform == "win32"
     process = subprocess.Popen(
@@ -109,7 +115,7 @@ def spawn(sockets: Sockets) -> End:
         _kill(process.pid, process.kill)
         return Ended(process.wait(), forced)
 
-    return end
+    return Started(process.pid, end)
 
 
 def _shared(connection: socket.socket, process: int) -> str:

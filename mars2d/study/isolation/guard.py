@@ -148,6 +148,7 @@ class Guard:
             heard = self._poller.wait(min(max(0.0, wait), LOOK))
             now = self._clock.now() - (CHATTER_TIME if heard else 0.0)
             for process in asked:
+                process.weigh()
                 if process.asked and process.deadline <= now:
                     process.expire()
 

@@ -48,9 +48,6 @@ CUT_OFF = 70
 LATE_SHARE = 0.6
 """After this share of its time, a law is late, and its current line is sent."""
 
-MEMORY_RESERVE = 64 * MB
-"""Additional memory with which a law's process can report that it ran out of memory."""
-
 
 def main(channel: socket.socket, output: socket.socket) -> NoReturn:
     """Serve one match and end the process.
@@ -76,7 +73,11 @@ def _redirect(output: socket.socket) -> None:
         os.dup2(output.fileno(), descriptor)
     output.close()
     sys.stdin = Path(os.devnull).open(encoding="utf-8")  # noqa: SIM115 - for as long as it runs
-    faulthandler.enable(2)
+    faulthandler.enable(2)  # its traceback says where a law was when its memory ran out
+    if sys.platform != "win32":
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
 class _Printed(io.TextIOWrapper):
@@ -128,7 +129,6 @@ class Host:
             setattr(sys, f"__{name}__", stream)
         pause = min(limits.tick, limits.start) * LATE_SHARE / 4
         threading.Thread(target=self._tell_line, args=(pause,), daemon=True).start()
-        _limit_memory(int(limits.memory * MB))
         self._thinking = time.monotonic(), limits.start
         mirror = MirrorWorld(briefing, self._velocities)
         try:
@@ -173,7 +173,6 @@ class Host:
         place = users_line(stack_of(error)) or file
         if _is_memory_error(error):
             kind = "memory"
-            _use_reserve()
         if is_a(error, Mars2dError) and is_made_here(error):
             place, text = error.where or place, str(error.args[0])
         else:
@@ -218,27 +217,6 @@ class Host:
                 raise EOFError
             for frame in self._frames.read(piece):
                 return frame
-
-
-def _limit_memory(more: int) -> None:
-    """Limit this process to `more` bytes beyond its present size, on Linux."""
-    if sys.platform != "linux":
-        return
-    import resource
-
-    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
-    now = pages * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (now + more, now + more + MEMORY_RESERVE))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-
-
-def _use_reserve() -> None:
-    """Raise the limit by `MEMORY_RESERVE`, so that the lack of memory can be reported."""
-    if sys.platform == "linux":
-        import resource
-
-        most = resource.getrlimit(resource.RLIMIT_AS)[1]
-        resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
 def _is_memory_error(error: BaseException | None) -> bool:

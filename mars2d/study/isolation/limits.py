@@ -18,9 +18,9 @@ class Limits:
     """How much time, memory and output a law may use in a match; all limits are > 0.
 
     tick: time for the commands of one control step, seconds. match: time for all commands of a
-    match, counted like a chess clock, seconds. memory: in addition to Python and numpy at the
-    start, MB; enforced on Linux only. output: printed and sent in a match, MB. start: time for
-    loading its file, seconds. Raises InputError for anything else.
+    match, counted like a chess clock, seconds. memory: in use, not reserved, in addition to Python
+    and numpy at the start, MB; enforced on Linux only. output: printed and sent in a match, MB.
+    start: time for loading its file, seconds. Raises InputError for anything else.
     """
 
     tick: float = 1.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 import pickle
 import re
 import signal
@@ -33,6 +34,7 @@ from mars2d.study.isolation.protocol import (
     Reader,
     framed,
 )
+from mars2d.study.isolation.scale import Scale
 from mars2d.world.laws import LARGEST
 
 if TYPE_CHECKING:
@@ -95,7 +97,8 @@ class LawProcess:
         self.channel.setblocking(False)
         self.output, their_output = socket.socketpair()
         self.output.setblocking(False)
-        self._end = start((theirs, their_output))
+        self._process, self._end = start((theirs, their_output))
+        self._scale = Scale(self._process, self._limits.memory * MB)
         self._ended = False
 
     # -- questions and answers -----------------------------------------------------------------
@@ -229,6 +232,15 @@ class LawProcess:
             self._too_long()
         else:
             self._fail("slow", self._late, f"no command after {self._limits.tick:g} s")
+
+    def weigh(self) -> None:
+        """End the process if it takes more memory than it may, and note the line where it was."""
+        if self.fault is not None or not self._scale.heavy:
+            return
+        with contextlib.suppress(OSError):  # it has ended by itself
+            os.kill(self._process, signal.SIGABRT)  # upon which it prints its traceback
+        self._finish(GRACE)
+        self._fail("memory", self._crash_line(), "took too much memory")
 
     def _hear_line(self, until: float) -> None:
         while not self._late and (left := until - time.perf_counter()) > 0:

@@ -13,6 +13,7 @@ from typing import Any
 
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.policy import SUFFIX as POLICY
 from mars2d.scenario.roles import contest_of
 from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
 from mars2d.study.tournament.match import Match
@@ -28,7 +29,10 @@ Files = str | Path | Sequence[str | Path]
 TRIALS = 3
 """How many matches try a single law."""
 
-EXPECTED = "expected files of laws (.py), a folder of them, or a pattern as laws/*.py"
+SUFFIXES = (".py", POLICY)
+"""The suffixes of the files of laws: in Python, and learned."""
+
+EXPECTED = "expected files of laws (.py or .onnx), a folder of them, or a pattern as laws/*.py"
 
 
 @dataclass(frozen=True)
@@ -173,7 +177,7 @@ def pairings_of(entrants: Mapping[str, Sequence[Path]]) -> Iterator[dict[str, st
 def law_files(named: str | Path, beside: Path | None = None) -> tuple[Path, ...]:
     """Return the files that a name stands for: absolute paths, each once.
 
-    named: a file, a folder (all its .py files except those that begin with _), a pattern, or
+    named: a file, a folder (all its laws except those that begin with _), a pattern, or
     several of these, separated by commas. beside: a folder that is searched for relative names
     before the current one. Raises InputError, with the nearest name, if there is no such file.
     """
@@ -189,13 +193,13 @@ def _files(part: str, beside: Path | None) -> list[Path]:
     for folder in folders:
         path = folder / part
         if path.is_dir():
-            inside = _laws(path.glob("*.py"))
+            inside = _laws(path.iterdir())
             if not inside:
                 raise InputError(f"{part}: no law in this folder; {EXPECTED}")
             return inside
         if path.is_file():
-            if path.suffix != ".py":
-                raise InputError(f"{part}: expected the file of a law, which ends in .py")
+            if path.suffix not in SUFFIXES:
+                raise InputError(f"{part}: expected the file of a law, which ends in .py or .onnx")
             return [_plain(path)]
         found = _laws(map(Path, glob.glob(str(path))))  # noqa: PTH207 - of absolute patterns, too
         if found:
@@ -208,7 +212,7 @@ def _laws(paths: Iterable[Path]) -> list[Path]:
     return sorted(
         _plain(path)
         for path in paths
-        if path.suffix == ".py" and path.is_file() and not path.name.startswith("_")
+        if path.suffix in SUFFIXES and path.is_file() and not path.name.startswith("_")
     )
 
 
@@ -225,7 +229,7 @@ def _near(part: str, folders: Sequence[Path]) -> str:
         for folder in folders
         if (folder / parent).is_dir()
         for path in (folder / parent).iterdir()
-        if path.suffix == ".py" or path.is_dir()
+        if path.suffix in SUFFIXES or path.is_dir()
     }
     return likely(part, names)
 
@@ -296,6 +300,8 @@ def law_code(law: Path) -> dict[Path, bytes]:
         if path in contents or not path.is_file():
             continue
         contents[path] = path.read_bytes()
+        if path.suffix == POLICY:
+            continue  # it imports nothing
         lines = re.findall(IMPORT, contents[path])
         names = sorted(
             {name.decode() for line in lines for name in re.findall(rb"[a-zA-Z0-9_]+", line)}

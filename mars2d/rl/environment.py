@@ -1,0 +1,151 @@
+"""An environment of gymnasium: one robot of an experiment learns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.extras import extra
+from mars2d.record.record import Record
+from mars2d.rl.episode import Episode, Law, Reward, Source
+from mars2d.rl.screen import MODES, Screen, checked_mode
+from mars2d.world.world import World
+
+with extra("rl", "environments need gymnasium"):
+    import gymnasium
+    from gymnasium.spaces import Box
+
+__all__ = ["Environment", "observation_space"]
+
+Row = NDArray[np.float32]
+
+SEEDS = 2**31
+"""Episodes without a seed of their own draw one below this."""
+
+
+def observation_space(episode: Episode, k: int) -> Box:
+    """Return the space of what learner k sees."""
+    seen = episode.observations[k]
+    return Box(seen.low.astype(np.float32), seen.high.astype(np.float32), dtype=np.float32)
+
+
+class Environment(gymnasium.Env[Row, Row]):
+    """One robot of an experiment learns, and laws drive the others.
+
+    >>> environment = Environment("corner_game", "pursuer")
+    >>> observation, info = environment.reset(seed=1)
+    >>> observation, reward, terminated, truncated, info = environment.step([1.0, 0.0])
+    >>> environment.action_space
+    Box(-1.0, 1.0, (2,), float32)
+
+    experiment: a file, the name of an example, or a Scenario. robot: who learns: a name, an index,
+    or a game's role, of which the first robot learns. reward: called after each step with the world
+    and the robot; by default 1 when the robot's role has won and -1 when it has lost. It may end
+    the episode by ``world.stop(why)``. laws: of others, by name or role, in place of their own:
+    functions or files. options: of the experiment, as in `mars2d.run`. render_mode: "human" shows a
+    window, "rgb_array" lets `render` return a picture. size: of both, pixels. record: whether to
+    keep a record, which `record` then returns.
+
+    An observation is what the robot's law may see, see `mars2d.scenario.observation.Observation`;
+    an action is a command in shares of the drive's bounds, `Drive.bounds`, from -1 to 1. An episode
+    is terminated when something ends the experiment, such as a capture, and truncated at its stop
+    time. The seed of `reset` is that of all random streams, and of the starts where the experiment
+    draws them.
+
+    Raises InputError for anything else.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": MODES, "render_fps": 10}
+
+    def __init__(
+        self,
+        experiment: Source,
+        robot: str | int = 0,
+        *,
+        reward: Reward | None = None,
+        laws: Mapping[str, Law] | None = None,
+        options: Mapping[str, Any] | None = None,
+        render_mode: str | None = None,
+        size: tuple[int, int] = (640, 480),
+        record: bool = False,
+    ) -> None:
+        self.render_mode = checked_mode(render_mode)
+        self._episode = Episode(experiment, robot, laws, reward, options, record)
+        self.metadata = {
+            "render_modes": MODES, "render_fps": 1 / self._episode.scenario.sampling_time,
+        }  # fmt: skip
+        self.observation_space = observation_space(self._episode, 0)
+        self.action_space = Box(-1.0, 1.0, (2,), np.float32)
+        self._learner = self._episode.learners[0]
+        self._size, self._screen = size, None if render_mode is None else self._opened(size)
+
+    def _opened(self, size: tuple[int, int]) -> Screen:
+        return Screen(size, self.render_mode == "human")
+
+    @property
+    def world(self) -> World:
+        """The live world."""
+        return self._episode.world
+
+    @property
+    def record(self) -> Record:
+        """The record of the present episode. Raises InputError where none is kept."""
+        return self._episode.record
+
+    @property
+    def policy_metadata(self) -> str:
+        """The text that a policy's ONNX file needs as its metadata ``mars2d``: the spaces."""
+        return self._episode.metadata_of(0)
+
+    def reset(
+        self,
+        *,
+        seed: int | None = None,
+        options: dict[str, Any] | None = None,  # noqa: ARG002
+    ) -> tuple[Row, dict[str, Any]]:
+        """Begin an episode; return what the robot sees, and an empty dict.
+
+        seed: of all that is random; None: a new one from the generator that was seeded last.
+        """
+        super().reset(seed=seed)
+        self._episode.start(int(self.np_random.integers(SEEDS)) if seed is None else seed)
+        self._show()
+        return self._episode.observed(0), {}
+
+    def step(self, action: Any) -> tuple[Row, float, bool, bool, dict[str, Any]]:
+        """Do one control step; return observation, reward, terminated, truncated and info.
+
+        action: shares of the drive's bounds (2,). info: ``over``, why the episode has ended, once
+        it has. Raises InputError for an action of another shape or that is not finite, and after
+        the end.
+        """
+        episode = self._episode
+        episode.step({self._learner: episode.command(0, action)})
+        reward = episode.reward(0)
+        world = episode.world
+        info = {"over": world.over_message} if world.over else {}
+        self._show()
+        over = episode.time_is_over
+        return episode.observed(0), reward, world.over and not over, over, info
+
+    def render(self) -> Any:
+        """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
+        if self._screen is None:
+            return None
+        frame = self.world.frame
+        if self.render_mode == "rgb_array":
+            return self._screen.pixels(frame)
+        self._screen.show(frame)
+        return None
+
+    def _show(self) -> None:
+        if self.render_mode == "human":
+            self.render()
+
+    def close(self) -> None:
+        """Close the window."""
+        if self._screen is not None:
+            self._screen.close()

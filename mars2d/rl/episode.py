@@ -1,0 +1,243 @@
+"""An episode: a world in which some robots learn, and laws drive the others."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import InputError, nearest, shown
+from mars2d.core.quantity import UNKNOWN
+from mars2d.record.record import Record
+from mars2d.scenario.experiment import load_law, open_experiment
+from mars2d.scenario.observation import Action, Observation
+from mars2d.scenario.policy import describe
+from mars2d.scenario.roles import contests_of, robots_named, role_of, roles_of
+from mars2d.scenario.scenario import Scenario
+from mars2d.world.room import Room
+from mars2d.world.views import RobotView
+from mars2d.world.world import World
+
+__all__ = ["Episode", "Law", "Reward", "Source"]
+
+Source = str | Path | ModuleType | Scenario
+Law = Callable[[Any], Any] | str | Path
+Reward = Callable[[World, RobotView], float]
+"""Called with the world and a learner after each step; returns what that step was worth."""
+
+
+class Episode:
+    """A world that begins anew with each `start`, and the robots in it that learn.
+
+    learners: their indices. observations, actions: what each
+    of them sees and does. world: the live one.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        learners: str | int | Sequence[str | int] | None,
+        laws: Mapping[str, Law] | None,
+        reward: Reward | None,
+        options: Mapping[str, Any] | None,
+        record: bool,
+    ) -> None:
+        """Take an experiment, and who learns: names, indices or roles; None: all robots.
+
+        Raises InputError for an experiment that can't be opened, and a robot or role that is not
+        there.
+        """
+        self._source, self._options = source, dict(options or {})
+        opened = open_experiment(source, self._options, seed=0)
+        scenario = opened.scenario
+        self.experiment = str(source) if isinstance(source, (str, Path)) else ""
+        self._draws = "seed" not in self._options and _takes_seed(opened.function)
+        self.learners = (
+            tuple(range(len(scenario.robots)))
+            if learners is None
+            else _indices(scenario, learners, "learner =")
+        )
+        self._laws = _laws_of(scenario, laws or {}, self.learners)
+        if reward is None and not contests_of(scenario):
+            raise InputError(
+                "reward = None: expected a function reward(world, robot), as the experiment has no "
+                "contest whose winner gets 1 and whose loser gets -1"
+            )
+        self._reward = won_or_lost if reward is None else reward
+        self.world = World(
+            self._cast(scenario), opened.control, 0, filename=opened.filename, record=record
+        )
+        self.world.observe()
+        self.observations = [
+            Observation.of(scenario, i, self.world.robots[i]) for i in self.learners
+        ]
+        self.names = [str(scenario.robots[i].name) for i in self.learners]
+        self.actions = [
+            Action.of(scenario.robots[i].drive, name)
+            for i, name in zip(self.learners, self.names, strict=True)
+        ]
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario of the present world."""
+        return self.world.scenario
+
+    @property
+    def record(self) -> Record:
+        """The record so far. Raises InputError where none is kept."""
+        if self.world.simulation.storage is None:
+            raise InputError("no record is kept: make the environment with record=True")
+        return self.world.record
+
+    def metadata_of(self, k: int) -> str:
+        """Return what a policy's file says of learner k: its spaces, and where it learned."""
+        drive = self.scenario.robots[self.learners[k]].drive
+        return describe(
+            self.observations[k], self.actions[k], type(drive).__name__, self.experiment,
+            self.names[k],
+        )  # fmt: skip
+
+    def _cast(self, scenario: Scenario) -> Scenario:
+        """Return a scenario in which learners have no laws, and others those that were given."""
+        robots = [
+            robot.replace(controller=None)
+            if i in self.learners
+            else robot.replace(controller=self._laws.get(i, robot.controller))
+            for i, robot in enumerate(scenario.robots)
+        ]
+        return scenario.replace(robots=robots)
+
+    def start(self, seed: int) -> None:
+        """Begin anew: what is drawn at random, starts too, is drawn from the seed."""
+        scenario = None
+        if self._draws:
+            scenario = self._cast(open_experiment(self._source, self._options, seed=seed).scenario)
+        self.world.reset(seed=seed, scenario=scenario)
+        self._room: Room | None = None
+        now = self.world.scenario
+        if now.workspace is not None and now.on_exit == "stop":
+            self._room = Room(now.workspace, len(now.robots))
+        self.world.observe()
+
+    def step(self, commands: Mapping[int, tuple[float, float]]) -> None:
+        """Do one control step, and let add-ons and sensors see the instant after it."""
+        world = self.world
+        if world.over:
+            raise InputError(f"the episode is over: {world.over_message}; reset() begins another")
+        every = len(commands) == len(world.robots)
+        world.step(np.array([commands[i] for i in range(len(commands))]).T if every else commands)
+        world.observe()
+        gone = self._room is not None and self._room.left(world.pose[:2])
+        if not world.over and (gone or self.time_is_over):
+            world.step({})  # the last row of the record, in which nothing moves any more
+
+    @property
+    def time_is_over(self) -> bool:
+        """Whether the stop time is reached."""
+        return self.world.iteration >= self.world.scenario.last_iteration
+
+    @property
+    def terminated(self) -> bool:
+        """Whether something has ended it before its time."""
+        return self.world.over and not self.time_is_over
+
+    def observed(self, k: int) -> NDArray[np.float32]:
+        """Return what learner k sees."""
+        return self.observations[k](self.world.robots[self.learners[k]])
+
+    def reward(self, k: int) -> float:
+        """Return what the last step was worth to learner k."""
+        value = self._reward(self.world, self.world.robots[self.learners[k]])
+        try:
+            worth = float(value)
+        except (TypeError, ValueError):
+            worth = np.nan
+        if not np.isfinite(worth):
+            raise InputError(f"reward returned {shown(value)}: expected a finite number")
+        return worth
+
+    def command(self, k: int, action: Any) -> tuple[float, float]:
+        """Return learner k's command: an action of -1 is the drive's least one, 1 the largest.
+
+        Actions beyond are clipped. Raises InputError unless it is two finite numbers.
+        """
+        try:
+            values = np.asarray(action, dtype=float)
+        except (TypeError, ValueError):
+            values = np.empty(0)
+        if values.shape != (2,):
+            found = f"an array of shape {values.shape}" if values.size else shown(action)
+            self._refuse(k, found, "shape (2,)")
+        first, second = values.tolist()
+        if not abs(first) + abs(second) < np.inf:
+            self._refuse(k, shown((first, second)), "both finite")
+        return self.actions[k](first, second)
+
+    def _refuse(self, k: int, found: str, expected: str) -> NoReturn:
+        quantities = self.scenario.robots[self.learners[k]].drive.quantities or UNKNOWN
+        names = ", ".join(quantity.name for quantity in quantities)
+        raise InputError(
+            f"the action of {self.names[k]} is {found}: expected shares of its bounds for "
+            f"({names}), from -1 to 1, {expected}"
+        )
+
+
+def won_or_lost(world: World, robot: RobotView) -> float:
+    """Return 1 when a robot's role has won, -1 when another has; 0 before, and for a draw."""
+    if not world.over:
+        return 0.0
+    mine = role_of(world.scenario, robot.index)
+    for contest in contests_of(world.scenario):
+        winner = getattr(world.addons, contest.key).winner
+        if winner is not None and mine:
+            return 1.0 if winner == mine else -1.0
+    return 0.0
+
+
+def _takes_seed(function: Callable[..., Any] | None) -> bool:
+    return function is not None and "seed" in inspect.signature(function).parameters
+
+
+def _indices(
+    scenario: Scenario, named: str | int | Sequence[str | int], field: str
+) -> tuple[int, ...]:
+    """Return robots by names, indices or roles; a single name stands for one robot."""
+    if isinstance(named, (str, int)):
+        return robots_named(scenario, named, field)
+    roles = roles_of(scenario)
+    found = [
+        robot
+        for who in named
+        for robot in (roles.get(str(who)) or robots_named(scenario, who, field))
+    ]
+    return tuple(dict.fromkeys(found))
+
+
+def _laws_of(
+    scenario: Scenario, laws: Mapping[str, Law], learners: Sequence[int]
+) -> dict[int, Callable[[Any], Any]]:
+    """Return the given laws by the indices of the robots that they drive."""
+    found: dict[int, Callable[[Any], Any]] = {}
+    for who, law in laws.items():
+        robots = _indices(scenario, [who], "laws of")
+        for robot in robots:
+            if robot in learners:
+                raise InputError(f"laws: {scenario.robots[robot].name} learns, it has no law")
+            found[robot] = load_law(law) if isinstance(law, (str, Path)) else law
+            if not callable(found[robot]):
+                raise InputError(
+                    f"laws[{who!r}] = {shown(law)}: expected a function of the robot, or a file"
+                )
+    return found
+
+
+def index_of(names: Sequence[str], name: object, field: str) -> int:
+    """Return the place of a name. Raises InputError, with the nearest one, if it is not there."""
+    if name not in names:
+        raise InputError(f"{field}: there is no learner {shown(name)}{nearest(str(name), names)}")
+    return names.index(str(name))

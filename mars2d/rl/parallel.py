@@ -1,0 +1,168 @@
+"""An environment of PettingZoo: several robots of an experiment learn at the same time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.errors import InputError
+from mars2d.core.extras import extra
+from mars2d.record.record import Record
+from mars2d.rl.environment import SEEDS, observation_space
+from mars2d.rl.episode import Episode, Law, Reward, Source, index_of
+from mars2d.rl.screen import MODES, Screen, checked_mode
+from mars2d.world.world import World
+
+with extra("rl", "environments of several learners need pettingzoo"):
+    from gymnasium.spaces import Box
+    from pettingzoo import ParallelEnv
+
+__all__ = ["ParallelEnvironment"]
+
+Row = NDArray[np.float32]
+
+
+class ParallelEnvironment(ParallelEnv[str, Row, Row]):
+    """Several robots of an experiment learn at the same time, and laws drive the others.
+
+    >>> environment = ParallelEnvironment("corner_game")
+    >>> environment.possible_agents
+    ['red', 'blue']
+
+    robots: who learns: names, indices, or roles, of which all robots learn; None: all. The agents'
+    names are the robots'. All go on until the experiment is over. The other arguments, spaces and
+    ends are those of `mars2d.rl.Environment`.
+    """
+
+    metadata: dict[str, Any] = {"name": "mars2d", "render_modes": MODES, "is_parallelizable": True}
+
+    def __init__(
+        self,
+        experiment: Source,
+        robots: Sequence[str | int] | None = None,
+        *,
+        reward: Reward | None = None,
+        laws: Mapping[str, Law] | None = None,
+        options: Mapping[str, Any] | None = None,
+        render_mode: str | None = None,
+        size: tuple[int, int] = (640, 480),
+        record: bool = False,
+    ) -> None:
+        self.render_mode = checked_mode(render_mode)
+        self._episode = episode = Episode(experiment, robots, laws, reward, options, record)
+        self.possible_agents = [*episode.names]
+        self.agents: list[str] = []
+        self.metadata = {
+            **self.metadata, "render_fps": 1 / episode.scenario.sampling_time,
+        }  # fmt: skip
+        count = range(len(episode.names))
+        self.observation_spaces = {episode.names[k]: observation_space(episode, k) for k in count}
+        self.action_spaces = {name: Box(-1.0, 1.0, (2,), np.float32) for name in episode.names}
+        self._random = np.random.default_rng()
+        self._screen = None if render_mode is None else Screen(size, render_mode == "human")
+
+    def observation_space(self, agent: str) -> Box:
+        """Return the space of what an agent sees; always the same object."""
+        return self.observation_spaces[self.possible_agents[self._place(agent)]]
+
+    def action_space(self, agent: str) -> Box:
+        """Return the space of an agent's commands; always the same object."""
+        return self.action_spaces[self.possible_agents[self._place(agent)]]
+
+    def _place(self, agent: str) -> int:
+        return index_of(self.possible_agents, agent, "ParallelEnvironment")
+
+    @property
+    def world(self) -> World:
+        """The live world."""
+        return self._episode.world
+
+    @property
+    def record(self) -> Record:
+        """The record of the present episode. Raises InputError where none is kept."""
+        return self._episode.record
+
+    def policy_metadata(self, agent: str) -> str:
+        """Return the text that an ONNX file of this agent's policy needs as metadata ``mars2d``."""
+        return self._episode.metadata_of(self._place(agent))
+
+    def reset(
+        self,
+        seed: int | None = None,
+        options: dict[str, Any] | None = None,  # noqa: ARG002
+    ) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
+        """Begin an episode; return what each agent sees, and empty dicts."""
+        if seed is not None:
+            self._random = np.random.default_rng(seed)
+        self._episode.start(int(self._random.integers(SEEDS)) if seed is None else seed)
+        self.agents = [*self.possible_agents]
+        self._show()
+        return self._observed(), {agent: {} for agent in self.agents}
+
+    def step(
+        self, actions: Mapping[str, Any]
+    ) -> tuple[
+        dict[str, Row],
+        dict[str, float],
+        dict[str, bool],
+        dict[str, bool],
+        dict[str, dict[str, Any]],
+    ]:
+        """Do one control step under the action (2,) of each agent.
+
+        Returns observations, rewards, terminations, truncations and infos, by agent. Raises
+        InputError for an action that is missing, of another shape or not finite, and for an agent
+        that is not there.
+        """
+        episode, agents = self._episode, self.possible_agents
+        for agent in actions:
+            self._place(agent)
+        missing = [agent for agent in self.agents if agent not in actions]
+        if missing:
+            raise InputError(f"step(actions): there is no action of {missing[0]}")
+        episode.step(
+            {
+                episode.learners[k]: episode.command(k, actions[agent])
+                for k, agent in enumerate(agents)
+                if agent in actions
+            }
+        )
+        rewards = {agent: episode.reward(k) for k, agent in enumerate(agents)}
+        world, time_is_over = episode.world, episode.time_is_over
+        terminated = world.over and not time_is_over
+        info = {"over": world.over_message} if world.over else {}
+        self._show()
+        results = (
+            self._observed(),
+            rewards,
+            dict.fromkeys(agents, terminated),
+            dict.fromkeys(agents, time_is_over),
+            {agent: dict(info) for agent in agents},
+        )
+        if world.over:
+            self.agents = []
+        return results
+
+    def _observed(self) -> dict[str, Row]:
+        return {name: self._episode.observed(k) for k, name in enumerate(self.possible_agents)}
+
+    def render(self) -> Any:
+        """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
+        if self._screen is None:
+            return None
+        if self.render_mode == "rgb_array":
+            return self._screen.pixels(self.world.frame)
+        self._screen.show(self.world.frame)
+        return None
+
+    def _show(self) -> None:
+        if self.render_mode == "human":
+            self.render()
+
+    def close(self) -> None:
+        """Close the window."""
+        if self._screen is not None:
+            self._screen.close()

@@ -1,0 +1,22 @@
+"""The names under which gymnasium knows the environments of `mars2d.rl.tasks`."""
+
+from __future__ import annotations
+
+import gymnasium
+
+__all__ = ["IDS", "register"]
+
+IDS = {
+    "mars2d/Pursuit-v0": "pursuit",
+    "mars2d/Push-v0": "push",
+    "mars2d/Sumo-v0": "sumo",
+    "mars2d/Coverage-v0": "coverage",
+}
+"""The names of the environments, and the functions that make them."""
+
+
+def register() -> None:
+    """Make the environments known to gymnasium; again does nothing."""
+    for name, function in IDS.items():
+        if name not in gymnasium.registry:
+            gymnasium.register(id=name, entry_point=f"mars2d.rl.tasks:{function}")

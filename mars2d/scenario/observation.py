@@ -1,0 +1,284 @@
+"""What a learner sees and does: a row of numbers with bounds, and shares of a drive's bounds."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from math import cos, inf, isfinite, sin
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.bodies.drives.base import Drive
+from mars2d.core.errors import InputError, nearest, shown
+from mars2d.scenario.scenario import Scenario
+
+__all__ = ["Action", "Observation", "Part"]
+
+Float = NDArray[np.float64]
+Row = NDArray[np.float32]
+
+SENSED = "sense."
+"""The beginning of the names of parts that are readings of sensors."""
+
+
+class Part(NamedTuple):
+    """Some numbers of an observation: their name, and the least and largest value of each."""
+
+    name: str
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+
+
+class Observation:
+    """Turns what a robot's law may see into a row of numbers (k,), float32, within bounds.
+
+    Its parts depend on `Robot.sees`:
+
+    - "pose": x, y [m], cos and sin of the heading; not with "sensors";
+    - "positions": of each other robot, by index, its position seen from the robot [m], in the
+      frame of the drive's commands: ahead and left, or along x and y for a drive that moves in the
+      world's frame. Zeros for one that is no neighbour now. Only with "positions";
+    - "poses": the same, and cos and sin of its heading in that frame; with "partial" and "full";
+    - "props": the same of each prop; with "full";
+    - "sense.NAME": the reading of each sensor. A missing distance is the sensor's range, any other
+      missing number 0.
+
+    Positions are bounded by the workspace, readings by what the sensor can measure. Numbers beyond
+    are clipped.
+    """
+
+    def __init__(self, parts: Sequence[Part]) -> None:
+        """Take the parts, in order."""
+        self.parts = tuple(parts)
+        self.low: Float = np.array([x for part in parts for x in part.low])
+        self.high: Float = np.array([x for part in parts for x in part.high])
+        self._readers = [
+            (_read_sensor, name[len(SENSED):]) if name.startswith(SENSED)
+            else (READERS[name], len(low))
+            for name, low, _ in parts
+        ]  # fmt: skip
+        self._sizes = [len(low) for _, low, _ in parts]
+        self._posed = any(not part.name.startswith(SENSED) for part in parts)
+        self._least, self._most = self.low.astype(np.float32), self.high.astype(np.float32)
+        self._missing: Float = np.where(np.isfinite(self.high), self.high, 0.0)
+
+    @classmethod
+    def of(cls, scenario: Scenario, robot: int, view: Any) -> Self:
+        """Return the observation of a robot, by its index.
+
+        view: the robot as its law sees it, with readings. Raises InputError where it sees nothing,
+        and for a sensor whose readings are not a fixed number of numbers.
+        """
+        who = scenario.robots[robot]
+        xmin, xmax, ymin, ymax = scenario.bounds
+        extent = max(map(abs, scenario.bounds))
+        across = float(np.hypot(xmax - xmin, ymax - ymin))
+        place, turn = (across, across), (1.0, 1.0)
+        others, parts = len(scenario.robots) - 1, []
+
+        def add(name: str, high: tuple[float, ...]) -> None:
+            if high:
+                parts.append(Part(name, tuple(-x for x in high), high))
+
+        if who.sees != "sensors":
+            parts.append(Part("pose", (xmin, ymin, -1.0, -1.0), (xmax, ymax, 1.0, 1.0)))
+            headings = who.sees != "positions"
+            add("poses" if headings else "positions", (place + turn * headings) * others)
+        if who.sees == "full":
+            add("props", (place + turn) * len(scenario.props))
+        for sensor in who.sensors:
+            reading = getattr(view.sense, sensor.key)
+            low, high = sensor.limits(extent)
+            count = _numbers_of(reading, f"{who.name}: sensor {sensor.key!r}").size
+            times, rest = divmod(count, len(low))
+            if rest:
+                times, low, high = count, np.array([-inf]), np.array([inf])
+            parts.append(
+                Part(SENSED + sensor.key, tuple(low.tolist()) * times, tuple(high.tolist()) * times)
+            )
+        if not parts:
+            raise InputError(
+                f"{who.name} sees sensors only, and carries none: give it sensors, or another sees"
+            )
+        return cls(parts)
+
+    def __call__(self, view: Any) -> Row:
+        """Return what a robot sees now, (k,), float32, within the bounds.
+
+        Raises InputError where a part is of another size. It does not ask whether the robot's law
+        may see all parts: `check` does.
+        """
+        look = _Look(view) if self._posed else None
+        row: list[float] = []
+        for (read, key), size, part in zip(self._readers, self._sizes, self.parts, strict=True):
+            values = read(view, key, look)
+            if len(values) != size:
+                raise InputError(
+                    f"{part.name} of {view.name} has {len(values)} numbers, expected {size}"
+                )
+            row += values
+        return self._bounded(row)
+
+    def check(self, view: Any) -> None:
+        """Raise InputError or LawError for a robot that can't be observed so, or may not see it."""
+        seen: dict[str, Callable[[], Any]] = {
+            "pose": lambda: view.pose,
+            "positions": lambda: [other.position for other in view.neighbours],
+            "poses": lambda: [other.pose for other in view.neighbours],
+            "props": lambda: view.world.prop_pose,
+        }
+        for part in self.parts:
+            if part.name in seen:
+                seen[part.name]()
+        self(view)
+
+    def _bounded(self, row: list[float]) -> Row:
+        values = np.array(row)
+        if not isfinite(sum(row)):
+            values = np.where(np.isnan(values), 0.0, values)
+            values = np.where(np.isposinf(values), self._missing, values)
+        bounded = values.astype(np.float32)
+        np.maximum(bounded, self._least, out=bounded)
+        return np.minimum(bounded, self._most, out=bounded)
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Return the parts as JSON, with None for a bound that is infinite."""
+        return [
+            {
+                "name": p.name,
+                "low": [_finite(x) for x in p.low],
+                "high": [_finite(x) for x in p.high],
+            }
+            for p in self.parts
+        ]
+
+    @classmethod
+    def of_json(cls, given: Any) -> Self:
+        """Return the observation that `to_json` has described. Raises InputError for others."""
+        try:
+            parts = []
+            for each in given:
+                low = [-inf if x is None else float(x) for x in each["low"]]
+                high = [inf if x is None else float(x) for x in each["high"]]
+                if len(low) != len(high):
+                    raise ValueError(each)  # noqa: TRY301
+                parts.append(Part(str(each["name"]), tuple(low), tuple(high)))
+        except (TypeError, KeyError, ValueError) as error:
+            raise InputError(f"its observation is {shown(json.dumps(given))}") from error
+        for part in parts:
+            if part.name not in READERS and not part.name.startswith(SENSED):
+                raise InputError(
+                    f"its observation has a part {part.name!r}{nearest(part.name, READERS)}"
+                )
+        return cls(parts)
+
+
+class Action(NamedTuple):
+    """Turns two shares, from -1 to 1, into a command: from its least value to its largest one."""
+
+    low: tuple[float, float]
+    high: tuple[float, float]
+
+    @classmethod
+    def of(cls, drive: Drive, robot: str) -> Self:
+        """Return the action of a robot's drive. Raises InputError if that has no bounds."""
+        (a, b), (c, d) = drive.bounds.tolist()
+        if not isfinite(a + b + c + d):
+            raise InputError(
+                f"{robot}: its drive, {type(drive).__name__}, does not limit its commands: a "
+                "learner needs bounds; give it a `saturate` that has some"
+            )
+        return cls((a, b), (c, d))
+
+    def __call__(self, first: float, second: float) -> tuple[float, float]:
+        """Return the command for two finite shares; beyond -1 and 1 they are clipped."""
+        (a, b), (c, d) = self
+        return (
+            a + (c - a) * (min(max(first, -1.0), 1.0) + 1) / 2,
+            b + (d - b) * (min(max(second, -1.0), 1.0) + 1) / 2,
+        )
+
+
+def _finite(number: float) -> float | None:
+    return number if isfinite(number) else None
+
+
+def _numbers_of(reading: Any, name: str) -> Float:
+    """Return a reading as numbers (k,). Raises InputError if it is anything else."""
+    try:
+        values = np.asarray(reading)
+    except ValueError:
+        values = np.empty(0, dtype=object)
+    if values.dtype.kind not in "fiub" or not values.size:
+        raise InputError(
+            f"{name} reads {shown(reading)}, not a fixed number of numbers: a learner can't use it"
+        )
+    return values.ravel().astype(float)
+
+
+class _Look:
+    """What the parts of one observation share: all poses, and the axes of the robot's commands."""
+
+    def __init__(self, view: Any) -> None:
+        self.world, self.me = view._world, view._index
+        self.xs, self.ys, self.thetas = self.world.pose.tolist()
+        self.x, self.y = self.xs[self.me], self.ys[self.me]
+        self.heading = self.thetas[self.me]
+        self.turn = 0.0 if view.drive.frame == "world" else self.heading
+        self.c, self.s = cos(self.turn), sin(self.turn)
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """Return a point in the frame of the commands, m."""
+        dx, dy = x - self.x, y - self.y
+        return self.c * dx + self.s * dy, self.c * dy - self.s * dx
+
+    def others(self, each: int) -> list[float]:
+        """Return a row with a place for each other robot, and zeros in it."""
+        return [0.0] * (each * (len(self.xs) - 1))
+
+
+def _read_sensor(view: Any, key: Any, look: Any) -> list[float]:  # noqa: ARG001
+    reading = getattr(view.sense, key)
+    if isinstance(reading, np.ndarray):
+        return reading.ravel().tolist()
+    if isinstance(reading, (bool, int, float)):
+        return [float(reading)]
+    return _numbers_of(reading, f"{view.name}: sensor {key!r}").tolist()  # type: ignore[no-any-return]
+
+
+def _read_pose(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+    return [look.x, look.y, cos(look.heading), sin(look.heading)]
+
+
+def _read_positions(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+    row, me = look.others(2), look.me
+    for j in look.world.neighbour_indices(me):
+        at = 2 * (j - (j > me))
+        row[at : at + 2] = look.place(look.xs[j], look.ys[j])
+    return row
+
+
+def _read_poses(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+    row, me = look.others(4), look.me
+    for j in look.world.neighbour_indices(me):
+        at, turned = 4 * (j - (j > me)), look.thetas[j] - look.turn
+        row[at : at + 4] = *look.place(look.xs[j], look.ys[j]), cos(turned), sin(turned)
+    return row
+
+
+def _read_props(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+    row: list[float] = []
+    for x, y, theta in look.world.prop_pose.T.tolist():
+        row += *look.place(x, y), cos(theta - look.turn), sin(theta - look.turn)
+    return row
+
+
+READERS: Mapping[str, Callable[[Any, Any, Any], list[float]]] = {
+    "pose": _read_pose,
+    "positions": _read_positions,
+    "poses": _read_poses,
+    "props": _read_props,
+}
+"""How the parts of an observation are read, besides sensors."""

@@ -1,0 +1,127 @@
+"""Policies: laws that were learned, as ONNX files."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+
+from mars2d.core.errors import InputError, LawError, Mars2dError, likely, one_line, shown
+from mars2d.core.extras import extra
+from mars2d.core.files import note_file
+from mars2d.scenario.observation import Action, Observation
+
+__all__ = ["KEY", "SUFFIX", "Policy", "describe"]
+
+SUFFIX = ".onnx"
+
+KEY = "mars2d"
+"""The key of the metadata of an ONNX file under which the spaces of its policy stand, as JSON."""
+
+
+def describe(
+    observation: Observation, action: Action, drive: str, experiment: str = "", robot: str = ""
+) -> str:
+    """Return the metadata of a policy, as JSON: its observation, its action, the drive's name.
+
+    experiment, robot: where it was learned, so that `mars2d check` can try it there.
+    """
+    described = {
+        "observation": observation.to_json(), "action": action._asdict(), "drive": drive,
+        "experiment": experiment, "robot": robot,
+    }  # fmt: skip
+    return json.dumps(described)
+
+
+class Policy:
+    """A law that was learned: a network from observations to commands, read from an ONNX file.
+
+    It has no memory: copies of it are itself. Its network takes one input (1, k), float32, and
+    returns an action (1, 2), from -1 for the least command that it was learned with to 1 for the
+    largest. The file's metadata say which observation and commands these are, see `mars2d.rl`.
+    """
+
+    def __init__(self, file: Path) -> None:
+        """Read a file. Raises InputError, which names it, and MissingExtraError."""
+        note_file(file)
+        self.file = file
+        self.__name__ = file.stem
+        with extra("rl", f"{file.name}: a learned law needs onnxruntime"):
+            import onnxruntime
+        options = onnxruntime.SessionOptions()
+        options.intra_op_num_threads = options.inter_op_num_threads = 1  # the same bits everywhere
+        options.log_severity_level = 4
+        try:
+            content = file.read_bytes()
+            self._session = onnxruntime.InferenceSession(
+                content, options, providers=["CPUExecutionProvider"]
+            )
+        except OSError as error:
+            raise InputError(f"{file}: {one_line(error.strerror or error)}") from error
+        except Exception as error:  # of many kinds, of the library's own
+            raise InputError(f"{file}: no network in the format ONNX: {one_line(error)}") from error
+        self._take(self._session.get_modelmeta().custom_metadata_map)
+
+    def _take(self, metadata: dict[str, str]) -> None:
+        """Take the spaces of its metadata, and compare them with those of the network."""
+        hint = "; mars2d.rl's environments have them as `policy_metadata`"
+        if KEY not in metadata:
+            self._refuse(f"has no metadata {KEY!r} with its spaces{likely(KEY, metadata)}{hint}")
+        try:
+            given = json.loads(metadata[KEY])
+            self.drive, action = str(given["drive"]), given["action"]
+            (a, b), (c, d) = action["low"], action["high"]
+            self.action = Action((float(a), float(b)), (float(c), float(d)))
+            self.experiment, self.robot = str(given["experiment"]), str(given["robot"])
+            observed = given["observation"]
+        except (ValueError, TypeError, KeyError):
+            self._refuse(f"has metadata {KEY!r} that can't be read{hint}")
+        try:
+            self.observation = Observation.of_json(observed)
+        except InputError as error:
+            self._refuse(str(error))
+        inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
+        size = len(self.observation.low)
+        if len(inputs) != 1 or inputs[0].type != "tensor(float)" or inputs[0].shape[-1] != size:
+            found = ", ".join(f"{each.type} {each.shape}" for each in inputs)
+            self._refuse(f"takes {found}; its metadata say one tensor(float) [1, {size}]")
+        if outputs[0].shape[-1] != 2:
+            self._refuse(f"returns {outputs[0].shape}, expected an action [1, 2]")
+        self._input = inputs[0].name
+
+    def _refuse(self, why: str) -> NoReturn:
+        raise InputError(f"{self.file}: {why}")
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Policy:
+        return self
+
+    def __call__(self, robot: Any) -> tuple[float, float]:
+        """Return the command for what a robot sees now.
+
+        Raises LawError for a robot with another drive, or another observation.
+        """
+        if getattr(robot.memory, "_fits", None) is not self:
+            self._check(robot)
+        (result, *_) = self._session.run(None, {self._input: self.observation(robot)[None]})
+        first, second = result[0].tolist()
+        if not abs(first) + abs(second) < np.inf:
+            raise LawError(f"{self.file.name} returned {shown((first, second))}: expected numbers")
+        return self.action(first, second)
+
+    def _check(self, robot: Any) -> None:
+        """Raise LawError unless a robot has the drive and the parts that it was learned with."""
+        drive = type(robot.drive).__name__
+        if drive != self.drive:
+            raise LawError(
+                f"{self.file.name} commands a {self.drive}, and {robot.name} is a {drive}"
+            )
+        try:
+            self.observation.check(robot)
+        except (Mars2dError, IndexError, ValueError) as error:
+            names = ", ".join(part.name for part in self.observation.parts)
+            raise LawError(
+                f"{self.file.name} does not fit: it observes {names}; {one_line(error)}"
+            ) from error
+        robot.memory._fits = self

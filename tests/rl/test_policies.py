@@ -1,0 +1,184 @@
+"""Laws that were learned: loaded from ONNX files, checked, played in a tournament, refused."""
+
+import json
+
+import numpy as np
+import onnx
+import pytest
+from onnx import TensorProto, helper, numpy_helper
+
+import mars2d
+from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World, load_law
+from mars2d.cli.command_line import main
+from mars2d.rl import Environment
+from mars2d.sensors import RangeFinder
+
+
+def save(path, metadata, action=(0.5, 0.0), size=6, outputs=2):
+    """Write a network that always returns `action`, whatever it sees."""
+    bias = np.resize(np.array(action, np.float32), outputs)
+    graph = helper.make_graph(
+        [helper.make_node("Gemm", ["observation", "w", "b"], ["action"])],
+        "policy",
+        [helper.make_tensor_value_info("observation", TensorProto.FLOAT, [1, size])],
+        [helper.make_tensor_value_info("action", TensorProto.FLOAT, [1, outputs])],
+        [
+            numpy_helper.from_array(np.zeros((size, outputs), np.float32), "w"),
+            numpy_helper.from_array(bias, "b"),
+        ],
+    )
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=8)
+    if metadata is not None:
+        helper.set_model_props(model, metadata)
+    onnx.save(model, path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def spaces():
+    return Environment("corner_game", "pursuer").policy_metadata
+
+
+@pytest.fixture
+def policy(spaces, tmp_path):
+    return save(tmp_path / "hunter.onnx", {"mars2d": spaces})
+
+
+def test_a_policy_commands_shares_of_the_bounds_that_it_was_learned_with(policy):
+    record = mars2d.run("corner_game", stop_time=2, options={"pursuer": str(policy)})
+    assert record.command[:, :, 0] == pytest.approx(np.tile([0.225, 0.0], (21, 1)))
+
+
+def test_a_policy_decides_as_the_environment_asked_it(spaces, policy):
+    environment = Environment("corner_game", "pursuer", record=True, options={"stop_time": 2})
+    environment.reset(seed=4)
+    for _ in range(20):
+        environment.step([0.5, 0.0])
+    options = {"pursuer": str(policy)}
+    run = mars2d.run("corner_game", stop_time=2, seed=4, options=options)
+    assert np.array_equal(environment.record.pose, run.pose)
+
+
+def test_a_world_with_a_policy_forks(policy):
+    robot = Robot(drive=Holonomic(max_linear_speed=0.45), sees="positions")
+    law = load_law(policy)
+    world = World(Scenario(robots=[robot.at(0, 0).replace(controller=law), robot.at(2, 0)]))
+    world.step()
+    fork = world.fork()
+    fork.step()
+    world.step()
+    assert np.allclose(fork.pose, world.pose)
+
+
+def test_it_is_checked_where_it_was_learned_and_in_a_game(policy, capsys):
+    assert main(["check", str(policy)]) == 0
+    assert "law hunter of red: sound\n" in capsys.readouterr().out
+    command = ["check", str(policy), "--for", "corner_game", "--role", "pursuer"]
+    assert main([*command, "--set", "stop_time=2"]) == 0
+    assert "forfeited none" in capsys.readouterr().out
+
+
+def test_the_trained_pursuer_catches_and_forfeits_nothing_in_the_default_game(capsys):
+    from mars2d.scenario.experiment import examples
+
+    file = examples()["corner_game"].parent / "learning" / "pursuit.onnx"
+    command = ["check", str(file), "--for", "corner_game", "--role", "pursuer"]
+    assert main([*command, "--set", "stop_time=3"]) == 0
+    assert "forfeited none" in capsys.readouterr().out
+    options = {"pursuer": str(file), "mu": 1.2}
+    record = mars2d.run("corner_game", stop_time=60, seed=1, options=options)
+    assert "red catches blue" in record.over_message
+
+
+def test_a_folder_of_laws_in_a_tournament_has_policies_too(policy):
+    from mars2d.study.tournament.schedule import law_files
+
+    (policy.parent / "notes.txt").write_text("")
+    (policy.parent / "straight.py").write_text("def control(robot): return 0, 0\n")
+    assert [file.name for file in law_files(policy.parent)] == ["hunter.onnx", "straight.py"]
+
+
+def changed(metadata, **values):
+    return {"mars2d": json.dumps(json.loads(metadata) | values)}
+
+
+PART = {"name": "posse", "low": [0], "high": [1]}
+
+BROKEN = {
+    "no network in the format ONNX": lambda path, spaces: path.write_bytes(b"nonsense"),
+    "has no metadata 'mars2d' with its spaces": lambda path, spaces: save(path, None),
+    "no metadata 'mars2d' with its spaces; did you mean 'mars'": lambda path, spaces: save(
+        path, {"mars": spaces}
+    ),
+    "has metadata 'mars2d' that can't be read": lambda path, spaces: save(path, {"mars2d": "{"}),
+    "its observation has a part 'posse'; did you mean 'pose'": lambda path, spaces: save(
+        path, changed(spaces, observation=[PART])
+    ),
+    "takes tensor(float) [1, 4]; its metadata say one tensor(float) [1, 6]": lambda p, s: save(
+        p, {"mars2d": s}, size=4
+    ),
+    "returns [1, 3], expected an action [1, 2]": lambda path, spaces: save(
+        path, {"mars2d": spaces}, outputs=3
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("words", BROKEN)
+def test_a_broken_file_is_one_line_that_names_it(words, spaces, tmp_path):
+    path = tmp_path / "hunter.onnx"
+    BROKEN[words](path, spaces)
+    with pytest.raises(InputError) as caught:
+        load_law(path)
+    assert words in str(caught.value)
+    assert "hunter.onnx" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_name_that_is_not_there_has_the_nearest_one(policy, monkeypatch):
+    monkeypatch.chdir(policy.parent)
+    with pytest.raises(InputError, match=r"did you mean 'hunter\.onnx'"):
+        load_law("huntr.onnx")
+    with pytest.raises(InputError, match="no other names and no arguments"):
+        load_law(policy, speed=2)
+
+
+HOLONOMIC = Robot(drive=Holonomic(), sees="positions")
+
+MISFITS = {
+    "commands a Holonomic, and robot0 is a Unicycle": Scenario(robots=[Robot()]),
+    "positions of robot0 has 2 numbers, expected 4": Scenario(
+        robots=[HOLONOMIC, HOLONOMIC.at(2, 0)]
+    ),
+    "robot.pose is not available": Scenario(
+        robots=[HOLONOMIC.replace(sees="sensors", sensors=[RangeFinder()])]
+    ),
+}
+
+
+@pytest.mark.parametrize("words", MISFITS)
+def test_a_robot_that_does_not_fit_is_said_to_in_what(words, tmp_path):
+    team = Scenario(robots=[HOLONOMIC.at(x, 0) for x in (-2, 0, 2)])
+    spaces = Environment(team, reward=lambda world, robot: 0.0).policy_metadata
+    law = load_law(save(tmp_path / "hunter.onnx", {"mars2d": spaces}, size=8))
+    scenario = MISFITS[words]
+    robots = [robot.replace(controller=law) for robot in scenario.robots[:1]]
+    world = World(scenario.replace(robots=[*robots, *scenario.robots[1:]]))
+    with pytest.raises(LawError) as caught:
+        world.step()
+    assert words in str(caught.value)
+    assert "hunter.onnx" in str(caught.value)
+
+
+def test_a_sensor_that_a_robot_lacks_is_named(tmp_path):
+    robot = Robot(sees="sensors", sensors=[RangeFinder(beams=3, name="lidar")])
+    spaces = Environment(Scenario(robots=[robot]), reward=lambda world, robot: 0.0).policy_metadata
+    law = load_law(save(tmp_path / "hunter.onnx", {"mars2d": spaces}, size=3))
+    other = robot.replace(sensors=[RangeFinder(beams=3, name="lidr")], controller=law)
+    with pytest.raises(LawError, match="no sensor 'lidar'; did you mean 'lidr'"):
+        World(Scenario(robots=[other])).step()
+
+
+def test_numbers_that_are_none_are_refused(spaces, tmp_path):
+    path = save(tmp_path / "hunter.onnx", {"mars2d": spaces}, action=(np.nan, 0.0))
+    with pytest.raises(LawError, match=r"hunter\.onnx returned \(nan, 0\.0\)"):
+        mars2d.run("corner_game", stop_time=1, options={"pursuer": str(path)})
