@@ -61,7 +61,7 @@ EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest -n auto']
 """The set-up of the README, to the letter."""
 
-PIP = {*SET_UP, 'pip install ".[video,maps,data,log,cluster]"'}
+PIP = {*SET_UP, 'pip install ".[video,maps,data,log,cluster,rl]"'}
 """The only commands that are not executed, but for the part of them that is mars2d."""
 
 MEASURED = {

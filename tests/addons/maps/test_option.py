@@ -219,7 +219,7 @@ def test_check_names_the_nearest_file_and_how_to_bring_a_dwg(folder):
         (["lab.py", "--figure", "a.png"], "--figure is for maps: .dxf"),
         (
             ["plan.dwg"],
-            "plan.dwg: expected a Python file (.py), a learned law (.onnx), a scenario (.toml), a record (",
+            "plan.dwg: expected a Python file (.py), a learned law (.onnx), a scenario (.toml)",
         ),
         (["gone.dxf"], "gone.dxf: there is no such file"),
     ],
