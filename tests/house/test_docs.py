@@ -51,10 +51,11 @@ ROOT = Path(__file__).parents[2]
 SENSORS = sorted((ROOT / "docs" / "sensors").glob("*.md"))
 EXPERIMENTS = sorted((ROOT / "docs" / "experiments").glob("*.md"))
 PURSUIT = sorted((ROOT / "docs" / "pursuit").glob("*.md"))
+DOORS = sorted((ROOT / "docs" / "doors").glob("*.md"))
 LEARNING = sorted((ROOT / "docs" / "learning").glob("*.md"))
 DOCUMENTS = [
     ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS, *EXPERIMENTS, *PURSUIT,
-    *LEARNING,
+    *LEARNING, *DOORS,
 ]  # fmt: skip
 EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
@@ -392,8 +393,8 @@ def table(text: str) -> list[list[str]]:
     return [row for row in cells if not all(re.fullmatch(r":?-+:?", c) for c in row)]
 
 
-def test_the_keys_in_the_readme_are_those_of_the_window():
-    rows = table((ROOT / "README.md").read_text(encoding="utf-8"))
+def test_the_keys_in_its_page_are_those_of_the_window():
+    rows = table((ROOT / "docs" / "window.md").read_text(encoding="utf-8"))
     start = rows.index(["Key", "What it does"]) + 1
     wanted = [[" ".join(key.labels), key.help] for key in (*keys.KEYS, *keys.MOUSE)]
     assert rows[start : start + len(wanted)] == wanted

@@ -1,0 +1,203 @@
+"""What mkdocs does besides: the gallery, the reference, and links to files beside docs/.
+
+The gallery has all examples; the reference has a page for each public name, with its fields and
+the places that use it. Both follow from the package, so nothing is kept by hand.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import re
+from collections.abc import Iterator
+from functools import cache
+from html import escape
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
+
+import mars2d
+from mars2d.core.description import Description
+from mars2d.scenario.courses import courses, title_of
+from mars2d.scenario.experiment import examples
+from mars2d.scenario.registry import summary
+
+DOCS = Path(__file__).parent
+ROOT = DOCS.parent
+
+REPOSITORY = "https://github.com/mars2d/mars2d"
+
+MODULES = (
+    "mars2d", "mars2d.bodies", "mars2d.sensors", "mars2d.addons", "mars2d.geometry",
+    "mars2d.scenario", "mars2d.record", "mars2d.rl", "mars2d.testing", "mars2d.study",
+)  # fmt: skip
+"""The modules whose names are public, in the order in which people meet them."""
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the pages that follow from the package, and the pictures of the gallery."""
+    for picture in sorted((ROOT / "examples" / "thumbnails").glob("*.png")):
+        at = f"thumbnails/{picture.name}"
+        files.append(File.generated(config, at, abs_src_path=str(picture)))
+    files.append(File.generated(config, "gallery.md", content=gallery()))
+    files.append(File.generated(config, "reference/index.md", content=contents()))
+    for module, name in public_names():
+        content = reference(module, name)
+        files.append(File.generated(config, page_of(module, name), content=content))
+    return files
+
+
+def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
+    """Lead links to files beside docs/ to the repository."""
+    folder = (DOCS / page.file.src_uri).parent
+
+    def led(match: re.Match[str]) -> str:
+        path, _, anchor = match[2].partition("#")
+        goal = (folder / path).resolve()
+        if re.match(r"[a-z]+:", match[2]) or not path or goal.is_relative_to(DOCS):
+            return match[0]
+        kind = "tree" if goal.is_dir() else "blob"
+        target = f"{REPOSITORY}/{kind}/main/{goal.relative_to(ROOT)}"
+        return f"{match[1]}{target}{'#' if anchor else ''}{anchor})"
+
+    return re.sub(r"(\]\()([^)\s]+)\)", led, markdown)
+
+
+# -- the gallery ----------------------------------------------------------------------------------
+
+
+def gallery() -> str:
+    """Return the page of all examples, by course."""
+    text = (
+        "# Gallery\n\nAll examples, by course. `mars2d demo NAME` plays one, `mars2d copy NAME` "
+        "copies it for you to change.\n"
+    )
+    for course, names in courses().items():
+        cards = "\n".join(card(name) for name in names)
+        text += f'\n## {course}\n\n<div class="gallery" markdown>\n\n{cards}\n</div>\n'
+    return text
+
+
+def card(name: str) -> str:
+    """Return the card of an example: its picture, its line, its command, its page and film."""
+    title, line = title_of(name)
+    pictures = "".join(
+        f'<img class="{looks}-picture" loading="lazy" alt="" '
+        f'src="../thumbnails/{name}_{looks}.png">'
+        for looks in ("light", "dark")
+    )
+    links = [f"[source](../examples/{name}.py)"]
+    for folder in ("experiments", "pursuit"):
+        if (DOCS / folder / f"{name}.md").exists():
+            links.insert(0, f"[page]({folder}/{name}.md)")
+    if (DOCS / "pictures" / f"{name}.gif").exists():
+        links.append(f"[film](pictures/{name}.gif)")
+    return (
+        f"<figure markdown>\n{pictures}\n<figcaption markdown>\n"
+        + f"**{escape(title)}.** {escape(line)}\n"
+        + f"`mars2d demo {name}`<br>{' · '.join(links)}\n</figcaption>\n</figure>\n"
+    )
+
+
+# -- the reference --------------------------------------------------------------------------------
+
+
+@cache
+def public_names() -> tuple[tuple[str, str], ...]:
+    """Return the module and the name of everything public, each thing once."""
+    seen: set[Any] = set()
+    found = []
+    for module in MODULES:
+        held = importlib.import_module(module)
+        for name in held.__all__:
+            key = id(getattr(held, name)) if callable(getattr(held, name)) else (module, name)
+            if key not in seen and not name.startswith("__"):
+                seen.add(key)
+                found.append((module, name))
+    return tuple(found)
+
+
+def page_of(module: str, name: str) -> str:
+    """Return the page of a public name."""
+    return f"reference/{module}.{name}.md"
+
+
+def contents() -> str:
+    """Return the first page of the reference."""
+    text = "# Reference\n\nEvery public name, by the module from which it is imported.\n"
+    for module in MODULES:
+        rows = [
+            f"| [`{name}`]({module}.{name}.md) | {line_of(module, name)} |\n"
+            for held, name in public_names()
+            if held == module
+        ]
+        if rows:
+            text += f"\n## {module}\n\n| name | |\n|---|---|\n{''.join(rows)}"
+    return text
+
+
+def line_of(module: str, name: str) -> str:
+    """Return the first line about a public name."""
+    held = getattr(importlib.import_module(module), name)
+    return summary(held).replace("|", "\\|") if callable(held) else ""
+
+
+def reference(module: str, name: str) -> str:
+    """Return the page of a public name: its docstring, fields, and uses."""
+    held = getattr(importlib.import_module(module), name)
+    text = f"# {name}\n\n```python\nfrom {module} import {name}\n```\n\n"
+    text += f"::: {module}.{name}\n"
+    if isinstance(held, type) and issubclass(held, Description):
+        made = make_fields()
+        rows = "".join(made.row(held, field) for field in made.fields_of(held))
+        base = made.base_of(held)
+        if base is not None:
+            text += f"\n## Fields\n\nThose of `{base.__name__}`{', and' if rows else '.'}\n"
+        if rows:
+            text += ("" if base else "\n## Fields\n") + "\n" + made.TABLE_HEAD + rows
+    found = [*uses(name)]
+    if found:
+        text += f"\n## Used in\n\n{' · '.join(found)}\n"
+    return text
+
+
+def uses(name: str) -> Iterator[str]:
+    """Yield links to the documents and examples in whose code a name occurs."""
+    word = re.compile(rf"\b{re.escape(name)}\b")
+    for path, text in documents():
+        if word.search(text):
+            title = path.stem if path.suffix == ".py" else str(path.relative_to(DOCS))[:-3]
+            lies = f"../../examples/{path.name}" if path.suffix == ".py" else f"../{title}.md"
+            yield f"[{title}]({lies})"
+
+
+@cache
+def documents() -> tuple[tuple[Path, str], ...]:
+    """Return the code in the documents, and the examples."""
+    pages = [path for path in sorted(DOCS.rglob("*.md")) if path.name != "fields.md"]
+    block = re.compile(r"^```python$.*?^```$|`[^`\n]+`", flags=re.M | re.S)
+    found = [(path, "\n".join(block.findall(path.read_text("utf-8")))) for path in pages]
+    found += [(path, path.read_text("utf-8")) for path in sorted(examples().values())]
+    return tuple(found)
+
+
+@cache
+def make_fields() -> ModuleType:
+    """Return docs/make_fields.py."""
+    spec = importlib.util.spec_from_file_location("make_fields", DOCS / "make_fields.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """State the version."""
+    link = f'<a href="{REPOSITORY}">source</a>'
+    config.copyright = f"MARS2D {mars2d.__version__}, MIT licence, {link}"
+    return config
