@@ -98,8 +98,8 @@ def card(name: str) -> str:
         links.append(f"[film](pictures/{name}.gif)")
     return (
         f"<figure markdown>\n{pictures}\n<figcaption markdown>\n"
-        + f"**{escape(title)}.** {escape(line)}\n"
-        + f"`mars2d demo {name}`<br>{' · '.join(links)}\n</figcaption>\n</figure>\n"
+        f"**{escape(title)}.** {escape(line)}\n"
+        f"`mars2d demo {name}`<br>{' · '.join(links)}\n</figcaption>\n</figure>\n"
     )
 
 
