@@ -1,8 +1,8 @@
-"""Dead reckoning: robots that count the turns of their wheels, and believe to be home again.
+"""Dead reckoning: robots that count the turns of their wheels, and estimate that they are home again.
 
 Setting: distributed, sensors only: each steers by its odometry, round a rectangle and back. It is
 one run many times over: robots, drawn as points, that start together and don't feel each other.
-Question: how far is a robot from where it believes to be?
+Question: how far is a robot from its estimated position?
 Prediction: a wheel is off by drift sqrt(s) after s metres. After a straight way L, a robot with
 wheels B beside its middle is off by drift sqrt(L^3 / 6) / B across it: the heading goes first. The
 covariance of (x, y, theta) grows from step to step, P' = F P F^T + G Q G^T, to first order. Its

@@ -2,7 +2,7 @@
 
 Python reacts to a signal between two steps of its own. A law in C code that keeps the interpreter,
 such as the decomposition of a large matrix, stops all of it. So a process of a few kilobytes looks
-on, is told of each signal by the system, and ends the command where nothing else can.
+on, is notified of each signal, and ends the command where nothing else can.
 """
 
 from __future__ import annotations

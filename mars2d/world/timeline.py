@@ -44,7 +44,7 @@ class Timeline:
     A row is looked at as it was recorded. To change something there, a world is made that is as it
     was: from the start, or from a world that waits in the past, under the commands that were given
     then. Laws are asked again on the way, so that they remember what they did. The rows after it
-    become another branch, which can be gone back to.
+    become another branch, to which one can go back.
 
     The laws are those of the experiment, whose file is run anew for each world: so no two worlds
     share what a law keeps in its module. What laws print is not repeated, but other effects
