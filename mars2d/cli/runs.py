@@ -104,12 +104,16 @@ def speed_by_hand(scenario: Scenario, robots: Sequence[int] = ()) -> float:
 
 
 def run_headless(
-    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = (), log: Log | None = None
+    experiment: Experiment,
+    seed: int,
+    watchers: Sequence[Watcher] = (),
+    log: Log | None = None,
+    speed: float | str = "max",
 ) -> World:
     """Run to the end without a window, with a progress bar, and return the world."""
     progress = Progress(experiment.scenario.last_iteration)
     try:
-        return simulate(experiment, seed, watchers=[*watchers, progress], log=log)
+        return simulate(experiment, seed, speed, [*watchers, progress], log)
     finally:
         progress.close()
 

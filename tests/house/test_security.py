@@ -61,6 +61,7 @@ TALKS = {
     ("study/isolation/host.py", "socket"): "the same",
     ("study/isolation/guard.py", "socket"): "the same",
     ("study/isolation/process.py", "socket"): "the same",
+    ("output/formats/mcap/live.py", "socket"): "asks whether a port of this machine is free",
 }
 """Which modules may talk to other processes, and why."""
 

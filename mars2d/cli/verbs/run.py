@@ -6,7 +6,8 @@ import argparse
 import inspect
 import json
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from mars2d.cli import remarks
@@ -44,6 +45,9 @@ from mars2d.scenario.prediction import Prediction
 from mars2d.world.loop import Interrupted
 from mars2d.world.world import Watcher
 
+FOXGLOVE = 8765
+"""The port at which Foxglove looks for a server."""
+
 LONG = 20.0
 """Seconds of the engine's work after which it is worth while to have it compiled."""
 
@@ -63,6 +67,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
     add("--at", type=times, metavar="T1,T2,...", help="draw snapshots at these times instead")
+    add(
+        "--foxglove",
+        type=int,
+        nargs="?",
+        const=FOXGLOVE,
+        metavar="PORT",
+        help=f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}",
+    )
     add_film(parser)
     add_html(parser)
     add_theory(parser)
@@ -88,7 +100,11 @@ def execute(arguments: argparse.Namespace) -> None:
     start = time.perf_counter()
     run = _run_in_window if _wants_window(arguments) else _run_headless
     try:
-        record, made, troubles = run_and_save(arguments, lambda: run(arguments, experiment, bounds))
+        with _live(arguments) as live:
+            watchers: list[Watcher] = [bounds, *live]
+            record, made, troubles = run_and_save(
+                arguments, lambda: run(arguments, experiment, watchers)
+            )
     except Interrupted:
         warn_unchecked(experiment, "cut short")
         raise
@@ -109,6 +125,19 @@ def execute(arguments: argparse.Namespace) -> None:
     if troubles:
         say(troubles[:-1])
         raise troubles[-1]
+
+
+@contextmanager
+def _live(arguments: argparse.Namespace) -> Iterator[list[Watcher]]:
+    """Serve the run to Foxglove, if that is asked for, and yield who sends it."""
+    if arguments.foxglove is None:
+        yield []
+        return
+    from mars2d.output.formats.mcap.live import Live
+
+    with Live(arguments.foxglove) as live:
+        warn(f"Foxglove: open {live.address}")
+        yield [live]
 
 
 def _law_meant(experiment: Experiment) -> str:
@@ -142,7 +171,7 @@ def _wants_window(arguments: argparse.Namespace) -> bool:
 
 
 def _run_in_window(
-    arguments: argparse.Namespace, experiment: Experiment, watcher: Watcher
+    arguments: argparse.Namespace, experiment: Experiment, watchers: Sequence[Watcher]
 ) -> tuple[Record, Film | None]:
     people, look = humans_of(arguments, experiment), preferences_of(arguments)
     log = formats.log_to(arguments.record)
@@ -153,7 +182,7 @@ def _run_in_window(
         look,
         people,
         log,
-        [watcher],
+        watchers,
         kept=arguments.record is not None,
         settings=options_of(arguments),
     )
@@ -161,19 +190,20 @@ def _run_in_window(
 
 
 def _run_headless(
-    arguments: argparse.Namespace, experiment: Experiment, watcher: Watcher
+    arguments: argparse.Namespace, experiment: Experiment, watchers: Sequence[Watcher]
 ) -> tuple[Record, Film | None]:
-    """Run as fast as possible; without a window, --speed is the film's."""
+    """Run as fast as possible, or in real time for Foxglove; --speed is the film's, too."""
     log = formats.log_to(arguments.record)
+    pace = "max" if arguments.foxglove is None else arguments.speed or 1.0
     if arguments.video is None:
-        world = run_headless(experiment, arguments.seed, [watcher], log)
+        world = run_headless(experiment, arguments.seed, watchers, log, pace)
         _advise_to_compile(world.simulation.engine_seconds)
         return world.record, None
     from mars2d.output.films.footage import Footage
 
     speed = film_speed(experiment.scenario, arguments.speed)
     footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
-    world = run_headless(experiment, arguments.seed, [footage, watcher], log)
+    world = run_headless(experiment, arguments.seed, [footage, *watchers], log, pace)
     _advise_to_compile(world.simulation.engine_seconds)
     last, path, size = world.frame, arguments.video, arguments.size
     return world.record, lambda: save_footage(footage, last, path, size)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from math import cos, sin
+from math import atan2, cos, sin
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +26,10 @@ SHAPE_HEIGHT = 1e-3
 """How far a shape lies above the one before it, metres."""
 
 RING_CORNERS = 48
+
+METRES_PER_NEWTON, ARROW_HEIGHT, ARROW_COLOR = 0.01, 0.1, "#a50038"
+ARROW = 0.02, 0.08, 0.06
+"""Of a contact's arrow: the diameter of its shaft, length and diameter of its head, metres."""
 
 
 def nanoseconds(time: float) -> int:
@@ -55,7 +59,7 @@ def schema_of(kind: Any) -> bytes:
 class _Scan(NamedTuple):
     """A sensor on a robot whose readings are laser scans, and the message that is sent for each."""
 
-    channel: int
+    channel: Any
     key: str
     place: int  # of its robot among those that carry it
     period: int  # control steps
@@ -68,19 +72,20 @@ class Topics:
 
     ``/poses``: the poses of all robots and props, in the world. ``/tf``: the same as frames.
     ``/scene``: the ground and the looks of the bodies, each in its frame. ``/ROBOT/SENSOR``: laser
-    scans, when they arrive, in the robot's frame.
+    scans, when they arrive, in the robot's frame. ``/contacts``: an arrow for each contact of the
+    control step before, along the normal force on the second body, 1 m long for 100 N.
     """
 
     def __init__(
         self,
         scenario: Scenario,
         sensor_robots: Mapping[str, tuple[int, ...]],
-        channel: Callable[[str, Any], int],
+        channel: Callable[[str, Any], Any],
     ) -> None:
         """Open the channels for a scenario.
 
         sensor_robots: the robots that carry each sensor that is recorded. channel: returns the
-        number of the channel for a topic and a class of messages.
+        channel for a topic and a class of messages.
         """
         from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
         from foxglove_schemas_protobuf.PosesInFrame_pb2 import PosesInFrame
@@ -109,6 +114,7 @@ class Topics:
                     link.rotation,
                 )
             )
+        self._contacts_channel, self._touched = channel("/contacts", SceneUpdate), False
         self._scans = list(self._scanned(scenario, sensor_robots, channel))
         self._drawn: Scenario | None = None
 
@@ -116,7 +122,7 @@ class Topics:
         self,
         scenario: Scenario,
         sensor_robots: Mapping[str, tuple[int, ...]],
-        channel: Callable[[str, Any], int],
+        channel: Callable[[str, Any], Any],
     ) -> Iterator[_Scan]:
         """Yield the sensors whose readings are laser scans."""
         from foxglove_schemas_protobuf.LaserScan_pb2 import LaserScan
@@ -145,7 +151,11 @@ class Topics:
                     scan,
                 )
 
-    def messages(self, row: Row, scenario: Scenario) -> Iterator[tuple[int, bytes]]:
+    def draw_again(self) -> None:
+        """Send the scene with the next row once more."""
+        self._drawn = None
+
+    def messages(self, row: Row, scenario: Scenario) -> Iterator[tuple[Any, bytes]]:
         """Yield the channel and the bytes of each message of a row.
 
         scenario: as it is at that row.
@@ -168,6 +178,9 @@ class Topics:
                 stamp.seconds, stamp.nanos = seconds, nanos
         yield self._poses_channel, self._poses.SerializeToString()
         yield self._tf_channel, self._tf.SerializeToString()
+        if len(row.contacts) or self._touched:
+            self._touched = len(row.contacts) > 0
+            yield self._contacts_channel, self._contacts(row.contacts, seconds, nanos)
         for channel, key, place, period, age, scan in self._scans:
             measured = row.row - age
             if measured >= 0 and measured % period == 0:
@@ -175,6 +188,23 @@ class Topics:
                 scan.timestamp.seconds, scan.timestamp.nanos = seconds, nanos
                 scan.ranges = row.readings[key][place].astype("<f8", copy=False).tobytes()
                 yield channel, scan.SerializeToString()
+
+    def _contacts(self, contacts: NDArray[np.void], seconds: int, nanos: int) -> bytes:
+        """Return arrows for contacts, which replace those of earlier messages."""
+        from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
+
+        update = SceneUpdate()
+        entity = update.entities.add(id="contacts", frame_id=self._world)
+        entity.timestamp.seconds, entity.timestamp.nanos = seconds, nanos
+        for contact in contacts:
+            arrow, way = entity.arrows.add(), atan2(contact["normal"][1], contact["normal"][0])
+            x, y = contact["point"].tolist()
+            _put(arrow.pose.position, x, y, ARROW_HEIGHT)
+            arrow.pose.orientation.z, arrow.pose.orientation.w = sin(way / 2), cos(way / 2)
+            arrow.shaft_length = METRES_PER_NEWTON * contact["normal_impulse"] / self._dt
+            arrow.shaft_diameter, arrow.head_length, arrow.head_diameter = ARROW
+            _color(arrow.color, ARROW_COLOR)
+        return bytes(update.SerializeToString())
 
     def _scene(self, scenario: Scenario, ns: int) -> bytes:
         """Return all that is drawn; it replaces the entities of earlier messages."""

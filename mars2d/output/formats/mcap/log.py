@@ -29,7 +29,7 @@ from mars2d.record.record import Record
 from mars2d.record.recorder import Recorder
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Log", "Logged"]
+__all__ = ["Log", "Logged", "newest_row"]
 
 HEAD = struct.Struct("<BQHIQQ")
 """How the operation of a message begins: its kind and length, channel, sequence, two times."""
@@ -75,6 +75,28 @@ class Logged(Protocol):
     @property
     def hands(self) -> _Hands:
         """The operator."""
+
+
+def newest_row(world: Logged, counts: tuple[int, int, int, int]) -> Row:
+    """Return the row of a world that follows those that are known.
+
+    counts: of the rows, contacts, messages and contents that are known.
+    """
+    recorder = world.recorder
+    k, contacts, messages, contents = counts
+    columns, readings = recorder.row(k)
+    _, *now = recorder.counts
+    talked = now[1:] != [messages, contents]
+    sent, texts = recorder.messages() if talked else (NO_MESSAGES, ())
+    return Row(
+        row=k,
+        **columns,
+        readings=readings,
+        contacts=recorder.contacts()[contacts:] if now[0] > contacts else NO_CONTACTS,
+        messages=sent[messages:],
+        contents=texts[contents:],
+        changes=changes_at(world.hands.log, k),
+    )
 
 
 class Log:
@@ -140,7 +162,7 @@ class Log:
             for row in cut(record, written):
                 self._add(row, record.scenario_at(row.row))
         elif recorder.rows > written:
-            self._add(self._next(world), world.scenario)
+            self._add(newest_row(world, self._counts), world.scenario)
         self._counts = recorder.counts
         self._do(self._file.take)
 
@@ -156,24 +178,6 @@ class Log:
         robots = recorder.sensor_robots
         self._header = headers.of_record(empty) | {"sensor_robots": robots}
         self._tape.begin(self._header, recorder.scenario, robots, start)
-
-    def _next(self, world: Logged) -> Row:
-        """Return the row after the last one that was written."""
-        recorder = world.recorder
-        k, contacts, messages, contents = self._counts
-        columns, readings = recorder.row(k)
-        _, *now = recorder.counts
-        talked = now[1:] != [messages, contents]
-        sent, texts = recorder.messages() if talked else (NO_MESSAGES, ())
-        return Row(
-            row=k,
-            **columns,
-            readings=readings,
-            contacts=recorder.contacts()[contacts:] if now[0] > contacts else NO_CONTACTS,
-            messages=sent[messages:],
-            contents=texts[contents:],
-            changes=changes_at(world.hands.log, k),
-        )
 
     def _add(self, row: Row, scenario: Scenario) -> None:
         ns, number = nanoseconds(row.time), row.row & 0xFFFFFFFF

@@ -1,0 +1,117 @@
+"""A run that is watched while it goes on: the messages of a log, by Foxglove's websocket."""
+
+from __future__ import annotations
+
+import socket
+from types import TracebackType
+from typing import Any
+
+from mars2d.core.errors import InputError
+from mars2d.core.extras import extra
+from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
+from mars2d.output.formats.mcap.log import Logged, newest_row
+
+__all__ = ["Live"]
+
+HOST = "127.0.0.1"
+"""It serves this machine alone."""
+
+
+class Live:
+    """Serves the topics of a log to programs on this machine, such as Foxglove.
+
+    >>> with Live(8765) as live:  # doctest: +SKIP
+    ...     world = World(scenario, control, watch=live)
+    ...     while not world.over:
+    ...         world.step()
+
+    It is a watcher: it sends each row when the next control step begins, the last one when it is
+    closed. port: 0 takes a free one. Raises InputError if the port is in use, MissingExtraError
+    without foxglove-sdk.
+    """
+
+    def __init__(self, port: int) -> None:
+        with extra("live", "--foxglove needs foxglove-sdk"):
+            import foxglove
+            import foxglove_schemas_protobuf  # noqa: F401
+        _check_free(port)
+        self._library: Any = foxglove
+        self._context = foxglove.Context()
+        self._channels: dict[str, Any] = {}
+        self._stale = True  # the scene is sent again, for programs that have just come
+        self._world: Logged | None = None
+        self._counts = 0, 0, 0, 0
+        listener: Any = self
+        self._server: Any = foxglove.start_server(
+            name="MARS2D", host=HOST, port=port, context=self._context, server_listener=listener
+        )
+
+    @property
+    def port(self) -> int:
+        """The port at which it serves."""
+        return int(self._server.port)
+
+    @property
+    def address(self) -> str:
+        """The address to open in Foxglove."""
+        return f"ws://{HOST}:{self.port}"
+
+    def on_subscribe(self, client: Any, channel: Any) -> None:  # noqa: ARG002
+        """Note that somebody has come; called from a thread of the server."""
+        self._stale = True
+
+    def __call__(self, world: Logged) -> None:
+        """Send the row that a world has recorded last, if it is a new one."""
+        recorder = world.recorder
+        if world is not self._world:
+            self._world = world
+            self._topics = Topics(recorder.scenario, recorder.sensor_robots, self._channel)
+            self._stale = True
+            self._counts = 0, 0, 0, 0
+        if recorder.rows == self._counts[0]:
+            return
+        row = newest_row(world, (recorder.rows - 1, *self._counts[1:]))
+        self._counts = recorder.counts
+        if self._stale:
+            self._stale = False
+            self._topics.draw_again()
+        for channel, data in self._topics.messages(row, world.scenario):
+            channel.log(data, log_time=nanoseconds(row.time))
+
+    def _channel(self, topic: str, kind: Any) -> Any:
+        if topic not in self._channels:
+            name, data = kind.DESCRIPTOR.full_name, schema_of(kind)
+            schema = self._library.Schema(name=name, encoding="protobuf", data=data)
+            self._channels[topic] = self._library.Channel(
+                topic, schema=schema, message_encoding="protobuf", context=self._context
+            )
+        return self._channels[topic]
+
+    def close(self) -> None:
+        """Send the last row, and end the server."""
+        if self._world is not None:
+            self(self._world)
+            self._world = None
+        self._server.stop()
+
+    def __enter__(self) -> Live:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def _check_free(port: int) -> None:
+    """Refuse a port that another program uses, which the library would wait for."""
+    with socket.socket() as tried:
+        tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            tried.bind((HOST, port))
+        except (OSError, OverflowError) as error:
+            why = getattr(error, "strerror", None) or "no such port"
+            raise InputError(f"--foxglove {port}: {why}; name another port, as 8766") from None
