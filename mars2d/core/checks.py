@@ -15,7 +15,7 @@ from mars2d.core.arithmetic import norms
 from mars2d.core.arrays import is_masked
 from mars2d.core.description import Check, Schema, accepts, real, wrong
 from mars2d.core.errors import InputError, shown
-from mars2d.core.plane import Outline, Point
+from mars2d.core.plane import Outline, Point, is_clearly_convex
 
 __all__ = [
     "MAX_COORDINATE",
@@ -125,6 +125,8 @@ def _check_apart(name: str, points: list[Point]) -> None:
 
 def _check_ring(name: str, points: list[Point]) -> None:
     """Raise InputError for a polygon that crosses itself or has no area."""
+    if is_clearly_convex(np.array(points)):
+        return
     import shapely
 
     ring = shapely.Polygon(points)

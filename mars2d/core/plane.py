@@ -21,6 +21,7 @@ __all__ = [
     "edges_of",
     "grid_step",
     "inside_polygon",
+    "is_clearly_convex",
     "lines_and_areas",
     "outside_polygon",
     "point_segment_distance",
@@ -122,6 +123,20 @@ def distance_to_ring(x: Float, y: Float, polygon: Float) -> Float:
     """Return the distances of points (n,) to the boundary of a closed polygon (k, 2), metres."""
     edges = np.hstack([polygon, _following(polygon)])
     return np.asarray(point_segment_distance(x[:, None], y[:, None], edges).min(axis=1))
+
+
+def is_clearly_convex(polygon: Float) -> bool:
+    """Return whether a closed polygon (k, 2) is convex by more than rounding, and goes round once.
+
+    Such a polygon has an area and can't cross itself.
+    """
+    edges = _following(polygon) - polygon
+    after = _following(edges)
+    turns = edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0]
+    if (np.abs(turns) < 1e-8).any() or np.ptp(np.sign(turns)) > 0:
+        return False
+    angles = np.arctan2(edges[:, 1], edges[:, 0])
+    return bool(abs(wrap(_following(angles) - angles).sum()) < 3 * np.pi)
 
 
 def outside_polygon(x: Float, y: Float, polygon: Float) -> NDArray[np.bool_]:

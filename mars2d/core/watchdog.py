@@ -149,7 +149,8 @@ def _hangs(why: str) -> type[Hangs]:
 
 def _clock_of(thread: int) -> Callable[[], float]:
     """Return a clock of the processor's time of a thread, or of all time where there is none."""
-    if not hasattr(time, "pthread_getcpuclockid"):
+    try:
+        clock = time.pthread_getcpuclockid(thread)
+    except (AttributeError, OSError):  # of Windows, and of a browser
         return time.monotonic
-    clock = time.pthread_getcpuclockid(thread)
     return lambda: time.clock_gettime(clock)

@@ -24,7 +24,9 @@ Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 Addresses = NDArray[np.uintp]
 
-_HIT = np.dtype([("shape", np.uintp), ("point", float, 2), ("normal", float, 2), ("alpha", float)])
+_HIT = np.dtype(
+    [("shape", np.uintp), ("point", float, 2), ("normal", float, 2), ("alpha", float)], align=True
+)
 """The engine's answer to one ray."""
 
 POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE

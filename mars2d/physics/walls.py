@@ -171,7 +171,7 @@ def _near(points: Float, starts: Float, ends: Float) -> tuple[Whole, Whole]:
     order = np.argsort(where, kind="stable")
     known = where[order]
     # pieces of lines shorter than a cell lie in those in which the corners of their boxes do
-    parts = 1 + (far / (0.9 * size)).astype(np.int64)
+    parts = 1 + (far / (0.9 * size)).astype(np.intp)
     line = np.repeat(np.arange(n), parts)
     share = (np.arange(len(line)) - np.repeat(np.cumsum(parts) - parts, parts))[:, None]
     step = ((ends - starts) / parts[:, None])[line]

@@ -75,7 +75,15 @@ def _library(name: str) -> Finding:
     try:
         return Finding(name, importlib.metadata.version(name))
     except importlib.metadata.PackageNotFoundError:
+        if sys.platform == "emscripten":
+            return _missing_in_browser(name)
         return Finding(name, "is missing: pip install --force-reinstall mars2d", ok=False)
+
+
+def _missing_in_browser(name: str) -> Finding:
+    if name == "pygame-ce":
+        return Finding(name, "none: windows and films need it, replays and SVG don't", ok=None)
+    return Finding(name, f'is missing: await micropip.install("{name}")', ok=False)
 
 
 def _display() -> Finding:
@@ -104,6 +112,8 @@ def _engine() -> Finding:
     from mars2d.reports.remedy import remedy
 
     why = reason_without()
+    if why and sys.platform == "emscripten":
+        return Finding("engine", "in Python: a browser has no compiler", ok=None)
     if why:
         return Finding("engine", f"in Python, much slower: {why}. To mend it: {remedy()}", ok=None)
     return Finding("engine", "compiled")

@@ -60,6 +60,8 @@ def check_off_obstacles(
     bodies: Sequence[Rigid], outlines: Sequence[Outline], overlap: float
 ) -> None:
     """Refuse bodies that start inside an obstacle, or cut into one."""
+    if not outlines:
+        return
     import shapely
 
     shapes = lines_and_areas(outlines)

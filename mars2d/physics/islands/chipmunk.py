@@ -45,7 +45,16 @@ _KINDS = (
 _ALLOC = [getattr(lib, f"cp{a}{b}Alloc") for a, b in _KINDS]
 _INIT = [getattr(lib, f"cp{a}{b}Init") for a, b in _KINDS]
 _OWN = [ffi.typeof(f"cp{a}{b} *") for a, b in _KINDS]
-PIVOT_IMPULSE, GEAR_IMPULSE = 25, 18
+_POINTER = ffi.sizeof("void *")
+"""The size of an address, bytes: 8, and 4 in WebAssembly."""
+
+_JOINT = (24 + 10 * _POINTER) // 8
+"""Where the structs of joints have the fields of their kind, in numbers of eight bytes.
+
+Three numbers, nine pointers, and a truth that is as long as one stand before them.
+"""
+
+PIVOT_IMPULSE, GEAR_IMPULSE = _JOINT + 12, _JOINT + 5
 """Where the engine's structs of these joints have their impulses, in numbers of eight bytes."""
 
 _BASE = ffi.typeof("cpConstraint *")
@@ -147,7 +156,12 @@ def weight_at(body: Handle, ahead: float) -> None:
     lib.cpBodySetCenterOfGravity(body, (ahead, 0.0))
 
 
-LEAD, CENTER, FAST, ANGLE, SPIN, TURN, MENDED, TURNED = 6, 8, 10, 14, 15, 17, 24, 26
+_BODY = 2 * _POINTER // 8
+"""Where the structs of bodies have their mass, behind two pointers, in numbers of eight bytes."""
+
+LEAD, CENTER, FAST, ANGLE, SPIN, TURN, MENDED, TURNED = (
+    _BODY + k for k in (4, 6, 8, 12, 13, 15, 22, 24)
+)
 """Where the engine's bodies have these, in numbers of eight bytes.
 
 They are the centre of mass in the body's frame and in the world, its velocity, angle and spin, the
@@ -280,13 +294,13 @@ def set_limits(joint: Handle, least: float, largest: float) -> None:
     lib.cpRotaryLimitJointSetMax(joint, largest)
 
 
-REST, REST_ANGLE = 17, 13
+REST, REST_ANGLE = _JOINT + 4, _JOINT
 """Where the engine's springs, and those that turn, have their rest, in numbers of eight bytes.
 
 Stiffness and damping follow.
 """
 
-LOST, LOST_TURNING, FELT, FELT_TURNING = 22, 18, 27, 19
+LOST, LOST_TURNING, FELT, FELT_TURNING = _JOINT + 9, _JOINT + 5, _JOINT + 14, _JOINT + 6
 """Where they have the share of speed that is lost in a step, and the mass or moment that is felt.
 
 The engine works out that share with the C library's exponential, and asks for the force right after

@@ -1,0 +1,48 @@
+"""Run the core and the examples within Pyodide, and print a line of JSON about each."""
+
+import json
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, "/mars2d")
+
+
+def say(kind: str, **more: object) -> None:
+    print(json.dumps({"kind": kind, **more}), flush=True)
+
+
+await load("numpy pymunk")  # noqa: F704, F821, PLE1142 - by run.mjs
+
+import mars2d  # noqa: E402
+from mars2d.reports.doctor import examine  # noqa: E402
+from mars2d.scenario.experiment import examples  # noqa: E402
+from tests.house.make_golden import SETTINGS, Golden  # noqa: E402
+
+record = mars2d.run("head_on")
+with tempfile.TemporaryDirectory() as folder:
+    kept = {}
+    for name in ("run.npz", "run.csv"):
+        record.save(Path(folder) / name)
+        kept[name] = mars2d.load(Path(folder) / name).digest
+    page = record.save_html(Path(folder) / "run.html").read_text()
+say(
+    "core",
+    digest=record.digest,
+    kept=kept,
+    page="<canvas" in page,
+    svg=record._repr_svg_()[:4],
+    absent=[n for n in ("scipy", "shapely", "matplotlib", "pygame") if n not in sys.modules],
+    broken=[found.name for found in examine() if found.ok is False],
+    said={found.name: found.text for found in examine() if found.ok is not True},
+)
+
+await load("scipy")  # noqa: F704, F821, PLE1142
+for name in examples():
+    try:
+        run = mars2d.run(name, options=SETTINGS.get(name))
+    except mars2d.InputError as error:
+        say("example", name=name, error=str(error))
+    else:
+        say("example", name=name, digest=run.digest, excess=Golden.read(name).excess(run))
