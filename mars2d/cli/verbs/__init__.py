@@ -22,6 +22,7 @@ NAMES = (
     "plot",
     "sweep",
     "tournament",
+    "robotarium",
     "list",
     "check",
     "schema",
