@@ -1,4 +1,4 @@
-"""Scripts for the Robotarium's Python simulator run unchanged; its utilities keep their formulas."""
+"""Scripts for the Robotarium's Python simulator run unchanged; its utilities keep their laws."""
 
 import sys
 

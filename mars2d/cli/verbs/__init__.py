@@ -23,6 +23,7 @@ NAMES = (
     "sweep",
     "tournament",
     "robotarium",
+    "ros",
     "list",
     "check",
     "schema",

@@ -1,0 +1,1 @@
+"""ROS 2: a run publishes its clock, frames, odometry and scans, and takes commands."""
