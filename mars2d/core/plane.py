@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.core.arithmetic import norms
+from mars2d.core.arithmetic import angles_of, norms
 
 __all__ = [
     "ON_THE_EDGE",
@@ -135,7 +135,7 @@ def is_clearly_convex(polygon: Float) -> bool:
     turns = edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0]
     if (np.abs(turns) < 1e-8).any() or np.ptp(np.sign(turns)) > 0:
         return False
-    angles = np.arctan2(edges[:, 1], edges[:, 0])
+    angles = angles_of(edges[:, 1], edges[:, 0])
     return bool(abs(wrap(_following(angles) - angles).sum()) < 3 * np.pi)
 
 

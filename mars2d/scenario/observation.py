@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from math import cos, inf, isfinite, sin
+from math import inf, isfinite
 from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.drives.base import Drive
+from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.scenario.scenario import Scenario
 
@@ -74,7 +75,7 @@ class Observation:
         who = scenario.robots[robot]
         xmin, xmax, ymin, ymax = scenario.bounds
         extent = max(map(abs, scenario.bounds))
-        across = float(np.hypot(xmax - xmin, ymax - ymin))
+        across = norm(xmax - xmin, ymax - ymin)
         place, turn = (across, across), (1.0, 1.0)
         others, parts = len(scenario.robots) - 1, []
 
@@ -227,7 +228,7 @@ class _Look:
         self.x, self.y = self.xs[self.me], self.ys[self.me]
         self.heading = self.thetas[self.me]
         self.turn = 0.0 if view.drive.frame == "world" else self.heading
-        self.c, self.s = cos(self.turn), sin(self.turn)
+        self.c, self.s = cosine_sine(self.turn)
 
     def place(self, x: float, y: float) -> tuple[float, float]:
         """Return a point in the frame of the commands, m."""
@@ -249,7 +250,7 @@ def _read_sensor(view: Any, key: Any, look: Any) -> list[float]:  # noqa: ARG001
 
 
 def _read_pose(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
-    return [look.x, look.y, cos(look.heading), sin(look.heading)]
+    return [look.x, look.y, *cosine_sine(look.heading)]
 
 
 def _read_positions(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
@@ -264,14 +265,14 @@ def _read_poses(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG0
     row, me = look.others(4), look.me
     for j in look.world.neighbour_indices(me):
         at, turned = 4 * (j - (j > me)), look.thetas[j] - look.turn
-        row[at : at + 4] = *look.place(look.xs[j], look.ys[j]), cos(turned), sin(turned)
+        row[at : at + 4] = *look.place(look.xs[j], look.ys[j]), *cosine_sine(turned)
     return row
 
 
 def _read_props(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
     row: list[float] = []
     for x, y, theta in look.world.prop_pose.T.tolist():
-        row += *look.place(x, y), cos(theta - look.turn), sin(theta - look.turn)
+        row += *look.place(x, y), *cosine_sine(theta - look.turn)
     return row
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from math import hypot, pi
+from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.bodies.rigid import Rigid, Triple
 from mars2d.core import checks
-from mars2d.core.arithmetic import norms
+from mars2d.core.arithmetic import norm, norms
 from mars2d.core.description import Description, accepts, entry, number
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.plane import (
@@ -227,4 +227,4 @@ def _candidates(area: Outline, rng: np.random.Generator) -> Points:
 def _reach(body: Rigid) -> float:
     """Return the radius of the circle round a body's pose that holds it in any heading, metres."""
     middle, radius = body.shape.bound
-    return hypot(*middle) + radius
+    return norm(*middle) + radius
