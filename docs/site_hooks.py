@@ -74,7 +74,8 @@ def gallery() -> str:
     """Return the page of all examples, by course."""
     text = (
         "# Gallery\n\nAll examples, by course. `mars2d demo NAME` plays one, `mars2d copy NAME` "
-        "copies it for you to change.\n"
+        'copies it for you to change, and <a href="../try/index.html">Try it</a> runs it in your '
+        "browser.\n"
     )
     for course, names in courses().items():
         cards = "\n".join(card(name) for name in names)
@@ -90,7 +91,10 @@ def card(name: str) -> str:
         f'src="../thumbnails/{name}_{looks}.png">'
         for looks in ("light", "dark")
     )
-    links = [f"[source](../examples/{name}.py)"]
+    links = [
+        f"[source](../examples/{name}.py)",
+        f'<a href="../try/index.html?example={name}">try it</a>',
+    ]
     for folder in ("experiments", "pursuit"):
         if (DOCS / folder / f"{name}.md").exists():
             links.insert(0, f"[page]({folder}/{name}.md)")
@@ -152,7 +156,7 @@ def reference(module: str, name: str) -> str:
     text = f"# {name}\n\n```python\nfrom {module} import {name}\n```\n\n"
     text += f"::: {module}.{name}\n"
     if isinstance(held, type) and issubclass(held, Description):
-        made = make_fields()
+        made = neighbour("make_fields")
         rows = "".join(made.row(held, field) for field in made.fields_of(held))
         base = made.base_of(held)
         if base is not None:
@@ -186,14 +190,19 @@ def documents() -> tuple[tuple[Path, str], ...]:
 
 
 @cache
-def make_fields() -> ModuleType:
-    """Return docs/make_fields.py."""
-    spec = importlib.util.spec_from_file_location("make_fields", DOCS / "make_fields.py")
+def neighbour(name: str) -> ModuleType:
+    """Return a script of docs/ as a module."""
+    spec = importlib.util.spec_from_file_location(name, DOCS / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def on_post_build(config: MkDocsConfig) -> None:
+    """Add the page on which experiments run in a browser."""
+    neighbour("make_try").main([str(Path(config.site_dir) / "try")])
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:

@@ -66,6 +66,8 @@ def test_the_site_is_built_and_has_all_of_it(site, browser):
     for module in modules:
         for name in importlib.import_module(module).__all__:
             assert name.startswith("__") or f">{name}</code>" in contents, (module, name)
+    assert (site / "try" / "index.html").is_file()
+    assert len([*(site / "try").glob("mars2d-*-none-any.whl")]) == 1
     pages = list(site.rglob("*.html"))
     assert len(pages) > 200
 
