@@ -73,7 +73,7 @@ class Topics:
     ``/poses``: the poses of all robots and props, in the world. ``/tf``: the same as frames.
     ``/scene``: the ground and the looks of the bodies, each in its frame. ``/ROBOT/SENSOR``: laser
     scans, when they arrive, in the robot's frame. ``/contacts``: an arrow for each contact of the
-    control step before, along the normal force on the second body, 1 m long for 100 N.
+    control step that begins then, along the normal force on the second body, 1 m long for 100 N.
     """
 
     def __init__(

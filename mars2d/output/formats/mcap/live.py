@@ -32,16 +32,24 @@ class Live:
 
     def __init__(self, port: int) -> None:
         with extra("live", "--foxglove needs foxglove-sdk"):
-            import foxglove
+            import foxglove as library
             import foxglove_schemas_protobuf  # noqa: F401
         _check_free(port)
-        self._library: Any = foxglove
+        foxglove: Any = library
+        self._library = foxglove
         self._context = foxglove.Context()
         self._channels: dict[str, Any] = {}
         self._stale = True  # the scene is sent again, for programs that have just come
         self._world: Logged | None = None
         self._counts = 0, 0, 0, 0
-        listener: Any = self
+
+        class Listener(foxglove.ServerListener):  # type: ignore[misc]
+            """Notes that somebody has come; called from a thread of the server."""
+
+            def on_subscribe(_, client: Any, channel: Any) -> None:  # noqa: ARG002, N805
+                self._stale = True
+
+        listener: Any = Listener()
         self._server: Any = foxglove.start_server(
             name="MARS2D", host=HOST, port=port, context=self._context, server_listener=listener
         )
@@ -55,10 +63,6 @@ class Live:
     def address(self) -> str:
         """The address to open in Foxglove."""
         return f"ws://{HOST}:{self.port}"
-
-    def on_subscribe(self, client: Any, channel: Any) -> None:  # noqa: ARG002
-        """Note that somebody has come; called from a thread of the server."""
-        self._stale = True
 
     def __call__(self, world: Logged) -> None:
         """Send the row that a world has recorded last, if it is a new one."""
