@@ -18,6 +18,7 @@ import pytest
 import mars2d
 from mars2d.cli.arguments import add_workers, workers_of
 from mars2d.core.errors import InputError, MissingExtraError
+from mars2d.core.extras import pip_line
 from mars2d.scenario.experiment import examples
 from mars2d.study import cluster as clusters
 from mars2d.study.work import Failure, cluster, each_done
@@ -254,7 +255,7 @@ def test_workers_that_come_in_time_go_on(unguarded, monkeypatch, capsys):
 
 def test_without_dask_the_line_is_printed_that_installs_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(MissingExtraError, match=r'pip install "mars2d\[cluster\]"$'):
+    with pytest.raises(MissingExtraError, match=re.escape(pip_line("cluster")) + "$"):
         with_cluster("tcp://10.0.0.5:8786")
 
 

@@ -97,7 +97,9 @@ def test_plus_and_minus_and_the_slider_change_the_speed_that_is_shown(open_windo
     window.slide((left, y), (left + (right - left) * 3 // 10, y - 100))  # it stays in the hand
     window.until(lambda s: s["speed"] == "1.0")
     assert window.settle()["origin"] == pytest.approx(window.state["origin"])
-    window.do("mousemove", right, y, "click", 1)
+    window.do("mousemove", right, y)
+    window.settle()
+    window.do("click", 1)
     window.until(lambda s: s["speed"] == "inf")
 
 
