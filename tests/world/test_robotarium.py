@@ -1,5 +1,6 @@
 """Scripts for the Robotarium's Python simulator run unchanged; its utilities keep their laws."""
 
+import signal
 import sys
 
 import numpy as np
@@ -27,7 +28,7 @@ r = robotarium.Robotarium(
     number_of_robots=N, show_figure=True, initial_conditions=initial_conditions,
     sim_in_real_time=True,
 )
-goals = -initial_conditions
+goals = np.roll(initial_conditions, 1, axis=1)
 go = create_clf_unicycle_position_controller()
 safe = create_unicycle_barrier_certificate()
 for k in range(900):
@@ -53,7 +54,7 @@ def test_a_script_runs_unchanged_and_its_run_is_a_record(script, tmp_path, capsy
     assert "no collision, and nobody left the arena" in capsys.readouterr().out
     record = mars2d.load(kept)
     assert record.scenario.sampling_time == 0.033
-    goals = -record.pose[0, :2]
+    goals = np.roll(record.pose[0, :2], 1, axis=1)
     assert np.hypot(*(record.pose[-1, :2] - goals)).max() < 0.06
     assert np.abs(np.diff(record.pose[:, :2], axis=0)).max() <= 0.2 * 0.033 + 1e-12
     assert cli.main(["check", str(kept)]) == 0
@@ -157,11 +158,119 @@ def test_laplacians_have_zero_rows_and_are_connected(graph, count):
         assert len(neighbours) == laplacian[i, i]
 
 
-def test_starts_are_apart_and_the_same_each_time():
+def test_random_graphs_have_so_many_edges():
+    for edges in range(12):
+        laplacian = graphs.randomGL(5, edges)
+        assert np.trace(laplacian) == 2 * min(edges, 10)
+        connected = graphs.random_connectedGL(5, edges)
+        assert np.trace(connected) == 2 * min(4 + edges, 10)
+        assert np.linalg.matrix_rank(connected) == 4
+        for each in (laplacian, connected):
+            assert (each == each.T).all()
+            assert each.sum(axis=1) == pytest.approx(0)
+
+
+def test_starts_are_apart_and_others_at_each_call():
     poses = placement.generate_initial_conditions(20)
-    assert (poses == placement.generate_initial_conditions(20)).all()
+    assert not (poses == placement.generate_initial_conditions(20)).all()
     apart = np.hypot(*(poses[:2, :, None] - poses[:2, None]))
     assert apart[np.triu_indices(20, 1)].min() > 0.299
     assert Robotarium(number_of_robots=20).get_poses().shape == (3, 20)
     with pytest.raises(InputError, match="places"):
         placement.generate_initial_conditions(100)
+
+
+ALL = """
+import rps.robotarium as robotarium
+from rps.utilities.transformations import *
+from rps.utilities.graph import *
+from rps.utilities.barrier_certificates import *
+from rps.utilities.misc import *
+from rps.utilities.controllers import *
+"""
+"""How the scripts of the Robotarium begin; numpy and pyplot come with the utilities."""
+
+POSES = """
+N = 3
+r = robotarium.Robotarium(number_of_robots=N)
+goals = generate_initial_conditions(N)
+go, safe = create_hybrid_unicycle_pose_controller(), create_unicycle_barrier_certificate2()
+x = r.get_poses()
+r.step()
+assert np.size(at_pose(x, goals, rotation_error=100)) < N, "the goals are the starts"
+size, font = determine_marker_size(r, 0.2), determine_font_size(r, 0.1)
+assert np.isclose(size, 4 * font**2), "square points, and points"
+spots = r.axes.scatter(goals[0], goals[1], s=size)
+caption = plt.text(0, 0, "G", fontsize=font)
+assert np.isclose(r.max_wheel_velocity * r.wheel_radius, r.max_linear_velocity)
+while np.size(at_pose(x, goals)) < N:
+    x = r.get_poses()
+    r.set_velocities(np.arange(N), safe(go(x, goals), x))
+    r.step()
+r.call_at_scripts_end()
+"""
+
+
+def test_numpy_drawing_and_random_goals_are_there_as_scripts_expect(tmp_path, capsys):
+    path = tmp_path / "poses.py"
+    path.write_text(ALL + POSES)
+    digests = set()
+    for k in range(2):
+        np.random.rand(k)  # noqa: NPY002 - a script starts from seed 0 whatever came before
+        kept = tmp_path / "kept.npz"
+        assert cli.main(["robotarium", str(path), "--headless", "--record", str(kept)]) == 0
+        digests.add(mars2d.load(kept).digest)
+    assert len(digests) == 1
+    assert "no collision" in capsys.readouterr().out
+
+
+def test_a_marker_is_as_wide_as_it_is_said_to_be():
+    arena = Robotarium(number_of_robots=2)
+    size = placement.determine_marker_size(arena, 0.2)
+    pixels = size**0.5 * arena.figure.dpi / 72
+    left, right = arena.axes.transData.inverted().transform([(0, 0), (pixels, 0)])[:, 0]
+    assert right - left == pytest.approx(0.2)
+
+
+def test_gains_are_those_of_the_formulas():
+    pose, goal = np.array([[0.0], [0.0], [0.3]]), np.array([[1.0], [0.5], [-0.4]])
+    rho, bearing = np.hypot(1.0, 0.5), np.arctan2(0.5, 1.0)
+    alpha, theta = bearing - 0.3, bearing + 0.4
+    found = controllers.create_clf_unicycle_pose_controller(2, 3, 5)(pose, goal)[:, 0]
+    omega = 3 * alpha + 2 * np.cos(alpha) * np.sin(alpha) / alpha * (alpha + 5 * theta)
+    assert found == pytest.approx([2 * rho * np.cos(alpha), omega])
+    found = controllers.create_clf_unicycle_position_controller(2, 3)(pose, goal[:2])[:, 0]
+    assert found == pytest.approx([2 * rho * np.cos(alpha), 3 * rho * np.sin(alpha)])
+
+
+def test_pairs_that_are_too_near_are_driven_apart_by_the_other_gain():
+    x, still = np.array([[-0.07, 0.07], [0.0, 0.0]]), np.zeros((2, 2))
+    h = 0.14**2 - 0.17**2
+    wanted = 1e6 * -(h**3) / (2 * 0.14)  # h' = 2 (x1 - x2)(v1 - v2) = -gain h^3
+    left, right = barriers.create_single_integrator_barrier_certificate2()(still, x)[0]
+    assert (left - right, right - left) == pytest.approx((-wanted, wanted))
+
+
+INTERRUPTED = """
+import signal
+r = robotarium.Robotarium(number_of_robots=2)
+for k in range(200):
+    x = r.get_poses()
+    r.step()
+    if k == 50:
+        signal.raise_signal(signal.SIGINT)
+"""
+
+
+def test_ctrl_c_ends_a_script_and_keeps_what_was_recorded(tmp_path):
+    path, kept = tmp_path / "long.py", tmp_path / "kept.npz"
+    path.write_text(ALL + INTERRUPTED)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        code = cli.main(["robotarium", str(path), "--headless", "--record", str(kept)])
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert code == cli.INTERRUPTED
+    record = mars2d.load(kept)
+    assert record.over_message == "Interrupted by Ctrl-C"
+    assert len(record) == 51

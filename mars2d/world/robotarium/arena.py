@@ -33,7 +33,7 @@ LONGEST = 1e6
 class Robotarium:
     """The arena of 3.2 m x 2 m, with the names and the order of calls of the Robotarium.
 
-    number_of_robots: 1 to 50. initial_conditions: (3, n), the poses; empty: at random, by seed 0.
+    number_of_robots: 1 to 50. initial_conditions: (3, n), the poses; empty: at random.
     show_figure, sim_in_real_time: taken and not used, since `mars2d robotarium` shows the run.
     Raises InputError for another number, or poses that do not fit.
     """
@@ -60,7 +60,11 @@ class Robotarium:
                 f"initial_conditions of shape {poses.shape}: expected (3, {count}), x, y and theta"
             )
         self.number_of_robots, self.time_step = count, TIME_STEP
-        self.robot_diameter = DIAMETER
+        self.robot_diameter, self.robot_radius = DIAMETER, DIAMETER / 2
+        self.wheel_radius, self.base_length = WHEEL_RADIUS, WHEEL_BASE
+        self.max_linear_velocity = MAX_LINEAR_SPEED
+        self.max_angular_velocity = 2 * WHEEL_RADIUS * MAX_WHEEL_SPEED / WHEEL_BASE
+        self.max_wheel_velocity = MAX_WHEEL_SPEED
         self.boundaries = [-WIDTH / 2, -HEIGHT / 2, WIDTH, HEIGHT]
         self.world = World(_scenario(count, poses if poses.size else None))
         self._wanted, self._read = np.zeros((2, count)), False
@@ -75,8 +79,11 @@ class Robotarium:
 
     @cached_property
     def axes(self) -> Any:
-        """The axes of that figure."""
-        return self.figure.add_subplot()
+        """The axes of that figure, which show the arena in metres."""
+        xmin, ymin, width, height = self.boundaries
+        return self.figure.add_subplot(
+            xlim=(xmin, xmin + width), ylim=(ymin, ymin + height), aspect="equal"
+        )
 
     def get_number_of_robots(self) -> int:
         """Return how many robots there are."""

@@ -16,8 +16,10 @@ from mars2d.world.robotarium.mappings import create_si_to_uni_mapping, create_un
 
 __all__ = [
     "create_single_integrator_barrier_certificate",
+    "create_single_integrator_barrier_certificate2",
     "create_single_integrator_barrier_certificate_with_boundary",
     "create_unicycle_barrier_certificate",
+    "create_unicycle_barrier_certificate2",
     "create_unicycle_barrier_certificate_with_boundary",
 ]
 
@@ -54,6 +56,16 @@ def create_single_integrator_barrier_certificate(
     return _certificate(barrier_gain, safety_radius, magnitude_limit, None)
 
 
+def create_single_integrator_barrier_certificate2(
+    barrier_gain: float = 100,
+    unsafe_barrier_gain: float = 1e6,
+    safety_radius: float = 0.17,
+    magnitude_limit: float = 0.2,
+) -> Certificate:
+    """Return the same with another gain for pairs that are too near, which drives them apart."""
+    return _certificate(barrier_gain, safety_radius, magnitude_limit, None, unsafe_barrier_gain)
+
+
 def create_single_integrator_barrier_certificate_with_boundary(
     barrier_gain: float = 100,
     safety_radius: float = 0.17,
@@ -74,6 +86,24 @@ def create_unicycle_barrier_certificate(
     return _of_unicycles(barrier_gain, safety_radius, projection_distance, magnitude_limit, None)
 
 
+def create_unicycle_barrier_certificate2(
+    barrier_gain: float = 500,
+    unsafe_barrier_gain: float = 1e6,
+    safety_radius: float = 0.12,
+    projection_distance: float = 0.05,
+    magnitude_limit: float = 0.2,
+) -> Certificate:
+    """Return the same with another gain for pairs that are too near, which drives them apart."""
+    return _of_unicycles(
+        barrier_gain,
+        safety_radius,
+        projection_distance,
+        magnitude_limit,
+        None,
+        unsafe_barrier_gain,
+    )
+
+
 def create_unicycle_barrier_certificate_with_boundary(
     barrier_gain: float = 100,
     safety_radius: float = 0.12,
@@ -88,9 +118,14 @@ def create_unicycle_barrier_certificate_with_boundary(
 
 
 def _of_unicycles(
-    gain: float, radius: float, ahead: float, limit: float, edges: ArrayLike | None
+    gain: float,
+    radius: float,
+    ahead: float,
+    limit: float,
+    edges: ArrayLike | None,
+    unsafe: float | None = None,
 ) -> Certificate:
-    safe = _certificate(gain, radius + 2 * ahead, limit, edges)
+    safe = _certificate(gain, radius + 2 * ahead, limit, edges, unsafe)
     velocities = create_uni_to_si_dynamics(ahead)
     commands, points = create_si_to_uni_mapping(ahead)
 
@@ -100,7 +135,15 @@ def _of_unicycles(
     return certified
 
 
-def _certificate(gain: float, radius: float, limit: float, edges: ArrayLike | None) -> Certificate:
+def _certificate(
+    gain: float,
+    radius: float,
+    limit: float,
+    edges: ArrayLike | None,
+    unsafe: float | None = None,
+) -> Certificate:
+    """Return a certificate. unsafe: the gain of pairs with h < 0, by default the same."""
+
     def certified(dxi: Float, x: Float) -> Float:
         wanted: Float = np.array(dxi, dtype=float)
         points = np.asarray(x, dtype=float)[:2]
@@ -115,7 +158,8 @@ def _certificate(gain: float, radius: float, limit: float, edges: ArrayLike | No
                 row = np.zeros((2, count))
                 row[:, i], row[:, j] = -2 * apart, 2 * apart
                 rows.append(row.ravel())
-                limits.append(gain * (apart @ apart - radius**2) ** 3)
+                h = apart @ apart - radius**2
+                limits.append((gain if h >= 0 or unsafe is None else unsafe) * h**3)
         for i in range(count) if edges is not None else ():
             xmin, xmax, ymin, ymax = np.asarray(edges, dtype=float)
             x_i, y_i = points[:, i]

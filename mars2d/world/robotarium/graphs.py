@@ -5,7 +5,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["completeGL", "cycle_GL", "delta_disk_neighbors", "lineGL", "topological_neighbors"]
+__all__ = [
+    "completeGL",
+    "cycle_GL",
+    "delta_disk_neighbors",
+    "lineGL",
+    "randomGL",
+    "random_connectedGL",
+    "topological_neighbors",
+]
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
@@ -29,6 +37,28 @@ def lineGL(N: int) -> Float:
 def completeGL(N: int) -> Float:
     """Return the Laplacian (N, N) of the complete graph."""
     return _laplacian(np.ones((N, N)) - np.eye(N))
+
+
+def randomGL(v: int, e: int) -> Float:
+    """Return the Laplacian (v, v) of a random graph with e edges, or all if there are fewer."""
+    return _laplacian(_with_edges(np.zeros((v, v)), e))
+
+
+def random_connectedGL(v: int, e: int) -> Float:
+    """Return the Laplacian (v, v) of a random connected graph: a tree, and e more edges."""
+    tree = np.zeros((v, v))
+    for i in range(1, v):
+        j = np.random.randint(i)
+        tree[i, j] = tree[j, i] = 1
+    return _laplacian(_with_edges(tree, e))
+
+
+def _with_edges(adjacency: Float, more: int) -> Float:
+    """Return an adjacency matrix with so many more edges, at random places."""
+    free = np.argwhere(np.triu(1 - adjacency, 1))
+    for i, j in np.random.permutation(free)[:more]:
+        adjacency[i, j] = adjacency[j, i] = 1
+    return adjacency
 
 
 def topological_neighbors(L: Float, agent: int) -> Int:
