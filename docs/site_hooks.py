@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import re
+import tomllib
 from collections.abc import Iterator
 from functools import cache
 from html import escape
@@ -29,7 +30,8 @@ from mars2d.scenario.registry import summary
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
 
-REPOSITORY = "https://github.com/mars2d/mars2d"
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+REPOSITORY = PROJECT["urls"]["Homepage"]
 
 MODULES = (
     "mars2d", "mars2d.bodies", "mars2d.sensors", "mars2d.addons", "mars2d.geometry",

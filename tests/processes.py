@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import http.server
 import os
 import shutil
 import subprocess
@@ -52,6 +53,28 @@ def running(pid: int) -> bool:
 def bare_environment(**more: str) -> dict[str, str]:
     """Return this environment without a display."""
     return {key: value for key, value in os.environ.items() if key not in HIDDEN} | more
+
+
+class _Pages(http.server.SimpleHTTPRequestHandler):
+    """Serves files, modules of JavaScript too, and prints nothing."""
+
+    extensions_map = {
+        **http.server.SimpleHTTPRequestHandler.extensions_map,
+        ".mjs": "text/javascript",
+    }
+
+    def log_message(self, *_: Any) -> None:
+        pass
+
+
+@contextmanager
+def served(folder: Path) -> Iterator[str]:
+    """Serve a folder to this machine; yield the address, which ends with a slash."""
+    handler = functools.partial(_Pages, directory=str(folder))
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}/"
+        server.shutdown()
 
 
 @contextmanager

@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from mars2d.cli.films import Film, save_film_of
+from mars2d.cli.arguments import times
+from mars2d.cli.films import Film, add_film, save_film_of
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.files import why_unwritable
 from mars2d.core.interrupt import held_back
@@ -25,7 +26,9 @@ from mars2d.world.loop import Interrupted
 __all__ = [
     "OUTPUTS",
     "add_html",
+    "add_pictures",
     "check_outputs",
+    "check_snapshots",
     "naming_lost_letters",
     "run_and_save",
     "save_record",
@@ -50,6 +53,15 @@ KINDS = {"record": "record", "figure": "figure", "video": "film", "html": "page"
 
 Made = dict[str, Path]
 """The files that were made, by the names of their arguments."""
+
+
+def add_pictures(parser: argparse.ArgumentParser) -> None:
+    """Add the figure with its snapshots, the film and the page."""
+    add = parser.add_argument
+    add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
+    add("--at", type=times, metavar="T1,T2,...", help="draw snapshots at these times instead")
+    add_film(parser)
+    add_html(parser)
 
 
 def add_html(parser: argparse.ArgumentParser) -> None:
@@ -86,6 +98,12 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
             formats.require(path)
         if name == "figure":
             figure.require_matplotlib()
+
+
+def check_snapshots(arguments: argparse.Namespace) -> None:
+    """Raise InputError for times of snapshots without a figure."""
+    if arguments.at is not None and arguments.figure is None:
+        raise InputError("--at needs --figure OUT")
 
 
 def run_and_save(

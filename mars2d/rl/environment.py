@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mars2d.core.extras import extra
 from mars2d.record.record import Record
 from mars2d.rl.episode import Episode, Law, Reward, Source
-from mars2d.rl.screen import MODES, Screen, checked_mode
+from mars2d.rl.screen import MODES, Screen
 from mars2d.world.world import World
 
 with extra("rl", "environments need gymnasium"):
@@ -72,7 +72,8 @@ class Environment(gymnasium.Env[Row, Row]):
         size: tuple[int, int] = (640, 480),
         record: bool = False,
     ) -> None:
-        self.render_mode = checked_mode(render_mode)
+        self._screen = Screen(render_mode, size)
+        self.render_mode = render_mode
         self._episode = Episode(experiment, robot, laws, reward, options, record)
         self.metadata = {
             "render_modes": MODES, "render_fps": 1 / self._episode.scenario.sampling_time,
@@ -80,10 +81,6 @@ class Environment(gymnasium.Env[Row, Row]):
         self.observation_space = observation_space(self._episode, 0)
         self.action_space = Box(-1.0, 1.0, (2,), np.float32)
         self._learner = self._episode.learners[0]
-        self._size, self._screen = size, None if render_mode is None else self._opened(size)
-
-    def _opened(self, size: tuple[int, int]) -> Screen:
-        return Screen(size, self.render_mode == "human")
 
     @property
     def world(self) -> World:
@@ -112,7 +109,7 @@ class Environment(gymnasium.Env[Row, Row]):
         """
         super().reset(seed=seed)
         self._episode.start(int(self.np_random.integers(SEEDS)) if seed is None else seed)
-        self._show()
+        self._screen.follow(self.world)
         return self._episode.observed(0), {}
 
     def step(self, action: Any) -> tuple[Row, float, bool, bool, dict[str, Any]]:
@@ -127,25 +124,13 @@ class Environment(gymnasium.Env[Row, Row]):
         reward = episode.reward(0)
         world = episode.world
         info = {"over": world.over_message} if world.over else {}
-        self._show()
-        over = episode.time_is_over
-        return episode.observed(0), reward, world.over and not over, over, info
+        self._screen.follow(self.world)
+        return episode.observed(0), reward, episode.terminated, episode.time_is_over, info
 
     def render(self) -> Any:
         """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
-        if self._screen is None:
-            return None
-        frame = self.world.frame
-        if self.render_mode == "rgb_array":
-            return self._screen.pixels(frame)
-        self._screen.show(frame)
-        return None
-
-    def _show(self) -> None:
-        if self.render_mode == "human":
-            self.render()
+        return self._screen.render(self.world)
 
     def close(self) -> None:
         """Close the window."""
-        if self._screen is not None:
-            self._screen.close()
+        self._screen.close()

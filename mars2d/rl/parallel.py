@@ -13,7 +13,7 @@ from mars2d.core.extras import extra
 from mars2d.record.record import Record
 from mars2d.rl.environment import SEEDS, observation_space
 from mars2d.rl.episode import Episode, Law, Reward, Source, index_of
-from mars2d.rl.screen import MODES, Screen, checked_mode
+from mars2d.rl.screen import MODES, Screen
 from mars2d.world.world import World
 
 with extra("rl", "environments of several learners need pettingzoo"):
@@ -51,7 +51,8 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         size: tuple[int, int] = (640, 480),
         record: bool = False,
     ) -> None:
-        self.render_mode = checked_mode(render_mode)
+        self._screen = Screen(render_mode, size)
+        self.render_mode = render_mode
         self._episode = episode = Episode(experiment, robots, laws, reward, options, record)
         self.possible_agents = [*episode.names]
         self.agents: list[str] = []
@@ -62,7 +63,6 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         self.observation_spaces = {episode.names[k]: observation_space(episode, k) for k in count}
         self.action_spaces = {name: Box(-1.0, 1.0, (2,), np.float32) for name in episode.names}
         self._random = np.random.default_rng()
-        self._screen = None if render_mode is None else Screen(size, render_mode == "human")
 
     def observation_space(self, agent: str) -> Box:
         """Return the space of what an agent sees; always the same object."""
@@ -99,7 +99,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
             self._random = np.random.default_rng(seed)
         self._episode.start(int(self._random.integers(SEEDS)) if seed is None else seed)
         self.agents = [*self.possible_agents]
-        self._show()
+        self._screen.follow(self.world)
         return self._observed(), {agent: {} for agent in self.agents}
 
     def step(
@@ -131,15 +131,14 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
             }
         )
         rewards = {agent: episode.reward(k) for k, agent in enumerate(agents)}
-        world, time_is_over = episode.world, episode.time_is_over
-        terminated = world.over and not time_is_over
+        world = episode.world
         info = {"over": world.over_message} if world.over else {}
-        self._show()
+        self._screen.follow(self.world)
         results = (
             self._observed(),
             rewards,
-            dict.fromkeys(agents, terminated),
-            dict.fromkeys(agents, time_is_over),
+            dict.fromkeys(agents, episode.terminated),
+            dict.fromkeys(agents, episode.time_is_over),
             {agent: dict(info) for agent in agents},
         )
         if world.over:
@@ -151,18 +150,8 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
 
     def render(self) -> Any:
         """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
-        if self._screen is None:
-            return None
-        if self.render_mode == "rgb_array":
-            return self._screen.pixels(self.world.frame)
-        self._screen.show(self.world.frame)
-        return None
-
-    def _show(self) -> None:
-        if self.render_mode == "human":
-            self.render()
+        return self._screen.render(self.world)
 
     def close(self) -> None:
         """Close the window."""
-        if self._screen is not None:
-            self._screen.close()
+        self._screen.close()

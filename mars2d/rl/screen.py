@@ -11,43 +11,49 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import likely
 from mars2d.output.raster import require_pygame
 from mars2d.record.frame import Frame
+from mars2d.world.world import World
 
 if TYPE_CHECKING:
     import pygame
 
-__all__ = ["MODES", "Screen", "checked_mode"]
+__all__ = ["MODES", "Screen"]
 
 MODES = ["human", "rgb_array"]
 
 
-def checked_mode(mode: str | None) -> str | None:
-    """Return a render mode. Raises InputError, with the nearest one, if there is none."""
-    if mode is not None and mode not in MODES:
-        raise wrong("render_mode", mode, f"'human', 'rgb_array' or None{likely(mode, MODES)}")
-    return mode
-
-
 class Screen:
-    """Paints frames, as the run window does, without its bars and buttons."""
+    """Shows the world of an environment, as the run window does, without its bars and buttons."""
 
-    def __init__(self, size: tuple[int, int], shown: bool) -> None:
-        """Take the size, pixels; shown: whether to show the pictures in a window."""
+    def __init__(self, mode: str | None, size: tuple[int, int]) -> None:
+        """Take the render mode, and the size, pixels. Raises InputError for another mode."""
+        if mode is not None and mode not in MODES:
+            raise wrong("render_mode", mode, f"'human', 'rgb_array' or None{likely(mode, MODES)}")
+        self.mode = mode
+        self._window: pygame.Surface | None = None
+        self._clock: pygame.time.Clock | None = None
+        if mode is None:
+            return
         require_pygame("a picture of an environment")
         import pygame
 
         from mars2d.output.raster.picture import Artist
 
-        self._artist = Artist(size, sensors=True)
-        self._pygame, self._shown = pygame, shown
-        self._window: pygame.Surface | None = None
-        self._clock: pygame.time.Clock | None = None
+        self._pygame, self._artist = pygame, Artist(size, sensors=True)
 
-    def pixels(self, frame: Frame) -> NDArray[np.uint8]:
-        """Return the picture of a frame, (height, width, 3)."""
-        surface = self._artist.paint(frame)
-        return np.ascontiguousarray(self._pygame.surfarray.array3d(surface).swapaxes(0, 1))
+    def render(self, world: World) -> NDArray[np.uint8] | None:
+        """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
+        if self.mode == "rgb_array":
+            surface = self._artist.paint(world.frame)
+            return np.ascontiguousarray(self._pygame.surfarray.array3d(surface).swapaxes(0, 1))
+        self.follow(world)
+        return None
 
-    def show(self, frame: Frame) -> None:
+    def follow(self, world: World) -> None:
+        """Show a new instant, if there is a window."""
+        if self.mode == "human":
+            self._show(world.frame)
+
+    def _show(self, frame: Frame) -> None:
         """Show a frame in the window, at the pace of real time."""
         pygame = self._pygame
         if self._window is None:
@@ -62,7 +68,7 @@ class Screen:
         self._clock.tick(1 / frame.scenario.sampling_time)
 
     def close(self) -> None:
-        """Close the window."""
+        """Close the window, if there is one."""
         if self._window is not None:
             self._pygame.display.quit()
             self._window = None

@@ -1,19 +1,17 @@
 """The documentation site: its doors, its gallery and reference, and that it needs no network."""
 
-import functools
-import http.server
 import importlib
 import importlib.util
 import os
 import re
 import subprocess
 import sys
-import threading
 from pathlib import Path
 
 import pytest
 
 from mars2d.scenario.experiment import examples
+from tests.processes import served
 
 ROOT = Path(__file__).parents[2]
 DOORS = {"student": 5, "teacher": 6, "researcher": 7}
@@ -71,10 +69,7 @@ def test_the_site_is_built_and_has_all_of_it(site, browser):
     pages = list(site.rglob("*.html"))
     assert len(pages) > 200
 
-    handler = functools.partial(Silent, directory=site)
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        here = f"http://127.0.0.1:{server.server_port}/"
+    with served(site) as here:
         page, asked = browser.new_page(), []
         page.on("request", lambda request: asked.append(request.url))
         page.goto(here)
@@ -84,12 +79,4 @@ def test_the_site_is_built_and_has_all_of_it(site, browser):
         page.goto(f"{here}gallery/")
         page.wait_for_selector("img[src*=plan_push]", state="attached")
         page.close()
-        server.shutdown()
     assert [url for url in asked if not url.startswith((here, "data:", "blob:"))] == []
-
-
-class Silent(http.server.SimpleHTTPRequestHandler):
-    """Serves the files of the site."""
-
-    def log_message(self, *_):
-        pass

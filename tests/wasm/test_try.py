@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-import functools
-import http.server
 import os
 import subprocess
 import sys
-import threading
 from pathlib import Path
 
 import pytest
 
+from tests.processes import served
+
 CHECKOUT = Path(__file__).parents[2]
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    extensions_map = {
-        **http.server.SimpleHTTPRequestHandler.extensions_map,
-        ".mjs": "text/javascript",
-    }
-
-    def log_message(self, *_):
-        pass
 
 
 @pytest.fixture
@@ -32,11 +21,8 @@ def address(tmp_path):
         pytest.skip("needs a folder of Pyodide in MARS2D_PYODIDE: tests/wasm/distribution.py")
     make = [sys.executable, CHECKOUT / "docs" / "make_try.py", tmp_path, "--pyodide", folder]
     subprocess.run(make, check=True)
-    handler = functools.partial(Quiet, directory=str(tmp_path))
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        yield f"http://127.0.0.1:{server.server_port}/index.html"
-        server.shutdown()
+    with served(tmp_path) as address:
+        yield f"{address}index.html"
 
 
 def test_an_example_is_chosen_changed_and_run(browser, address):

@@ -5,9 +5,16 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mars2d.cli.arguments import add_preferences, add_theory, preferences_of, times
-from mars2d.cli.films import add_film
-from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, run_and_save, say, tell_files
+from mars2d.cli.arguments import add_preferences, add_theory, preferences_of
+from mars2d.cli.outputs import (
+    OUTPUTS,
+    add_pictures,
+    check_outputs,
+    check_snapshots,
+    run_and_save,
+    say,
+    tell_files,
+)
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import counted, one_line
 from mars2d.core.terminal import tell
@@ -20,10 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("script", type=Path, metavar="SCRIPT", help="a .py file that imports rps")
     add("--headless", action="store_true", help="without a window, even where there is a display")
     add("--record", type=Path, metavar="OUT", help="save all data: .npz, .mat, .csv, .nc, .mcap")
-    add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
-    add("--at", type=times, metavar="T1,T2,...", help="draw snapshots at these times instead")
-    add_film(parser)
-    add_html(parser)
+    add_pictures(parser)
     add_theory(parser)
     add_preferences(parser)
 
@@ -33,6 +37,7 @@ def execute(arguments: argparse.Namespace) -> None:
     from mars2d.world.robotarium.script import run_script
 
     check_outputs(arguments, OUTPUTS)
+    check_snapshots(arguments)
 
     def run() -> tuple[Record, None]:
         return run_script(arguments.script), None

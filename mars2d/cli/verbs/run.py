@@ -22,10 +22,17 @@ from mars2d.cli.arguments import (
     options_of,
     preferences_of,
     theory_of,
-    times,
 )
-from mars2d.cli.films import FPS, Film, add_film, check_film, film_speed, save_footage
-from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, run_and_save, say, tell_files
+from mars2d.cli.films import FPS, Film, check_film, film_speed, save_footage
+from mars2d.cli.outputs import (
+    OUTPUTS,
+    add_pictures,
+    check_outputs,
+    check_snapshots,
+    run_and_save,
+    say,
+    tell_files,
+)
 from mars2d.cli.runs import (
     has_display,
     predictions_of,
@@ -65,8 +72,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="OUT",
         help="save all data: .npz, .mat, .csv, .nc, or .mcap, which is written during the run",
     )
-    add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
-    add("--at", type=times, metavar="T1,T2,...", help="draw snapshots at these times instead")
+    add_pictures(parser)
     add(
         "--foxglove",
         type=int,
@@ -75,8 +81,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PORT",
         help=f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}",
     )
-    add_film(parser)
-    add_html(parser)
     add_theory(parser)
     add_human(parser)
     add_preferences(parser)
@@ -86,8 +90,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment, in a window if there is a display, and save the requested files."""
     check_outputs(arguments, OUTPUTS)
-    if arguments.at is not None and arguments.figure is None:
-        raise InputError("--at needs --figure OUT")
+    check_snapshots(arguments)
     options, seed = options_of(arguments) | theory_of(arguments), check_seed(arguments.seed)
     experiment = open_experiment(arguments.experiment, options, seed=seed)
     _check_times(arguments, experiment)

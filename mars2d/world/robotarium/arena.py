@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.bodies import Differential
 from mars2d.core.errors import InputError, shown
-from mars2d.core.plane import rectangle
+from mars2d.core.plane import rectangle, wrap
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.robotarium.placement import generate_initial_conditions
@@ -95,7 +95,7 @@ class Robotarium:
             raise InputError("get_poses() was called twice: call step() in between")
         self._read = True
         poses = self.world.pose.copy()
-        poses[2] = np.arctan2(np.sin(poses[2]), np.cos(poses[2]))
+        poses[2] = wrap(poses[2])
         return poses
 
     def set_velocities(self, ids: ArrayLike, velocities: ArrayLike) -> None:

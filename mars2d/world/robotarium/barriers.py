@@ -12,7 +12,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.world.robotarium.mappings import create_si_to_uni_mapping, create_uni_to_si_dynamics
+from mars2d.world.robotarium.arena import HEIGHT, WIDTH
+from mars2d.world.robotarium.mappings import (
+    create_si_to_uni_mapping,
+    create_uni_to_si_dynamics,
+    slowed,
+)  # fmt: skip
 
 __all__ = [
     "create_single_integrator_barrier_certificate",
@@ -26,7 +31,7 @@ __all__ = [
 Float = NDArray[np.float64]
 Certificate = Callable[[Float, Float], Float]
 
-BOUNDARY = (-1.6, 1.6, -1.0, 1.0)
+BOUNDARY = (-WIDTH / 2, WIDTH / 2, -HEIGHT / 2, HEIGHT / 2)
 """The arena: xmin, xmax, ymin, ymax, metres."""
 
 
@@ -145,10 +150,8 @@ def _certificate(
     """Return a certificate. unsafe: the gain of pairs with h < 0, by default the same."""
 
     def certified(dxi: Float, x: Float) -> Float:
-        wanted: Float = np.array(dxi, dtype=float)
+        wanted = slowed(np.array(dxi, dtype=float), limit)
         points = np.asarray(x, dtype=float)[:2]
-        speed = np.hypot(*wanted)
-        wanted = wanted * np.minimum(1, limit / np.fmax(speed, 1e-12))
         count = points.shape[1]
         rows: list[Float] = []
         limits: list[float] = []

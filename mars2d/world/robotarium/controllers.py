@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.world.robotarium.mappings import create_si_to_uni_dynamics
+from mars2d.core.plane import wrap
+from mars2d.world.robotarium.mappings import create_si_to_uni_dynamics, slowed
 
 __all__ = [
     "create_clf_unicycle_pose_controller",
@@ -28,8 +29,7 @@ def create_si_position_controller(
     def velocities(xi: Float, positions: Float) -> Float:
         gains = np.array([[x_velocity_gain], [y_velocity_gain]])
         wanted = gains * (np.asarray(positions)[:2] - np.asarray(xi)[:2])
-        speed = np.hypot(*wanted)
-        return np.asarray(wanted * np.minimum(1, velocity_magnitude_limit / np.fmax(speed, 1e-12)))
+        return slowed(wanted, velocity_magnitude_limit)
 
     return velocities
 
@@ -69,8 +69,8 @@ def create_clf_unicycle_pose_controller(
     def commands(states: Float, poses: Float) -> Float:
         dx, dy = poses[:2] - states[:2]
         bearing = np.arctan2(dy, dx)
-        alpha = np.angle(np.exp(1j * (bearing - states[2])))
-        theta = np.angle(np.exp(1j * (bearing - poses[2])))
+        alpha = wrap(bearing - states[2])
+        theta = wrap(bearing - poses[2])
         rho, g = np.hypot(dx, dy), approach_angle_gain
         v = g * rho * np.cos(alpha)
         shrink = np.sinc(alpha / np.pi) * np.cos(alpha)  # sin(alpha) cos(alpha) / alpha
@@ -105,7 +105,7 @@ def create_hybrid_unicycle_pose_controller(
         if there.shape != apart.shape:
             there = np.zeros(apart.shape, dtype=bool)
         there = apart <= np.where(there, position_error, position_error - position_epsilon)
-        wrong = np.angle(np.exp(1j * (poses[2] - states[2])))
+        wrong = wrap(poses[2] - states[2])
         turn = np.where(np.abs(wrong) > rotation_error, angular_velocity_gain * wrong, 0.0)
         turning = np.array([np.zeros_like(turn), turn])
         return np.where(there, turning, drive(straight(states[:2], poses[:2]), states))

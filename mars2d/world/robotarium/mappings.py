@@ -23,6 +23,12 @@ Float = NDArray[np.float64]
 Mapping = Callable[[Float, Float], Float]
 
 
+def slowed(velocities: Float, limit: float) -> Float:
+    """Return velocities (2, n) in the same directions, no quicker than a limit."""
+    speed = np.hypot(*velocities)
+    return np.asarray(velocities * np.minimum(1, limit / np.fmax(speed, 1e-12)))
+
+
 def create_si_to_uni_mapping(
     projection_distance: float = 0.05, angular_velocity_limit: float = np.pi
 ) -> tuple[Mapping, Callable[[Float], Float]]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.errors import InputError
-from mars2d.core.plane import rectangle
+from mars2d.core.plane import rectangle, wrap
 
 __all__ = [
     "at_pose",
@@ -45,7 +45,7 @@ def at_pose(
 ) -> Int:
     """Return the numbers of the robots that are at their poses (3, n)."""
     have, wanted = np.asarray(states, float), np.asarray(poses, float)
-    turned = np.angle(np.exp(1j * (have[2] - wanted[2])))
+    turned = wrap(have[2] - wanted[2])
     near = np.hypot(*(have[:2] - wanted[:2])) <= position_error
     return np.flatnonzero(near & (np.abs(turned) <= rotation_error))
 
