@@ -41,7 +41,7 @@ SAID = (
 )
 
 _told = -1
-"""Where the process that looks on is told, or -1."""
+"""The pipe to the process that looks on, or -1."""
 
 _looker = -1
 """The process that looks on, or -1."""
@@ -92,6 +92,7 @@ def _look(told: int, command: int, numbers: set[int]) -> None:
                     with suppress(OSError):
                         os.write(2, SAID.encode())
                     left = started_here(command)
+                    _prctl(PR_SET_PDEATHSIG, 0)  # outlive the command, to kill what it left
                     os.kill(command, signal.SIGKILL)
                     for each in left:
                         kill(each)

@@ -55,7 +55,7 @@ class Predictions(Panel):
 
     `checks` is written for a run that has ended. While one goes on, it is asked a few times a
     second, as far as it costs little; what it can't find yet, or has found too little of, is "not
-    yet". An error of it is told here, and never ends the run.
+    yet". Its errors are shown here, and never end the run.
     """
 
     name, title = "predictions", "Predictions"

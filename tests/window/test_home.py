@@ -228,7 +228,7 @@ def test_without_a_display_the_command_alone_prints_its_help(capsys):
 @needs_screen
 @pytest.mark.slow
 def test_from_the_home_to_an_own_file_and_back(screen, tmp_path):
-    """A file with a mistake is told of at home; mended, it opens; its window closes to the home."""
+    """The home shows the mistake of a file; mended, it opens; its window closes to the home."""
     file = tmp_path / "walk.py"
     file.write_text("import mars2d\nscenario = mars2d.Scenario(title='Mine', sampling_time=-5)\n")
     folder = tmp_path / "memory"
