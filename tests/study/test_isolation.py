@@ -448,7 +448,7 @@ BEYOND = {
                 assert "return 0.1, 0.2" in other.read_text()
                 print("done")
             return 0, 0"""),
-    "reads the environment of the match": ("it is read, with what is secret in it", """
+    "reads the environment of the match": ("it is read, including any secrets in it", """
         import os
         def control(robot):
             if not robot.time:
@@ -601,7 +601,7 @@ with Guard(Scenario(robots=[Robot()]), laws, 1) as guard:
 """
     done = subprocess.run([sys.executable, "-P", "-c", code], timeout=PATIENCE, check=False)
     assert done.returncode == -9
-    assert "| kills the process of the match | it is gone, without a word |" in ATTACKS
+    assert "| kills the process of the match | it ends without a message |" in ATTACKS
 
 
 @needs_proc
