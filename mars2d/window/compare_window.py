@@ -5,40 +5,22 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
-from math import inf
 
 import pygame
 
 from mars2d.core.errors import Mars2dError
-from mars2d.core.watchdog import Watchdog
 from mars2d.output.figures.comparison import MODES
 from mars2d.output.films.triptych import TITLE_HEIGHT, Arena
-from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_height
-from mars2d.output.raster.layout import Layout, next_text_size
-from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.picture import summary
 from mars2d.output.raster.stage import MEMORY
-from mars2d.output.raster.theme import theme_of
 from mars2d.window import keys
-from mars2d.window.controls import Controls
-from mars2d.window.desktop import desktop_scale, opening_size
-from mars2d.window.display import (
-    PICTURES_A_SECOND,
-    Preferences,
-    open_window,
-    show_drawn,
-    started_display,
-)
+from mars2d.window.display import Preferences
 from mars2d.window.driftplot import DriftPlot
-from mars2d.window.help import Help
-from mars2d.window.menu import Entry
-from mars2d.window.notes import Ending, Notes
-from mars2d.window.player import Player, time_actions
-from mars2d.window.rest import Rest
-from mars2d.window.saving import Saver
-from mars2d.window.toolbar import Toolbar, layer_entries
+from mars2d.window.notes import Ending
+from mars2d.window.player_window import PlayerWindow
+from mars2d.window.toolbar import Toolbar
 from mars2d.window.trio import Trio
 from mars2d.window.viewpoint import Viewpoint, wheel_notches
 
@@ -47,13 +29,11 @@ __all__ = ["CompareWindow"]
 Pixel = tuple[int, int]
 
 HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))
-ZOOM = 2.0
-"""How far a key zooms, in notches of the wheel."""
 PLOT_SHARE, MIN_PLOT = 0.34, 150.0
 """The largest part of the height for the plot, and its least height, points."""
 
 
-class CompareWindow:
+class CompareWindow(PlayerWindow):
     """Shows a trio of runs until the window is closed.
 
     The keys of time and of looks are those of the run window; a click or drag in the plot is one on
@@ -69,106 +49,31 @@ class CompareWindow:
         preferences: Preferences | None = None,
     ) -> None:
         """Prepare; the window opens with `run`."""
-        preferences = preferences or Preferences()
-        self.trio, self.player, self.size = trio, Player(trio, speed), size
-        self.layers = Layers.of(trio.scenario.animation)
-        self.text, self.scale = preferences.text, 1.0
-        self.help, self.notes, self.plot = Help(), Notes(), DriftPlot()
-        self.saver = Saver(self.notes, f"{trio.scenario.title} compared")
-        self._painter = Painter(theme=theme_of(dark=preferences.dark))
-        self.arenas = [Arena(mode, self._painter, MEMORY // len(MODES)) for mode in MODES]
-        self._controls, self._ending = Controls(self.player), Ending(self.player)
-        self._keyboard, self._rest = keys.Keyboard(), Rest()
-        self._open = self._passing = False
+        name = trio.scenario.title
+        title, stem = f"{name}, compared", f"{name} compared"
+        super().__init__(trio, speed, size, preferences, title=title, stem=stem)
+        self.trio, self.plot = trio, DriftPlot()
+        self.arenas = [Arena(mode, self.looks.painter, MEMORY // len(MODES)) for mode in MODES]
+        self._ending = Ending(self.player)
         self._dragged: Callable[[Pixel], None] | None = None
         self.viewpoint = Viewpoint(trio.scenario, self._arranged(size))
-        self._actions: dict[str, Callable[[], None]] = {
-            **time_actions(self.player, self._keyboard.typed),
-            "contact": partial(self._to_contact, self.player.next_contact),
-            "contact_back": partial(self._to_contact, self.player.last_contact),
-            "restart": self._restart,
-            "layers": lambda: self.toolbar.open("layers", self._layer_entries),
-            **{each.name: partial(self._toggle, each.name) for each in LAYERS if each.key},
-            "fit": self.viewpoint.fit,
-            "nearer": lambda: self.viewpoint.zoom(ZOOM, self.arenas[0].plot.center),
-            "farther": lambda: self.viewpoint.zoom(-ZOOM, self.arenas[0].plot.center),
-            "screen": self._fill_screen,
-            "dark": self._change_theme,
-            "text": self._change_text,
-            "picture": self._save_picture,
-            "help": self.help.turn,
-            "close": self._close,
-            "leave": self._leave,
-        }
         self.toolbar = Toolbar(self._actions, self._is_on, live=True)
 
-    def run(self) -> None:
-        """Open the window and play until it is closed; then raise the error of a failed law.
-
-        Raises what `Window.run` does.
-        """
-        with started_display():
-            self.scale = desktop_scale()
-            pygame.display.set_caption(f"{self.trio.scenario.title}, compared - MARS2D")
-            screen = open_window(opening_size(self.size, self.scale), self._painter)
-            self._open = True
-            self.draw(screen)
-            show_drawn()
-            with Watchdog(self._calls, self._answer):
-                self._loop(screen)
-        if self.player.error is not None:
-            raise self.player.error
-
     def _calls(self) -> object:
-        """Return what changes with each call of the user's code."""
         return [each.world.simulation.calls for each in self.trio.timelines.values()]
 
-    def _answer(self, where: str) -> str:
-        """Answer the user while a law takes long at a line; return why to break it off, or ""."""
-        if not self._passing:
-            return ""
-        self.notes.say(f"waiting for {where}; Esc leaves", kind="warning")
-        surface = pygame.display.get_surface()
-        if surface is not None:
-            self.draw(surface)
-            show_drawn()
-        pygame.event.pump()
-        keys_moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))
-        for event in keys_moved:  # for later, in their order
-            pygame.event.post(event)
-        escapes = any(e.type == pygame.KEYDOWN and e.key == pygame.K_ESCAPE for e in keys_moved)
-        if pygame.event.peek(pygame.QUIT) or escapes:
-            self._open = False
-            return "did not return before the window was closed"
-        return ""
-
-    def _loop(self, screen: pygame.Surface) -> None:
-        clock, last = pygame.time.Clock(), time.perf_counter()
-        while self._open:
-            for event in self._rest.events():
-                self._handle(event)
-            now = time.perf_counter()
-            self._passing = True  # from here on laws may be asked
-            self.player.pass_time(now - last)
-            self._passing = False
-            last, player = now, self.player
-            if player.playing or player.busy or len(self.notes):
-                self._rest.stir()
-            if not self._rest.resting and pygame.display.get_active():
-                self.draw(pygame.display.get_surface() or screen)
-                show_drawn()
-                player.drawing = time.perf_counter() - now
-            if player.speed < inf or not player.playing:
-                clock.tick(PICTURES_A_SECOND)
+    def _pass_time(self, seconds: float) -> None:
+        self.player.pass_time(seconds)
 
     # -- drawing --------------------------------------------------------------------------------
 
     def _arranged(self, size: tuple[int, int]) -> Layout:
         """Give arenas and plot their places; return a layout whose picture is the first arena."""
         banner = self._ending.banner()
-        foot = footer_height(banner, size, self._painter, self.text, self.scale)
-        whole = Layout.of(size, foot, text=self.text, scale=self.scale, controls=True)
-        self._painter.ui, ui, room = whole.ui, whole.ui, whole.plot
+        painter, text, scale = self.looks.painter, self.looks.text, self.looks.scale
+        foot = footer_height(banner, size, painter, text, scale)
+        whole = self.looks.layout(size, foot, controls=True)
+        painter.ui, ui, room = whole.ui, whole.ui, whole.plot
         top = room.top + round(TITLE_HEIGHT * ui)
         low = round(min(max(PLOT_SHARE * room.height, MIN_PLOT * ui), 0.5 * room.height))
         xmin, xmax, ymin, ymax = self.trio.scenario.bounds
@@ -184,17 +89,18 @@ class CompareWindow:
 
     def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
         """Draw the window on a surface; the layout follows its size."""
-        layout, painter, trio = self._arranged(surface.get_size()), self._painter, self.trio
+        layout, painter, trio = self._arranged(surface.get_size()), self.looks.painter, self.trio
         ui, whole = layout.ui, self._whole
         self.viewpoint.arrange(layout, trio.scenario)
         frame = self.player.frame
         surface.fill(painter.theme.page)
         first, counts = self.arenas[0].plot, trio.collisions
         frames = trio.frames(frame.time)
+        layers = self.layers if self.player.error is None else self._own_layers()
         for arena in self.arenas:
             camera = self.viewpoint.camera.panned(arena.plot.left - first.left, 0)
             arena.paint(
-                surface, frames[arena.mode], camera, self._seen(), counts[arena.mode],
+                surface, frames[arena.mode], camera, layers, counts[arena.mode],
                 hurried=self.viewpoint.hurried,
             )  # fmt: skip
             if arena is not self.arenas[0]:
@@ -213,12 +119,6 @@ class CompareWindow:
             self.notes.draw(surface, whole.plot, painter, time.monotonic())
         self.help.draw(surface, whole, painter, self._help())
 
-    def _seen(self) -> Layers:
-        """Return the layers, without those that code of the user's draws once it has failed."""
-        theirs = ("sensors", "messages", "neighbours", "theory", "addons")
-        failed = self.player.error is not None
-        return self.layers.switched(**dict.fromkeys(theirs, False)) if failed else self.layers
-
     def _help(self) -> list[tuple[str, list[keys.Key]]]:
         """Return the keys that do something here, in their groups."""
         return [
@@ -227,31 +127,10 @@ class CompareWindow:
             if group != "Mouse"
         ]
 
-    @property
-    def _pointer(self) -> Pixel | None:
-        """Where the mouse is, if it is on the open window."""
-        return pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
-
     # -- events ---------------------------------------------------------------------------------
 
-    def _handle(self, event: pygame.Event) -> None:
-        if event.type == pygame.QUIT:
-            self._close()
-        elif self.toolbar.handle(event) or self._controls.handle(event):
-            pass
-        elif event.type == pygame.KEYDOWN:
-            key = self._keyboard.press(
-                event.key, event.unicode, event.mod, manual=self.player.manual
-            )
-            if key is not None and key.action in self._actions:
-                self._actions[key.action]()
-            self._keyboard.forget(event.key, event.unicode)
-        elif event.type == pygame.KEYUP:
-            self._keyboard.release(event.key)
-        elif event.type == pygame.WINDOWFOCUSLOST:
-            self._keyboard.clear()
-        else:
-            self._point(event)
+    def _take(self, event: pygame.Event) -> bool:
+        return self.toolbar.handle(event) or self._controls.handle(event)
 
     def _point(self, event: pygame.Event) -> None:
         """Handle the mouse on the arenas, the plot and the bars."""
@@ -288,52 +167,15 @@ class CompareWindow:
         at = self.plot.time_at(pixel[0])
         self.player.go(round(at / self.trio.scenario.sampling_time))
 
-    def _is_on(self, action: str) -> bool:
-        """Return whether what a button switches is on."""
-        return {
-            "pause": self.player.playing,
-            "loop": self.player.loop,
-            "layers": self.toolbar.menu.name == "layers",
-            "screen": pygame.display.is_fullscreen() if self._open else False,
-            "dark": self._painter.theme.dark,
-            "help": self.help.is_open,
-        }.get(action, False)
-
     # -- commands -------------------------------------------------------------------------------
 
-    def _to_contact(self, go: Callable[[], None]) -> None:
-        """Go to a contact of the run with contact; forces are shown there."""
-        self.layers = self.layers.switched(forces=True, impulses=True)
-        go()
-
     def _restart(self) -> None:
-        """Begin anew, with the file as it is now."""
+        """Start again, with the file as it is now."""
         self.notes.clear()
         try:
             self.player.restart()
         except Mars2dError as error:  # the file can't be read
             self.notes.say(str(error), "error")
-
-    def _layer_entries(self) -> list[Entry]:
-        return layer_entries(lambda name: getattr(self.layers, name), self._toggle_alone)
-
-    def _toggle_alone(self, layer: str) -> None:
-        self.layers = self.layers.toggled(layer, alone=True)
-
-    def _toggle(self, layer: str) -> None:
-        self.layers = self.layers.toggled(layer)
-
-    def _change_theme(self) -> None:
-        self._painter.theme = theme_of(dark=not self._painter.theme.dark)
-
-    def _change_text(self) -> None:
-        self.text = next_text_size(self.text)
-
-    def _fill_screen(self) -> None:
-        try:
-            pygame.display.toggle_fullscreen()
-        except pygame.error as error:
-            self.notes.say(f"no full screen here: {error}", "warning")
 
     def _save_picture(self) -> None:
         """Save a picture of the three arenas and the plot."""
@@ -343,19 +185,3 @@ class CompareWindow:
         self.saver.picture(
             surface.subsurface((plot.left, 0, plot.width, head.height + plot.height))
         )
-
-    def _close(self) -> None:
-        self._open = False
-
-    def _leave(self) -> None:
-        """Close the menu or the help, clear errors, or leave."""
-        if self._keyboard.number:
-            return
-        if self.toolbar.menu.is_open:
-            self.toolbar.menu.close()
-        elif self.help.is_open:
-            self.help.close()
-        elif self.notes.failed:
-            self.notes.clear()
-        else:
-            self._close()

@@ -9,12 +9,12 @@ import numpy as np
 import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.output.raster.painter import Painter
 from mars2d.scenario.changes import with_poses, without_body
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.driver import ARROWS, LETTERS, Driver
+from mars2d.window.looks import Looks
 from mars2d.window.notes import Notes
 from mars2d.window.player import Player
 from mars2d.window.saving import copied
@@ -297,7 +297,7 @@ class Director:
         except InputError:
             return self.scenario_now()
 
-    def editor(self, painter: Painter) -> Editor | None:
+    def editor(self, looks: Looks) -> Editor | None:
         """Return an editor of the scenario as it is now."""
         from mars2d.window.editor import Editor  # few runs need it, and it is slow to import
 
@@ -307,7 +307,7 @@ class Director:
         self._player.pause()
         self.let_go()
         path, control = timeline.experiment.path, timeline.world.control
-        return Editor(self.scenario_now(), painter, path=path, live=True, control=control)
+        return Editor(self.scenario_now(), looks, path=path, live=True, control=control)
 
     def apply(self, outcome: Outcome) -> None:
         """Continue with the drawn scenario, from now or from the start."""

@@ -6,15 +6,13 @@ from pathlib import Path
 
 import pygame
 
-from mars2d.output.raster.layout import interface_scale, next_text_size
-from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.theme import theme_of
+from mars2d.output.raster.layout import interface_scale
 from mars2d.scenario.courses import GAMES, courses, title_of
 from mars2d.scenario.experiment import examples
 from mars2d.window.buttons import Buttons
 from mars2d.window.cards import Card, Page, Shelf
-from mars2d.window.desktop import desktop_scale, opening_size
-from mars2d.window.display import PICTURES_A_SECOND, open_window, show_drawn, started_display
+from mars2d.window.display import PICTURES_A_SECOND, show_drawn, started_display
+from mars2d.window.looks import Looks
 from mars2d.window.memory import Memory
 from mars2d.window.notes import Notes
 from mars2d.window.rest import Rest
@@ -37,14 +35,13 @@ class Home:
     def __init__(self, memory: Memory, note: str = "") -> None:
         """Prepare; the window opens with `run`."""
         self._memory = memory
-        likes = memory.preferences()
-        self.painter = Painter(theme=theme_of(dark=likes.dark))
-        self.text, self.scale, self.size = likes.text, 1.0, memory.size
+        self._notes, self._rest = Notes(), Rest()
+        self.looks = Looks(memory.preferences(), self._notes.say)
+        self.painter, self.size = self.looks.painter, memory.size
         self.page, self.words = Page(), ""
         self.choice: tuple[str, ...] | None = None
-        self._notes, self._rest = Notes(), Rest()
-        switches = {"dark": self._change_theme, "text": self._change_text}
-        self._buttons = Buttons([list(switches)], switches, lambda _: False, keys=False)
+        switches = ["dark", "text"]
+        self._buttons = Buttons([switches], self.looks.actions, lambda _: False, keys=False)
         self._open, self._held = True, False
         if note:
             self._notes.say(note, "error")
@@ -55,11 +52,8 @@ class Home:
         Raises InputError without a display, DisplayError if it is lost.
         """
         with started_display():
-            self.scale = desktop_scale()
             pygame.display.set_caption("MARS2D")
-            screen = pygame.display.get_surface()
-            if screen is None:
-                screen = open_window(opening_size(self.size, self.scale), self.painter)
+            screen = pygame.display.get_surface() or self.looks.open(self.size)
             pygame.key.start_text_input()
             clock = pygame.time.Clock()
             while self._open:
@@ -68,9 +62,8 @@ class Home:
                 clock.tick(PICTURES_A_SECOND)
                 for event in self._rest.events():
                     self.handle(event)
-            width, height = (pygame.display.get_surface() or screen).get_size()
-        size = [round(width / self.scale), round(height / self.scale)]
-        self._memory.keep(size=size, dark=self.painter.theme.dark, text=self.text)
+            size = (pygame.display.get_surface() or screen).get_size()
+        self._memory.keep(**self.looks.remembered(size))
         return self.choice
 
     @property
@@ -106,7 +99,7 @@ class Home:
     def draw(self, surface: pygame.Surface) -> None:
         """Draw the home on a surface of any size."""
         size, painter = surface.get_size(), self.painter
-        ui = painter.ui = interface_scale(size, self.text, self.scale)
+        ui = painter.ui = interface_scale(size, self.looks.text, self.looks.scale)
         theme, fonts, pad = painter.theme, painter.fonts, round(30 * ui)
         header = pygame.Rect(0, 0, size[0], round(HEADER * ui))
         footer = pygame.Rect(0, 0, size[0], round(FOOTER * ui))
@@ -225,7 +218,7 @@ class Home:
         elif event.key == pygame.K_BACKSPACE:
             self.words = self.words[:-1]
         elif event.key == pygame.K_F11:
-            pygame.display.toggle_fullscreen()
+            self.looks.actions["screen"]()
         elif control and event.key in (pygame.K_q, pygame.K_w):
             self._open = False
         elif event.key == pygame.K_ESCAPE:
@@ -245,12 +238,6 @@ class Home:
             self._notes.say(f"{path.name}: expected a file that ends in {suffixes}", "warning")
         else:
             self.choice, self._open = (command, str(path)), False
-
-    def _change_theme(self) -> None:
-        self.painter.theme = theme_of(dark=not self.painter.theme.dark)
-
-    def _change_text(self) -> None:
-        self.text = next_text_size(self.text)
 
 
 def _own_card(path: Path, picture: Path | None) -> Card:

@@ -11,12 +11,14 @@ import numpy as np
 
 from mars2d.core.usercode import name_of
 from mars2d.record.frame import Frame
+from mars2d.record.record import Record
 from mars2d.sensors.base import Sensor
 from mars2d.window.menu import Entry
 from mars2d.window.scopes import Scopes
+from mars2d.window.toolbar import Toolbar
 from mars2d.window.trace import FEW, What
 
-__all__ = ["entries_of_distances", "entries_of_scopes"]
+__all__ = ["ScopeMenu", "entries_of_distances", "entries_of_scopes"]
 
 MOTION = {"Speed": "speed", "x": "x", "y": "y", "Heading": "theta"}
 CONTACT = {"Contact force": "force", "Contact impulse": "impulse"}
@@ -24,6 +26,51 @@ DYNAMICS = {"Kinetic energy": "kinetic", "Momentum": "momentum.each"}
 OF_ALL = {"Energy, and what has made it": "energy", "Momentum, of all": "momentum"}
 NEAREST = 14
 """The most bodies whose distance is offered: the nearest."""
+
+
+class ScopeMenu:
+    """The menu of the run window that chooses plots; at first those that the file names are shown.
+
+    frame: returns the frame that is shown. selected: returns the selected body, or None. named:
+    returns the plots that the experiment's file names, its `scopes`.
+    """
+
+    def __init__(
+        self,
+        scopes: Scopes,
+        toolbar: Toolbar,
+        frame: Callable[[], Frame],
+        selected: Callable[[], int | None],
+        named: Callable[[], Sequence[What]],
+    ) -> None:
+        """Show the plots that the file names."""
+        self._scopes, self._toolbar = scopes, toolbar
+        self._frame, self._selected, self._named = frame, selected, named
+        robots = tuple(range(len(frame().scenario.robots)))
+        for what in named():
+            scopes.switch(what, robots if isinstance(what, str) else ())
+
+    @property
+    def functions(self) -> list[Callable[[Record], object]]:
+        """The functions among the plots that the file names."""
+        return [what for what in self._named() if not isinstance(what, str)]
+
+    def open(self) -> None:
+        """Open the menu for the selected body, or for all robots."""
+
+        def entries() -> list[Entry]:
+            body, functions = self._selected(), self.functions
+            return entries_of_scopes(
+                self._frame(), body, self._scopes, functions, self._open_distances
+            )
+
+        self._toolbar.open("scopes", entries)
+
+    def _open_distances(self) -> None:
+        """Open the menu of distances of the selected body."""
+        body, menu = self._selected() or 0, self._toolbar.menu
+        entries = partial(entries_of_distances, self._frame(), body, self._scopes)
+        menu.open("distances", entries, menu.corner)
 
 
 def entries_of_scopes(

@@ -83,7 +83,7 @@ def show_experiment(
         finally:
             if log is not None:
                 log.close(source.record)
-            memory.keep(**window.looks)
+            memory.keep(**window.remembered)
             if viewpoint is not None:
                 viewpoint.look_as(window.viewpoint)
         _remember(memory, experiment, window)
@@ -104,7 +104,7 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
     try:
         window.run()
     finally:
-        memory.keep(**window.looks)
+        memory.keep(**window.remembered)
 
 
 def _to_be_driven(experiment: Experiment) -> list[int]:

@@ -5,24 +5,18 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
-from math import inf
 from typing import TYPE_CHECKING
 
 import pygame
 
 from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.plane import Point
-from mars2d.core.watchdog import Watchdog
-from mars2d.output.layers.table import LAYERS, Layers
+from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
-from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layout import Layout, next_text_size
-from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
-from mars2d.output.raster.theme import theme_of
 from mars2d.record.frame import Frame
-from mars2d.record.record import Record
 from mars2d.scenario.controllers import standing_still
 from mars2d.window import keys
 from mars2d.window.context import (
@@ -32,40 +26,32 @@ from mars2d.window.context import (
     entries_of_place,
     entries_of_runs,
 )
-from mars2d.window.controls import Controls
 from mars2d.window.countdown import Countdown
-from mars2d.window.desktop import desktop_scale, opening_size
 from mars2d.window.director import RECORDING, Director
 from mars2d.window.display import (
-    PICTURES_A_SECOND,
     Preferences,
-    open_window,
     show_drawn,
-    started_display,
 )
 from mars2d.window.dock import Dock
 from mars2d.window.ghosts import ghosts
 from mars2d.window.grab import CLICK, Grab
-from mars2d.window.help import Help
+from mars2d.window.hints import hints_of
 from mars2d.window.inspector import Inspector
 from mars2d.window.memory import Memory
 from mars2d.window.menu import Entry
 from mars2d.window.mouse import Mouse
-from mars2d.window.notes import Ending, Notes, Progress, draw_progress
+from mars2d.window.notes import Ending, Progress, draw_progress
 from mars2d.window.parameter_panel import ParameterPanel
 from mars2d.window.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.play import Play
-from mars2d.window.player import Player, time_actions
+from mars2d.window.player_window import PlayerWindow
 from mars2d.window.predictions import Predictions
 from mars2d.window.reload import Reload
-from mars2d.window.rest import Rest
-from mars2d.window.saving import Saver
-from mars2d.window.scope_menu import entries_of_distances, entries_of_scopes
+from mars2d.window.scope_menu import ScopeMenu
 from mars2d.window.scopes import Scopes
 from mars2d.window.score_panel import ScorePanel
 from mars2d.window.source import Source
-from mars2d.window.toolbar import Toolbar, layer_entries
-from mars2d.window.trace import What
+from mars2d.window.toolbar import Toolbar
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -75,24 +61,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Window"]
 
-HINTS = (
-    ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
-)  # fmt: skip
-HAND_HINTS = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
-MANUAL_HINTS = (("any key", "step"), ("+", "play"), ("F1", "help"))
-ZOOM = 2.0
-"""How far a key zooms, in notches of the wheel."""
 SEEN = 4.0
 """The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
-RESERVE = 0.004
-"""The time of a picture that is not used to prepare for going back, seconds."""
-TOGGLED = tuple(layer.name for layer in LAYERS if layer.key)
-"""The layers that have a key each of the same name."""
-THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
-"""The layers that code of a user's may draw."""
 
 
-class Window:
+class Window(PlayerWindow):
     """Shows a source on the screen until the window is closed.
 
     speed: a factor of real time, 0 for one step a key press, or "max". size: at first, pixels.
@@ -107,38 +80,28 @@ class Window:
         preferences: Preferences | None = None,
     ) -> None:
         """Prepare; the window opens with `run`."""
-        preferences = preferences or Preferences()
-        self.player = Player(source, speed)
-        self.size = size
-        self.title = f"{source.scenario.title} - MARS2D"
-        self.layers = Layers.of(source.scenario.animation, neighbours=True)
-        self.help = Help()
+        title, name = source.scenario.title, _stem(source)
+        super().__init__(source, speed, size, preferences, title=title, stem=name)
+        self.layers = self.layers.switched(neighbours=True)
         self.asks = False  # before a run is lost that can't just be run again
-        self.text, self.scale = preferences.text, 1.0
-        self.notes = Notes()
         self.director = Director(self.player, self.notes, self._show_way_back)
         self.grab = Grab(self.director.change, partial(self.notes.say, kind="warning"))
-        self.saver = Saver(self.notes, _stem(source))
         self.editor: Editor | None = None
         self.game: Play | None = None  # where people play
         self._before: Countdown | None = None
         self._score: ScorePanel | None = None
         self._unseen = False  # whether a game has not been drawn yet
         timeline = self.director.timeline
-        self._controls = Controls(self.player)
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
         self._ending = Ending(self.player, lambda: self.game)
         self._cast = _cast(source)
-        self._open = False
-        self._passing, self._awaited = False, ""  # whether laws may be asked; the line waited for
-        self._keyboard, self._rest = keys.Keyboard(), Rest()
-        self._painter = Painter(theme=theme_of(dark=preferences.dark))
-        self._stage = Stage(self._painter, MEMORY)
-        self._inspector = Inspector(self._painter)
-        self._predictions = Predictions(self._painter, timeline)
+        painter = self._painter = self.looks.painter
+        self._stage = Stage(painter, MEMORY)
+        self._inspector = Inspector(painter)
+        self._predictions = Predictions(painter, timeline)
         self.parameters = ParameterPanel(
-            self._painter,
+            painter,
             lambda: None if timeline is None else timeline.experiment,
             lambda: self.selected,
             self._set_parameter,
@@ -149,48 +112,39 @@ class Window:
             self.player, self.viewpoint, self.grab, self._controls.handles,
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
-        self._actions: dict[str, Callable[[], None]] = {
-            **time_actions(self.player, self._keyboard.typed),
-            "contact": lambda: self._to_contact(self.player.next_contact),
-            "contact_back": lambda: self._to_contact(self.player.last_contact),
+        self._actions |= {
             "contacts": lambda: self.toolbar.open("contacts", self._contact_entries),
             "predictions": self._predict_or_not,
-            "restart": self._restart,
             "branch": self._other_branch,
             "undo": self._undo,
-            "layers": lambda: self.toolbar.open("layers", self._layer_entries),
-            "nearer": lambda: self.viewpoint.zoom(ZOOM, self.layout.plot.center),
-            "farther": lambda: self.viewpoint.zoom(-ZOOM, self.layout.plot.center),
-            "screen": self._fill_screen,
-            "close": self._close,
-            **{layer: partial(self._toggle, layer) for layer in TOGGLED},
             "scopes": self._open_scopes,
             "figure": lambda: self.scopes.save_figure(self.player.frame, self.saver),
             "table": lambda: self.scopes.save_table(self.player.frame, self.saver),
             "select": self._select_next,
             "follow": self._follow_or_not,
-            "fit": self.viewpoint.fit,
-            "dark": self._change_theme,
-            "text": self._change_text,
             "parameters": self._show_parameters,
             "drive": self._drive_or_not,
             "edit": self._open_editor,
-            "picture": self._save_picture,
             "film": self.saver.film_or_not,
             "python": self._save_python,
-            "help": self.help.turn,
-            "leave": self._leave,
         }
-        self.scopes = Scopes(
-            self._painter, lambda: self.player.source.recorded, self.player.go, self._actions
+        self.scopes: Scopes = Scopes(
+            painter, lambda: self.player.source.recorded, self.player.go, self._actions
         )
-        panels = [self._inspector, self.scopes, self.parameters, self._predictions]
-        self.dock = Dock(self._painter, panels)
-        self._begin_scopes()
+        self.dock = Dock(
+            painter, [self._inspector, self.scopes, self.parameters, self._predictions]
+        )
         buttons = self._actions | {"branch": self._choose_branch}
         if not self._predictions.offered:
             del buttons["predictions"]
-        self.toolbar: Toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
+        self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
+        self._scope_menu = ScopeMenu(
+            self.scopes,
+            self.toolbar,
+            lambda: self.player.frame,
+            lambda: self.selected,
+            lambda: () if timeline is None else timeline.experiment.scopes,
+        )
 
     @property
     def selected(self) -> int | None:
@@ -202,42 +156,9 @@ class Window:
         self._inspector.body = body
 
     @property
-    def camera(self) -> Camera:
-        """The camera."""
-        return self.viewpoint.camera
-
-    @property
-    def layout(self) -> Layout:
-        """The layout."""
-        return self.viewpoint.layout
-
-    def run(self) -> None:
-        """Open the window and play until it is closed; then raise the error of a failed law.
-
-        Ctrl+C in the terminal closes the window and raises KeyboardInterrupt. Raises InputError
-        without a display, DisplayError if the display is lost.
-        """
-        with started_display():
-            try:
-                self.scale = desktop_scale()
-                screen = self._show()
-                self.draw(screen)  # before the first law is asked: it may take long
-                show_drawn()
-                with Watchdog(self._calls, self._answer):
-                    self._loop(screen)
-            finally:
-                self.saver.close()
-        if self.player.error is not None:
-            raise self.player.error
-
-    @property
-    def looks(self) -> dict[str, object]:
+    def remembered(self) -> dict[str, object]:
         """How the window looks, to be remembered: size [points], colours, size of text, panels."""
-        size, dark = (
-            [round(side / self.scale) for side in self.layout.size],
-            self._painter.theme.dark,
-        )
-        return {"size": size, "dark": dark, "text": self.text, "panels": self.dock.opened}
+        return self.looks.remembered(self.layout.size) | {"panels": self.dock.opened}
 
     def arena(self) -> pygame.Surface:
         """Return a picture of the arena alone, without any bars."""
@@ -245,75 +166,29 @@ class Window:
         self.draw(surface, notes=False)
         return surface.subsurface(self.layout.plot)
 
-    def _show(self) -> pygame.Surface:
-        pygame.display.set_caption(self.title)
-        screen = open_window(opening_size(self.size, self.scale), self._painter)
-        self._open = True
-        return screen
-
     def _calls(self) -> object:
-        """Return what changes with each call of the user's code."""
         timeline = self.director.timeline
         return None if timeline is None else timeline.world.simulation.calls
 
     def _answer(self, where: str) -> str:
-        """Answer the user while a law takes long at a line; return why to break it off, or ""."""
-        if self._passing and where != self._awaited:
-            self._awaited = where
-            self.notes.say(f"waiting for {where}; Esc leaves", kind="warning")
-        surface = pygame.display.get_surface()
-        if surface is not None:
-            self.draw(surface)
-            show_drawn()
-        pygame.event.pump()
-        closed = pygame.event.peek(pygame.QUIT)
-        keys_moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))
-        for event in keys_moved:  # for later, in their order
-            pygame.event.post(event)
-        escapes = [event for event in keys_moved if event.key == pygame.K_ESCAPE]
-        if closed or any(event.type == pygame.KEYDOWN for event in escapes):
-            self._open = False
-            return "did not return before the window was closed"
-        if self._reload is not None and self._reload.waits():
+        broken_off = super()._answer(where)
+        if not broken_off and self._reload is not None and self._reload.waits():
             return "did not return before its file was saved"
-        return ""
-
-    def _loop(self, screen: pygame.Surface) -> None:
-        clock = pygame.time.Clock()
-        last = time.perf_counter()
-        while self._open:
-            for event in self._rest.events():
-                self._handle(event)
-            now = time.perf_counter()
-            self._passing, self._awaited = True, ""
-            self._pass_time(now - last)
-            self._passing = False
-            last = now
-            if self._moves:
-                self._rest.stir()
-            if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
-                self._show_picture(pygame.display.get_surface() or screen)
-            self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE)
-            if self.player.speed < inf or not self.player.playing:
-                clock.tick(PICTURES_A_SECOND)
+        return broken_off
 
     @property
     def _moves(self) -> bool:
-        """Whether the next picture may differ from this one though nobody does anything."""
-        player, followed = self.player, self.viewpoint.following is not None
+        followed = self.viewpoint.following is not None
         acts = self.grab.busy or self.saver.filming or self.editor is not None
         acts |= self._drives and self.game is None
         if self.game is not None:
             acts |= self.game.counting > 0
-        return acts or followed or player.playing or player.busy or len(self.notes) > 0
+        return acts or followed or super()._moves
 
-    def _show_picture(self, screen: pygame.Surface) -> None:
-        """Draw the window, and put it on the screen and into the film."""
-        start = time.perf_counter()
+    def _paint(self, screen: pygame.Surface) -> None:
+        """Draw the next picture of the loop, and add it to the film."""
         self.draw(screen)
         self._film(screen)
-        show_drawn()
-        self.player.drawing = time.perf_counter() - start
 
     def _film(self, screen: pygame.Surface) -> None:
         """Add the drawn screen to the film, if one is being made, and mark it as filmed."""
@@ -326,7 +201,6 @@ class Window:
             self.notes.draw(screen, plot, self._painter, time.monotonic())
 
     def _pass_time(self, seconds: float) -> None:
-        """Advance by seconds of the wall clock."""
         if self.editor is not None:
             return
         self._read_again()
@@ -365,7 +239,7 @@ class Window:
 
     def _meet(self) -> None:
         """Release and deselect all bodies if the experiment has others than before."""
-        self.scopes.renew(self._own_functions)
+        self.scopes.renew(self._scope_menu.functions)
         cast = _cast(self.player.source)
         if cast == self._cast:
             return
@@ -375,15 +249,10 @@ class Window:
         self.grab.cancel()
         self.grab.leave()
 
-    def _use_rest(self, seconds: float) -> None:
-        """Use the rest of a picture's time to prepare for going back."""
-        if self.director.timeline is not None and seconds > 0:
-            self.director.timeline.idle(seconds)
-
     # -- drawing --------------------------------------------------------------------------------
 
     def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
-        """Draw the window on a surface; the layout follows its size."""
+        """Draw the window or its editor on a surface; the layout follows its size."""
         if self.editor is not None:
             self.editor.draw(surface)
             return
@@ -391,7 +260,7 @@ class Window:
             self._draw(surface, self.layers, notes=notes)
         except Mars2dError as error:  # raised by the drawing of an add-on or a sensor
             self.player.fail(error)
-            self._draw(surface, self.layers.switched(**dict.fromkeys(THEIRS, False)), notes=notes)
+            self._draw(surface, self._own_layers(), notes=notes)
 
     def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
         banner = self._ending.banner()
@@ -443,35 +312,10 @@ class Window:
         layout, painter = self.layout, self._painter
         draw_header(surface, layout, painter, frame, self._status())
         self._controls.draw(surface, layout, painter, self._pointer, self._mouse.drags)
-        draw_footer(surface, layout, painter, banner, summary(frame), self._hints())
-
-    @property
-    def _pointer(self) -> tuple[int, int] | None:
-        """Where the mouse is, if it is on the open window."""
-        return pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
-
-    def _hints(self) -> Sequence[tuple[str, str]]:
-        """Return the keys that are useful now, and their effects."""
-        go_on, (drive, slowly, *rest) = ("Space", "go on"), HAND_HINTS
-        if self.game is not None:
-            return self._game_hints(self.game)
-        if self._drives:
-            return (go_on, drive, *rest) if self.player.paused else (drive, slowly, *rest)
-        if self.player.manual:
-            return MANUAL_HINTS
-        return (go_on, *HINTS[1:]) if self.player.paused else HINTS
-
-    def _game_hints(self, game: Play) -> Sequence[tuple[str, str]]:
-        """Return the keys that are useful in a game now, and their effects."""
-        if not game.seats:
-            return (*((str(each.number), each.title) for each in game.choices), ("Esc", "leave"))
-        if game.counting:
-            return ("Space", "start at once"), ("F1", "help")
-        pause = "go on" if self.player.paused else "pause"
-        if "score" not in self.dock.plates:  # there is no room for the panel with the keys
-            keys = [(" ".join(seat.keys), seat.role or "drive") for seat in game.seats]
-            return (*keys, ("Space", pause), ("R", "begin again"))
-        return ("Space", pause), ("R", "begin again"), ("Shift", "slowly"), ("F1", "help")
+        hints = hints_of(
+            self.player, self.game, drives=self._drives, score_shown="score" in self.dock.plates
+        )
+        draw_footer(surface, layout, painter, banner, summary(frame), hints)
 
     def _status(self) -> Status:
         if self._keyboard.number:
@@ -505,38 +349,33 @@ class Window:
 
     def _layout(self, size: tuple[int, int], banner: Banner | None) -> Layout:
         """Return the layout on a surface of this size."""
-        text, scale = self.text, self.scale
+        text, scale = self.looks.text, self.looks.scale
         height = footer_height(banner, size, self._painter, text, scale)
-        return Layout.of(size, height, text=text, scale=scale, controls=True)
+        return self.looks.layout(size, height, controls=True)
 
     # -- events ---------------------------------------------------------------------------------
 
-    def _handle(self, event: pygame.Event) -> None:
-        if event.type == pygame.QUIT:
-            self._close()
-        elif self.director.handle(event):
-            pass
-        elif self.editor is not None:
+    def _take(self, event: pygame.Event) -> bool:
+        if self.director.handle(event):
+            return True
+        if self.editor is not None:
             self.editor.handle(event)
             if self.editor.dialogs.done:
                 self._close_editor(self.editor)
-        elif self._before is not None and self._before.handle(event):
-            pass
-        elif self.toolbar.handle(event):
+            return True
+        if self._before is not None and self._before.handle(event):
+            return True
+        if self.toolbar.handle(event):
             self._meet()
-        elif self._controls.handle(event) or (not self.help.is_open and self.dock.handle(event)):
-            pass
-        elif event.type == pygame.KEYDOWN:
-            if not self._to_slider(event):
-                self._press(event.key, event.unicode, event.mod)
-        elif event.type == pygame.KEYUP:
-            self._keyboard.release(event.key)
-        elif event.type == pygame.WINDOWFOCUSLOST:
-            self._keyboard.clear()
-        else:
-            if event.type == pygame.MOUSEBUTTONDOWN:
-                self.parameters.leave()
-            self._mouse.handle(event)
+            return True
+        if self._controls.handle(event) or (not self.help.is_open and self.dock.handle(event)):
+            return True
+        return event.type == pygame.KEYDOWN and self._to_slider(event)
+
+    def _point(self, event: pygame.Event) -> None:
+        if event.type == pygame.MOUSEBUTTONDOWN:
+            self.parameters.leave()
+        self._mouse.handle(event)
 
     def _to_slider(self, event: pygame.Event) -> bool:
         """Give a pressed key to the slider that has the focus; return whether it took it."""
@@ -544,12 +383,6 @@ class Window:
         if self._drives or event.mod & keys.CONTROL:
             return False
         return self.parameters.press(name, event.unicode, shift=shift)
-
-    def _press(self, code: int, character: str, modifiers: int) -> None:
-        key = self._keyboard.press(code, character, modifiers, manual=self.player.manual)
-        if key is not None:
-            self._actions[key.action]()
-        self._keyboard.forget(code, character)
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether a pixel shows the picture, with nothing over it."""
@@ -573,22 +406,15 @@ class Window:
         self.toolbar.menu.open("offer", lambda: entries, (x, y))
 
     def _is_on(self, action: str) -> bool:
-        """Return whether what a button switches is on."""
         return {
-            "pause": self.player.playing,
-            "loop": self.player.loop,
             "contacts": self.player.at_contact != "go on" or self.toolbar.menu.name == "contacts",
-            "layers": self.toolbar.menu.name == "layers",
             "parameters": self.parameters.is_open,
             "scopes": self.scopes.is_open,
             "predictions": self._predictions.is_open,
             "drive": self._drives,
             "follow": self.viewpoint.following is not None,
             "film": self.saver.filming,
-            "screen": pygame.display.is_fullscreen() if self._open else False,
-            "dark": self._painter.theme.dark,
-            "help": self.help.is_open,
-        }.get(action, False)
+        }.get(action, super()._is_on(action))
 
     # -- commands -------------------------------------------------------------------------------
 
@@ -612,64 +438,19 @@ class Window:
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces are shown there."""
         self.player.body = self.selected
-        self.layers = self.layers.switched(forces=True, impulses=True)
-        go()
+        super()._to_contact(go)
 
     def _contact_entries(self) -> list[Entry]:
         return entries_of_contacts(self.player, self._actions)
 
-    @property
-    def _own_scopes(self) -> Sequence[What]:
-        """What the experiment's file names as its scopes."""
-        timeline = self.director.timeline
-        return () if timeline is None else timeline.experiment.scopes
-
-    @property
-    def _own_functions(self) -> list[Callable[[Record], object]]:
-        return [what for what in self._own_scopes if not isinstance(what, str)]
-
-    def _begin_scopes(self) -> None:
-        """Plot what the experiment's file names."""
-        robots = tuple(range(len(self.player.source.scenario.robots)))
-        for what in self._own_scopes:
-            self.scopes.switch(what, robots if isinstance(what, str) else ())
-
     def _open_scopes(self) -> None:
-        """Open the menu of what can be plotted of the selected body, or of all robots."""
-        self.toolbar.open(
-            "scopes",
-            lambda: entries_of_scopes(
-                self.player.frame,
-                self.selected,
-                self.scopes,
-                self._own_functions,
-                self._open_distances,
-            ),
-        )
-
-    def _open_distances(self) -> None:
-        """Open the menu of the distances of the selected body that can be plotted."""
-        body, menu = self.selected or 0, self.toolbar.menu
-        menu.open(
-            "distances",
-            lambda: entries_of_distances(self.player.frame, body, self.scopes),
-            menu.corner,
-        )
+        """Open the menu of plots."""
+        self._scope_menu.open()
 
     def _undo(self) -> None:
         """Undo the last thing done by hand; a drag ends."""
         self.grab.cancel()
         self.director.undo()
-
-    def _layer_entries(self) -> list[Entry]:
-        return layer_entries(lambda name: getattr(self.layers, name), self._toggle_alone)
-
-    def _fill_screen(self) -> None:
-        """Fill the screen with the window, or no longer."""
-        try:
-            pygame.display.toggle_fullscreen()
-        except pygame.error as error:
-            self.notes.say(f"no full screen here: {error}", "warning")
 
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""
@@ -711,20 +492,6 @@ class Window:
         self.director.other_branch()
         self._meet()
 
-    def _toggle_alone(self, layer: str) -> None:
-        self.layers = self.layers.toggled(layer, alone=True)
-
-    def _toggle(self, layer: str) -> None:
-        self.layers = self.layers.toggled(layer)
-
-    def _change_theme(self) -> None:
-        self._painter.theme = theme_of(dark=not self._painter.theme.dark)
-
-    def _change_text(self) -> None:
-        """Choose the next size of text, after the largest the smallest."""
-        self.text = next_text_size(self.text)
-        self.notes.say(f"text {self.text:g} times as large as usual")
-
     def _follow_or_not(self) -> None:
         """Let the camera follow the selected body or all robots, or stop following."""
         self.viewpoint.follow(self.selected)
@@ -738,27 +505,20 @@ class Window:
     def _select_next(self) -> None:
         self.selected = next_body(self.player.frame, self.selected)
 
-    def _leave(self) -> None:
-        """Close the help, end a drag, stop driving, select nothing, clear errors, or leave."""
-        if self._keyboard.number:
-            return  # only the typed number is forgotten
-        if self.toolbar.menu.is_open:
-            self.toolbar.menu.close()
-        elif self.help.is_open:
-            self.help.close()
-        elif self.grab.busy:
+    def _end_activity(self) -> bool:
+        """End a drag, stop driving, select nothing, or pause a game; return whether it did so."""
+        if self.grab.busy:
             self.grab.cancel()
         elif self._drives and self.game is None:
             self.director.let_go()
         elif self.selected is not None:
             self.selected = None
-        elif self.notes.failed:
-            self.notes.clear()
-        elif self.game is not None and self.player.playing:
+        elif self.game is not None and self.player.playing and not self.notes.failed:
             self.player.pause()
             self.notes.say("paused: Space goes on, R begins again, Esc leaves")
         else:
-            self._close()
+            return False
+        return True
 
     # -- saving, and changing the run -----------------------------------------------------------
 
@@ -841,14 +601,13 @@ class Window:
     def _open_editor(self) -> None:
         """Open the editor on the scenario as it is now."""
         self._mouse.let_go()
-        self.editor = self.director.editor(self._painter)
+        self.editor = self.director.editor(self.looks)
         if self.editor is not None:
-            self.editor.text, self.editor.scale = self.text, self.scale
             self.editor.viewpoint.look_as(self.viewpoint)
 
     def _close_editor(self, editor: Editor) -> None:
         """Close the editor, and apply its outcome."""
-        self.editor, self.text = None, editor.text
+        self.editor = None
         self.viewpoint.look_as(editor.viewpoint)
         self._keyboard.clear()
         if editor.dialogs.outcome is not None:

@@ -7,11 +7,11 @@ import json
 import sys
 from pathlib import Path
 
-from mars2d.output.raster.painter import Painter
 from mars2d.scenario.controllers import Controller
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, EditorWindow
+from mars2d.window.looks import Looks
 from tests.window.telling import Teller, unseen
 
 
@@ -84,7 +84,7 @@ def main():
     scenario = Scenario() if source == "-" else open_experiment(source).scenario
     path = options.pop("path", None if source == "-" else source)
     editor = Editor(
-        scenario, Painter(), path=None if path is None else Path(path),
+        scenario, Looks(), path=None if path is None else Path(path),
         empty=source == "-", **options,
     )  # fmt: skip
     Observed(editor, (800, 600)).run()

@@ -85,7 +85,7 @@ def state_of(window):
         "scale": round(window.camera.scale, 3),
         "origin": [round(window.camera.x, 1), round(window.camera.y, 1)],
         "layers": {layer.name: layer.name in window.layers.on for layer in LAYERS},
-        "text": window.text,
+        "text": window.looks.text,
         "dark": window._painter.theme.dark,
         "help": window.help.page,
         "notes": [note.text for note in window.notes._notes],

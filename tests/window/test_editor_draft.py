@@ -12,7 +12,6 @@ from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Ball, Box, Gate
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
-from mars2d.output.raster.painter import Painter
 from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -25,6 +24,7 @@ from mars2d.window.editor.handles import spanned
 from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.sketch import Sketch
 from mars2d.window.editor.verdict import judge
+from mars2d.window.looks import Looks
 from mars2d.window.viewpoint import Viewpoint
 
 SQUARE = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))
@@ -342,8 +342,8 @@ def test_a_document_that_was_named_is_kept_there_and_never_over_another_file(tmp
 @pytest.mark.parametrize("size", [(320, 240), (640, 480), (1280, 720), (2560, 1440), (300, 900)])
 @pytest.mark.parametrize("text", [1.0, 2.2])
 def test_it_draws_at_every_size(size, text):
-    editor = Editor(furnished(), Painter())
-    editor.text = text
+    editor = Editor(furnished(), Looks())
+    editor.looks.text = text
     surface = pygame.Surface(size, 0, 32)
     editor.draw(surface)
     editor.desk.select(editor.desk.draft.items())
@@ -354,7 +354,7 @@ def test_it_draws_at_every_size(size, text):
 
 @pytest.mark.parametrize("name", sorted(examples()))
 def test_every_example_can_be_opened_and_emptied(name):
-    editor = Editor(open_experiment(name).scenario, Painter(), live=True)
+    editor = Editor(open_experiment(name).scenario, Looks(), live=True)
     surface = pygame.Surface((640, 480), 0, 32)
     editor.draw(surface)
     assert editor.desk.notice == ""
@@ -368,7 +368,7 @@ def test_an_add_on_that_can_not_be_drawn_is_left_out_and_said():
         def draw(self, scene, frame):
             raise ValueError("no such cell")
 
-    editor = Editor(furnished().replace(addons=[Broken(), Map([SQUARE])]), Painter())
+    editor = Editor(furnished().replace(addons=[Broken(), Map([SQUARE])]), Looks())
     surface = pygame.Surface((640, 480), 0, 32)
     editor.draw(surface)
     assert "no such cell" in editor.desk.notice
@@ -409,7 +409,7 @@ def keyboard(monkeypatch):
 def test_no_sequence_of_events_breaks_it(seed, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     chance = random.Random(seed)
-    editor = Editor(furnished(), Painter(), live=seed % 2 == 0, empty=seed % 3 == 0)
+    editor = Editor(furnished(), Looks(), live=seed % 2 == 0, empty=seed % 3 == 0)
     surface = pygame.Surface((640, 480), 0, 32)
     codes = [ord(character) for character in "vrbowpkynm=gfidzsa1-."]
     codes += [pygame.K_RETURN, pygame.K_ESCAPE, pygame.K_DELETE, pygame.K_BACKSPACE, pygame.K_LEFT]

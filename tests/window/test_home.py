@@ -32,7 +32,7 @@ def memory(tmp_path, monkeypatch):
 
 def shown(memory, size=(1280, 720), text=1.0):
     home = Home(memory)
-    home.text = text
+    home.looks.text = text
     surface = pygame.Surface(size, 0, 32)
     home.draw(surface)
     return home, surface
@@ -162,7 +162,7 @@ def test_the_buttons_change_colours_and_text(memory):
         home.handle(pygame.Event(pygame.MOUSEBUTTONDOWN, button=1, pos=place.center))
     home.draw(surface)
     assert pygame.surfarray.array3d(surface).mean() < 0.5 * before
-    assert home.text == TEXT_SIZES[1]
+    assert home.looks.text == TEXT_SIZES[1]
 
 
 # -- memory ---------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from mars2d.output.raster.layout import TEXT_SIZES
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import contest_of
 from mars2d.window.display import Preferences
+from mars2d.window.hints import hints_of
 from mars2d.window.memory import Memory
 from mars2d.window.play import COUNTDOWN, game_of
 from mars2d.window.scores import Scores, Tally
@@ -228,7 +229,8 @@ def test_the_panel_stands_beside_the_arena_of_whoever_plays(memory, size, text):
     assert "inspector" not in window.dock.plates  # no plot of forces for whoever plays
     if "score" not in window.dock.plates:
         assert text * 400 > size[0] / 2  # large letters
-        assert ("↑ ← ↓ →", "evader") in window._hints()
+        hints = hints_of(window.player, window.game, drives=False, score_shown=False)
+        assert ("↑ ← ↓ →", "evader") in hints
         return
     assert not window.dock.plates["score"].colliderect(window._seen_arena(window.player.frame))
 

@@ -266,10 +266,10 @@ def test_the_wheel_shows_less_time_and_more_until_it_is_all(timeline):
 
 def test_a_window_that_remembers_its_scopes_shows_something(pushing):
     window = Window(Timeline(open_experiment(pushing)))
-    assert window.looks["panels"] == []
+    assert window.remembered["panels"] == []
     window.dock.open(["scopes"])
     assert [(trace.what, trace.bodies) for trace in window.scopes.traces] == [("speed", (0, 1))]
-    assert window.looks["panels"] == ["scopes"]
+    assert window.remembered["panels"] == ["scopes"]
 
 
 @pytest.mark.parametrize("kind", ["column", "function"])

@@ -31,7 +31,7 @@ def window(monkeypatch):
 
 
 def words(window, size=LARGE, text=1.0):
-    window.text = text
+    window.looks.text = text
     surface = Written(size)
     window.draw(surface)
     return surface.texts

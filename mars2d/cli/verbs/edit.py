@@ -39,20 +39,20 @@ def execute(arguments: argparse.Namespace) -> None:
     if not has_display():
         require_pygame("a window")
         raise InputError(NO_DISPLAY)
-    from mars2d.output.raster.painter import Painter
     from mars2d.window.editor import Editor, EditorWindow
+    from mars2d.window.looks import Looks
 
     robots_wanted = any(name.partition(".")[0] == "robots" for name in options)
     editor = Editor(
         experiment.scenario,
-        Painter(),
+        Looks(preferences_of(arguments)),
         path=path if new else _kept_in(arguments.scenario, experiment),
         control=experiment.control,
         empty=new and not robots_wanted,
         changed=bool(options),
     )
     try:
-        EditorWindow(editor, preferences=preferences_of(arguments)).run()
+        EditorWindow(editor).run()
     except BaseException:  # Ctrl-C, a lost display, a fault: too late to ask for a name
         kept = editor.dialogs.rescue()
         if kept is not None:

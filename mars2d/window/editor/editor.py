@@ -17,10 +17,8 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
 from mars2d.output.layers.table import Layers
-from mars2d.output.raster.layout import Layout, next_text_size
-from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
-from mars2d.output.raster.theme import theme_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.chrome import (
     Button,
@@ -48,6 +46,7 @@ from mars2d.window.editor.toolbar import WIDTH, Toolbar
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
 from mars2d.window.help import Help
+from mars2d.window.looks import Looks
 from mars2d.window.menu import Menu
 from mars2d.window.viewpoint import Viewpoint, wheel_notches
 
@@ -76,14 +75,14 @@ class Editor:
 
     path: the scenario's file; one that is not .toml only lends its name. live: whether a paused run
     is edited, which can continue with the outcome. control: the team's law, for the file. empty:
-    start without robots. changed: the scenario differs from the file. text, scale: as for
-    `Layout.of`. dialogs: what becomes of the draft.
+    start without robots. changed: the scenario differs from the file. dialogs: save, run or apply
+    the draft.
     """
 
     def __init__(
         self,
         scenario: Scenario,
-        painter: Painter,
+        looks: Looks,
         *,
         path: Path | None = None,
         live: bool = False,
@@ -92,8 +91,8 @@ class Editor:
         changed: bool = False,
     ) -> None:
         """Open a scenario; nothing is drawn yet."""
-        self.painter, self.live = painter, live
-        self.text = self.scale = 1.0
+        self.looks, self.live = looks, live
+        painter = self.painter = looks.painter
         self.help = Help()
         self.document = Document(path, control)
         draft = Draft.empty(scenario) if empty else Draft.of(scenario)
@@ -129,8 +128,8 @@ class Editor:
             "snap": self._toggle_snap,
             "names": self._toggle_names,
             "fit": lambda: self.viewpoint.fit(self.desk.draft.sketch),
-            "dark": self._toggle_dark,
-            "text": self._next_text_size,
+            "dark": looks.actions["dark"],
+            "text": looks.actions["text"],
             "help": self.help.turn,
             "leave": self._leave,
             "save": self.dialogs.save,
@@ -324,12 +323,6 @@ class Editor:
     def _toggle_names(self) -> None:
         self._names = not self._names
 
-    def _toggle_dark(self) -> None:
-        self.painter.theme = theme_of(dark=not self.painter.theme.dark)
-
-    def _next_text_size(self) -> None:
-        self.text = next_text_size(self.text)
-
     # -- the view -------------------------------------------------------------------------------
 
     def _zoom(self, notches: float) -> None:
@@ -337,7 +330,7 @@ class Editor:
         self.viewpoint.zoom(notches, pixel)
 
     def _laid_out(self, size: tuple[int, int]) -> Layout:
-        layout = Layout.of(size, text=self.text, scale=self.scale)
+        layout = self.looks.layout(size)
         left, right = round(WIDTH * layout.ui), Panel.width(size, layout.ui)
         plot = layout.plot
         room = pygame.Rect(left, plot.top, max(1, plot.width - left - right), plot.height)

@@ -5,16 +5,8 @@ from __future__ import annotations
 import pygame
 
 from mars2d.core.errors import Mars2dError
-from mars2d.output.raster.theme import theme_of
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.desktop import desktop_scale, opening_size
-from mars2d.window.display import (
-    PICTURES_A_SECOND,
-    Preferences,
-    open_window,
-    show_drawn,
-    started_display,
-)
+from mars2d.window.display import PICTURES_A_SECOND, show_drawn, started_display
 from mars2d.window.editor.editor import Editor
 
 __all__ = ["EditorWindow"]
@@ -26,31 +18,18 @@ IDLE_WAIT = 100
 class EditorWindow:
     """Shows an editor until it is left; F5 runs the saved file in between.
 
-    size: of the window at first, points. preferences: how it looks.
+    size: of the window at first, points.
     """
 
-    def __init__(
-        self,
-        editor: Editor,
-        size: tuple[int, int] = (1280, 720),
-        preferences: Preferences | None = None,
-    ) -> None:
+    def __init__(self, editor: Editor, size: tuple[int, int] = (1280, 720)) -> None:
         """Prepare; the window opens with `run`."""
         self.editor, self.size = editor, size
-        likes = preferences or Preferences()
-        editor.text = likes.text
-        editor.painter.theme = theme_of(dark=likes.dark)
 
     def run(self) -> None:
         """Open the window, and return when it is left. Raises InputError without a display."""
         with started_display():
-            self.editor.scale = desktop_scale()
-            self.size = opening_size(self.size, self.editor.scale)
-            self._show()
+            self.editor.looks.open(self.size)
             self._loop()
-
-    def _show(self) -> None:
-        open_window(self.size, self.editor.painter)
 
     def _loop(self) -> None:
         clock, editor = pygame.time.Clock(), self.editor
@@ -88,14 +67,14 @@ class EditorWindow:
         editor, surface = self.editor, pygame.display.get_surface()
         path, editor.dialogs.to_run = editor.dialogs.to_run, None
         assert path is not None
-        size = self.size if surface is None else surface.get_size()
+        if surface is not None:
+            self.size = editor.looks.points(surface.get_size())
         try:
             experiment = open_experiment(path)
             speed = experiment.scenario.animation.playback_speed
-            likes = Preferences(dark=editor.painter.theme.dark, text=editor.text)
+            likes = editor.looks.preferences
             show_experiment(experiment, speed, preferences=likes, viewpoint=editor.viewpoint)
         except Mars2dError as error:
             editor.desk.say(str(error), warns=True)
-        self.size = size
         pygame.event.clear()
-        self._show()
+        editor.looks.open(self.size)
