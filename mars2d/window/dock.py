@@ -127,6 +127,21 @@ class Dock:
         """The names of the open panels that are remembered."""
         return [panel.name for panel in self.panels if panel.is_open and panel.remembered]
 
+    @property
+    def free(self) -> pygame.Rect:
+        """The largest side of the picture on which no panel was drawn."""
+        plot, plates = self._plot, list(self.plates.values())
+        if not plates:
+            return plot
+        taken = plates[0].unionall(plates[1:])
+        sides = (
+            pygame.Rect(plot.topleft, (taken.left - plot.left, plot.height)),
+            pygame.Rect(taken.right, plot.top, plot.right - taken.right, plot.height),
+            pygame.Rect(plot.topleft, (plot.width, taken.top - plot.top)),
+            pygame.Rect(plot.left, taken.bottom, plot.width, plot.bottom - taken.bottom),
+        )
+        return max(sides, key=lambda side: max(side.width, 0) * max(side.height, 0))
+
     def open(self, names: Iterable[str]) -> None:
         """Open the panels of these names; unknown names are left out."""
         for panel in self.panels:

@@ -105,6 +105,7 @@ class ParameterPanel(Panel):
         self._next = self._clicked = 0.0  # when it may be set; when the last click was
         self._scroll = 0.0  # points
         self._room = 0.0
+        self._cut = False  # whether there is no room for all lines
         self._image: pygame.Surface | None = None
         self._drawn: tuple[object, ...] = ()
 
@@ -161,12 +162,13 @@ class ParameterPanel(Panel):
         room = pygame.Rect(rect.left, rect.top, rect.width, rect.height - below)
         whole = sum(line.height for line in lines)
         self._room = room.height / ui
+        self._cut = whole > self._room + 2
         self._scroll = min(max(self._scroll, 0.0), max(0.0, whole - self._room))
         self.places, self.resets = {}, {}
         clip = surface.get_clip()
         surface.set_clip(room.clip(clip))
         top = room.top - self._scroll * ui
-        bar = round(8 * ui) if whole > self._room + 2 else 0
+        bar = round(8 * ui) if self._cut else 0
         for line in lines:
             place = pygame.Rect(room.left, round(top), room.width - bar, round(line.height * ui))
             top += line.height * ui
@@ -271,7 +273,8 @@ class ParameterPanel(Panel):
             return f"{focused.name}: {between}; {focused.default:.6g} in the file", "info"
         if self._selected() is None:
             return "select a robot or prop for its mass, friction and drive", "info"
-        return "", "info"
+        more = "; turn the wheel for more" if self._cut else ""
+        return f"drag a slider, or click it and type a number{more}", "info"
 
     # -- the mouse ----------------------------------------------------------------------------
 
@@ -420,7 +423,7 @@ def _lines(experiment: Experiment, body: int | None) -> Iterator[Line]:
         heading = above
         yield Line(parameter.name.rpartition(".")[2], parameter)
     if not found:
-        yield Line("No parameters: the file has no function `scenario`")
+        yield Line("No parameters in this file")
     if body is not None:
         yield Line(experiment.scenario.bodies[body].name)
         for parameter in experiment.parameters(body):

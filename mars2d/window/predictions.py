@@ -137,7 +137,7 @@ class Predictions(Panel):
         """Draw the whole content on a surface of its own."""
         ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
         rows, (width, height) = self.reading.predictions, surface.get_size()
-        top, foot = 0, height - round(len(words) * LINE * ui)
+        top, foot = 0, height - round(len(words) * LINE * ui) if rows else 0
         each = self._column(width)
         columns = [round(width - UNIT * ui - k * each) for k in (2, 1, 0)]
         titles = ("predicted", "measured", "tolerance") if rows else ()

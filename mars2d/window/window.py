@@ -280,6 +280,7 @@ class Window(PlayerWindow):
             self.camera,
             layers,
             layout.plot,
+            free=self.dock.free,
             beneath=others,
             marks=marks,
             hurried=self.viewpoint.hurried,

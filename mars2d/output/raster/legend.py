@@ -14,8 +14,10 @@ from mars2d.output.raster.painter import Painter
 
 __all__ = ["draw_legends"]
 
-MIN_HEIGHT = 300.0
-"""The least height of a picture with a legend, points; the least width is twice that."""
+LEAST = 300.0
+"""The least width and height of a picture with a legend, points."""
+MAX_SHARE = 0.25
+"""The largest share of the picture's height for legends; those beyond are left out."""
 
 GAP, PAD, ROW_HEIGHT, TEXT_SIZE = 8.0, 10.0, 24.0, 13.0
 """The room around a plate and within it, the heights of a row and of text, points."""
@@ -29,13 +31,15 @@ def draw_legends(
     legends: Sequence[Legend],
 ) -> None:
     """Draw legends side by side, in rows from the bottom up, if the picture has room for them."""
-    if plot.height < MIN_HEIGHT * painter.ui or plot.width < 2 * MIN_HEIGHT * painter.ui:
+    if min(plot.size) < LEAST * painter.ui:
         return
     corner, top = plot.bottomleft, plot.bottom
     for legend in legends:
         plate = _measured(painter, legend, camera)
         if corner[0] + plate.size[0] > plot.right and corner[0] > plot.left:
             corner = plot.left, top
+        if plot.bottom - corner[1] + plate.size[1] > MAX_SHARE * plot.height:
+            break
         area = _draw(surface, painter, legend, plate, corner)
         corner, top = (area.right, corner[1]), min(top, area.top)
 

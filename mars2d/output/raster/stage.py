@@ -150,6 +150,7 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect | None = None,
         *,
+        free: pygame.Rect | None = None,
         beneath: Sequence[Shape] = (),
         marks: Sequence[Shape] = (),
         hurried: bool = False,
@@ -157,10 +158,11 @@ class Stage:
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
-        beneath, marks: shapes to draw below and above the bodies. selected: a body whose name goes
-        before others, an index of `Scenario.bodies`. hurried: whether the camera is moving. If the
-        layers that stand still took long to draw, the last picture is then enlarged or shifted
-        until there is time to draw a new one.
+        free: the part of the plot on which nothing else will be drawn, where legends go; by default
+        all of it. beneath, marks: shapes to draw below and above the bodies. selected: a body whose
+        name goes before others, an index of `Scenario.bodies`. hurried: whether the camera is
+        moving. If the layers that stand still took long to draw, the last picture is then enlarged
+        or shifted until there is time to draw a new one.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -175,22 +177,22 @@ class Stage:
         self._paint_above(surface, frame, camera, layers, beneath, marks, selected)
         surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
         shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
-        image, corner = self._drawn(shown, camera, plot)
+        image, corner = self._drawn(shown, camera, plot if free is None else free)
         surface.blit(image, corner)
         surface.set_clip(before)
 
     def _drawn(
-        self, shown: Sequence[Legend], camera: Camera, plot: pygame.Rect
+        self, shown: Sequence[Legend], camera: Camera, room: pygame.Rect
     ) -> tuple[pygame.Surface, tuple[int, int]]:
         """Return the picture of legends and its corner; it is drawn again when they change."""
         painter = self.painter
         names = [legend.layer for legend in shown]
-        of = (self._scenario, *names, camera.scale, *plot, painter.ui, painter.theme)
+        of = (self._scenario, *names, camera.scale, *room, painter.ui, painter.theme)
         if of != self._legend_of:
-            whole = pygame.Surface(plot.size, pygame.SRCALPHA, 32)
+            whole = pygame.Surface(room.size, pygame.SRCALPHA, 32)
             draw_legends(whole, painter, camera, whole.get_rect(), shown)
             place = whole.get_bounding_rect()
-            corner = plot.left + place.left, plot.top + place.top
+            corner = room.left + place.left, room.top + place.top
             self._legend_of, self._legend = of, (whole.subsurface(place).copy(), corner)
         return self._legend
 

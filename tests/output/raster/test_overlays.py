@@ -114,6 +114,16 @@ def test_the_legends_lie_side_by_side(scale):
     assert len(np.flatnonzero(np.diff(both.astype(int)))) == 4  # with a gap between them
 
 
+@pytest.mark.parametrize(("size", "rows"), [((1280, 600), 1), ((320, 400), 1), ((280, 400), 0)])
+def test_legends_take_a_quarter_of_the_height_at_most(size, rows):
+    surface = pygame.Surface(size, 0, 32)
+    scenario, camera = frame_of([(0, 0, 0)]).scenario, Camera(80.0, 100.0, 240.0)
+    draw_legends(surface, Painter(), camera, surface.get_rect(), legends(scenario))
+    drawn = pygame.surfarray.array3d(surface).any(axis=(0, 2))
+    assert int(drawn.sum()) <= size[1] / 4
+    assert len(np.flatnonzero(np.diff(drawn.astype(int)))) == 2 * rows
+
+
 # -- names ----------------------------------------------------------------------------------------
 
 
