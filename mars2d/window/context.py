@@ -47,7 +47,7 @@ def entries_of_body(frame: Frame, body: int, director: Director, actions: Action
         Entry("Put back to its start", lambda: director.put_back(body)),
         Entry("Twice as heavy", lambda: director.scale_mass(body, 2.0)),
         Entry("Half as heavy", lambda: director.scale_mass(body, 0.5)),
-        Entry("Remove, and start anew", lambda: director.remove(body)),
+        Entry("Remove, and start again", lambda: director.remove(body)),
     ]
 
 

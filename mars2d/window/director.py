@@ -143,7 +143,7 @@ class Director:
             self.change(lambda world: world.hands.place(body, pose))
 
     def scale_mass(self, body: int, factor: float) -> None:
-        """Go on with a body that is heavier or lighter by a factor, or start anew with it."""
+        """Go on with a body that is heavier or lighter by a factor, or start again with it."""
         timeline = self._live()
         if timeline is None:
             return
@@ -154,11 +154,11 @@ class Director:
         except Mars2dError as error:
             self._notes.say(str(error), "error")
             return
-        anew = f"started anew, as {reason}: " if reason else ""
+        anew = f"started again, as {reason}: " if reason else ""
         self._notes.say(f"{anew}{name} with a mass of {mass:.4g} kg")
 
     def set(self, name: str, value: float, restart: bool = True) -> str:
-        """Set a parameter; return why the run starts anew, or "".
+        """Set a parameter; return why the run starts again, or "".
 
         restart: whether it may. Raises InputError where it can't have that value, and for a
         recording; LawError where a law or a sensor fails with it.
@@ -183,12 +183,12 @@ class Director:
         return reason
 
     def remove(self, body: int) -> None:
-        """Start anew without a body."""
+        """Start again without a body."""
         name = self._player.source.scenario.bodies[body].name
         self._begin_anew(lambda drawn: without_body(drawn, body), f"the team without {name}")
 
     def _begin_anew(self, change: Callable[[Scenario], Scenario], said: str) -> None:
-        """Start anew with the scenario of the file changed, or say why it can't be."""
+        """Start again with the scenario of the file changed, or say why it can't be."""
         timeline = self._live()
         if timeline is None:
             return
@@ -197,7 +197,7 @@ class Director:
         except InputError as error:
             self._notes.say(str(error), "error")
             return
-        self._restart(experiment, f"started anew: {said}; Space goes on")
+        self._restart(experiment, f"started again: {said}; Space goes on")
 
     # -- robots driven by hand ----------------------------------------------------------------
 
@@ -319,7 +319,7 @@ class Director:
         )
         if outcome.when == "start":
             drawn = self.timeline.experiment.redrawn(outcome.scenario, given)
-            self._restart(drawn, "started anew with what was drawn; Space goes on")
+            self._restart(drawn, "started again with what was drawn; Space goes on")
             return
         before = self.scenario_now().bodies
         bodies = enumerate(outcome.scenario.bodies)

@@ -64,7 +64,7 @@ class Section(NamedTuple):
 class Inspector(Panel):
     """Shows the state, contacts, forces, sensors and messages of one body.
 
-    clock: seconds; the inspector is drawn anew a few times a second, and as soon as the body comes
+    clock: seconds; the inspector is drawn again a few times a second, and as soon as the body comes
     to touch another or parts from it, since it stands beside the arrows.
 
     body: the one that is shown, an index of `Scenario.bodies`; None: none, and it is closed. plays:

@@ -26,7 +26,7 @@ Pixel = tuple[int, int]
 Say = Literal["info", "error"]
 
 Set = Callable[[str, float, bool], str]
-"""Sets a parameter: its name, its value, and whether the run may start anew for it. Returns why it
+"""Sets a parameter: its name, its value, and whether the run may start again for it. Returns why it
 does or would, or ""; raises InputError for values that it can't have."""
 
 ROW, HEADING, SIZE = 38.0, 24.0, 13.0
@@ -263,7 +263,7 @@ class ParameterPanel(Panel):
 
     def _words(self) -> tuple[str, Say]:
         if self._held is not None and self._anew:
-            return f"let go to start anew: {self._anew}", "info"
+            return f"let go to start again: {self._anew}", "info"
         if self.said[0]:
             return self.said
         focused = self.parameters().get(self.focus or "")
@@ -352,7 +352,7 @@ class ParameterPanel(Panel):
             self._anew, self._waits = reason, True
             return
         what = f"{name.removeprefix(PREFIX)} = {_number(parameter, value)}{unit}"
-        effect = f"started anew: {reason}" if reason else "in effect from now on"
+        effect = f"started again: {reason}" if reason else "in effect from now on"
         self.said = f"{what}: {effect}", "info"
 
     # -- keys ---------------------------------------------------------------------------------

@@ -150,7 +150,7 @@ class Player:
         self._slow = max(0.0, self._slow - wall)
         self._heed_contact()
         now = self._clock()
-        if self._pace and self._time < self._pace[-1][1]:  # it was started anew
+        if self._pace and self._time < self._pace[-1][1]:  # it was started again
             self._pace.clear()
         self._pace.append((now, self._time))
         while now - self._pace[0][0] > 1.5:

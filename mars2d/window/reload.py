@@ -105,7 +105,7 @@ class Reload:
             self._timeline.check(experiment)
         except InputError as error:
             self._timeline.restart(experiment)
-            words = f"started anew: {str(error).partition(': ')[2]}"
+            words = f"started again: {str(error).partition(': ')[2]}"
         else:
             words = self._timeline.take(experiment, self._progress)
         self._adopt()

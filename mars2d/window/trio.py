@@ -108,7 +108,7 @@ class Trio:
             timeline.go(self.row)
 
     def restart(self) -> None:
-        """Begin all runs anew, with the experiment's file as it is now."""
+        """Begin all runs again, with the experiment's file as it is now."""
         self.row, self._before = 0, {}
         for timeline in self.timelines.values():
             timeline.restart()

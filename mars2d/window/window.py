@@ -550,7 +550,7 @@ class Window(PlayerWindow):
             self.dock.switch("parameters")
 
     def _set_parameter(self, name: str, value: float, restart: bool) -> str:
-        """Set a parameter; return why the run starts anew, or ""."""
+        """Set a parameter; return why the run starts again, or ""."""
         reason = self.director.set(name, value, restart)
         if reason and restart:
             self.grab.cancel()

@@ -8,7 +8,7 @@ by a key: so the memory is that of one process for the whole time. All windows a
 same seed gives the same acts, but not at the same instants of a run.
 
 What must not grow is what stays from act to act: a window left leaves nothing, nor does a run that
-was started anew. So the scene ends after 30 s; the monkey starts it anew by R, as any other key,
+was started again. So the scene ends after 30 s; the monkey starts it again by R, as any other key,
 and the branches that it has made are forgotten then; the editor remembers 500 steps at most. All
 that is bounded, but goes up and down by chance: so memory, the part that no file stands behind, is
 told as the median of each tenth of the time. It counts as flat where those of the last third are
@@ -218,7 +218,7 @@ class Window:
         self._open()
 
     def spend(self, seconds: float) -> None:
-        """Let the monkey play for some time, and note memory; begin anew where a process dies."""
+        """Let the monkey play for some time, and note memory; begin again where a process dies."""
         start = time.monotonic()
         look = start + LOOK
         while (now := time.monotonic()) < start + seconds:

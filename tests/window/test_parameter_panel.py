@@ -120,10 +120,10 @@ def test_what_needs_a_new_start_waits_until_it_is_let_go_of_and_says_so(file):
         desk.send(pygame.MOUSEMOTION, desk.at("robots", value))
         desk.panel.tick()
     assert desk.set_to == [("robots", 3, False)]
-    assert desk.panel._words()[0] == "let go to start anew: 3 robots in place of 2"
+    assert desk.panel._words()[0] == "let go to start again: 3 robots in place of 2"
     desk.send(pygame.MOUSEBUTTONUP, desk.at("robots", 3))
     assert desk.set_to[1:] == [("robots", 3, True)]
-    assert desk.panel.said[0] == "robots = 3: started anew: 3 robots in place of 2"
+    assert desk.panel.said[0] == "robots = 3: started again: 3 robots in place of 2"
 
 
 def test_a_press_beside_a_handle_moves_it_there_and_a_click_on_a_name_does_not(file):
@@ -282,7 +282,7 @@ def test_more_robots_start_anew_and_a_heavier_crate_does_not(open_window, file):
     window.slide(pixel(window, "robots", 0.34), pixel(window, "robots", 1.0))
     seen = window.until(lambda s: len(s["robots"]) == 4)
     assert seen["row"] == 0
-    assert seen["sliders"]["said"].startswith("robots = 4: started anew: 4 robots in place of 2")
+    assert seen["sliders"]["said"].startswith("robots = 4: started again: 4 robots in place of 2")
     window.press("Escape", "Right", "Right")
     window.until(lambda s: s["row"] == 2)
     window.click(2, 1)

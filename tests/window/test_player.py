@@ -240,7 +240,7 @@ def test_a_letter_with_ctrl_means_the_same_as_elsewhere_or_nothing(manual):
         held = keys.Keyboard()
         if held.press(ord(letter), "", pygame.KMOD_LCTRL, manual=manual) is not None:
             known.add(letter)
-    assert known == set("qswz")  # no Ctrl+R, which elsewhere loads anew
+    assert known == set("qswz")  # no Ctrl+R, which elsewhere reloads
 
 
 def test_every_key_has_its_own_command():
@@ -419,7 +419,7 @@ def test_after_a_new_start_the_pace_is_never_below_zero():
 
     play(60)
     assert player.factor > 0
-    source.go(0)  # a file that was saved starts anew, and tells the player afterwards
+    source.go(0)  # a file that was saved starts again, and tells the player afterwards
     player.settle()
     for _ in range(60):
         play(1)

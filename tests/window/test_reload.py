@@ -144,7 +144,7 @@ def test_what_needs_a_new_start_begins_anew_and_says_why(desk):
     desk.run(5)
     desk.write("walk", WALK.replace("sampling_time=0.1", "sampling_time=0.2"))
     (said,) = desk.wait()
-    assert said.message == "walk.py: started anew: Scenario.sampling_time is another one"
+    assert said.message == "walk.py: started again: Scenario.sampling_time is another one"
     assert desk.timeline.newest == 0
     assert desk.timeline.scenario.sampling_time == 0.2
 

@@ -1,12 +1,16 @@
 """The buttons and menus of the window, pressed with a real mouse."""
 
+import inspect
+import re
+from pathlib import Path
+
 import pytest
 
 from mars2d import load, run
 from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.table import LAYERS
 from mars2d.record.marks import marks_of
-from mars2d.window import keys, toolbar
+from mars2d.window import context, keys, scope_menu, toolbar
 from tests.window.person import differing, needs_screen
 
 pytestmark = needs_screen
@@ -112,15 +116,18 @@ def test_buttons_drive_draw_and_begin_anew(open_window, room):
     window.until(lambda s: s["driving"] == 0)
     push(window, "drive")
     window.until(lambda s: s["driving"] is None)
+    push(window, "parameters")
+    window.until(lambda s: "parameters" in s["panels"])
     push(window, "edit")
     window.until(lambda s: s["editor"] is not None)
 
 
 def test_buttons_save(open_window, tmp_path):
     window = open_window(0, folder=tmp_path)
-    for button, suffix in (("picture", ".png"), ("python", ".py")):
-        push(window, button)
-        window.until(lambda _, suffix=suffix: list(tmp_path.glob(f"*{suffix}")))
+    push(window, "picture")
+    window.until(lambda _: list(tmp_path.glob("*.png")))
+    push(window, "python")
+    window.until(lambda _: list(tmp_path.glob("*.py")))
     push(window, "film")
     window.until(lambda s: s["filming"])
     push(window, "film")
@@ -185,7 +192,7 @@ def test_a_right_click_makes_a_body_heavier_and_removes_it(open_window, room):
     choose(window, "Copy its pose")
     window.says("(1, -1, 0)")
     offered(window, 1, -1)
-    choose(window, "Remove, and start anew")
+    choose(window, "Remove, and start again")
     window.until(lambda s: s["props"] == [])
 
 
@@ -203,9 +210,26 @@ def test_a_right_click_on_the_floor_shows_all_and_undoes(open_window, room):
     offered(window, 0, 1.5)
     choose(window, "Copy the point")
     window.says("(")
+    scale = window.state["scale"]
+    window.press("ctrl+plus")
+    window.until(lambda s: s["scale"] > scale)
+    offered(window, 0, 0.5)
+    choose(window, "Show all")
+    window.until(lambda s: s["scale"] == scale)
     offered(window, 2.5, 0)  # a wall
     choose(window, "Draw walls and more")
     window.until(lambda s: s["editor"] is not None)
+
+
+def test_each_button_and_entry_is_pressed_by_one_of_these_tests():
+    here = Path(__file__).parent
+    tests = "".join(path.read_text(encoding="utf-8") for path in here.glob("test_window_*.py"))
+    pushed = set(re.findall(r'push\(window, "(\w+)"\)', tests))
+    groups = (*toolbar.TRANSPORT, toolbar.SEE, toolbar.CHANGE, toolbar.SAVE, toolbar.LOOK)
+    assert {name for group in groups for name in group} == pushed
+    chosen = set(re.findall(r'choose\(window, "([^"]+)"\)', tests))
+    offers = inspect.getsource(context) + inspect.getsource(scope_menu)
+    assert set(re.findall(r'Entry\(\s*"([^"]+)", ', offers)) <= chosen  # the rest are headings
 
 
 def test_ctrl_q_closes_the_window(open_window):
@@ -264,14 +288,19 @@ def test_before_a_run_changed_by_hand_is_lost_the_window_asks(open_window, room,
     assert record.prop_pose[-1, :2, 0] == pytest.approx([1.5, 0.5], abs=0.05)
 
 
-def test_asked_twice_to_close_the_window_does(open_window, room):
-    window = open_window(0, experiment=str(room), asks=True)
+@pytest.mark.parametrize("by", ["key", "menu"])
+def test_asked_twice_to_close_the_window_does(open_window, room, tmp_path, by):
+    window = open_window(0, experiment=str(room), asks=True, folder=tmp_path)
     window.drag((1, -1), (1.2, 0), (1.5, 0.5))
     window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
     window.press("ctrl+q")
     window.until(lambda s: s["menu"])
-    window.press("ctrl+q")
+    if by == "key":
+        window.press("ctrl+q")
+    else:
+        choose(window, "Leave without it")
     window.until(lambda s: s.get("left"))
+    assert not list(tmp_path.glob("*.npz"))
 
 
 def test_a_run_that_can_be_run_again_is_not_asked_for(open_window, room):

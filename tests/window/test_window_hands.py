@@ -135,7 +135,7 @@ def test_with_shift_it_starts_anew_with_what_was_drawn(open_window, room):
     draw_wall(window, (-1, 0), (-1, 1))
     window.press("shift+Return")
     window.until(lambda s: s["editor"] is None and s["row"] == 0)
-    window.says("started anew")
+    window.says("started again")
     window.press("e", "Escape")  # nothing drawn: nothing changes
     window.until(lambda s: s["editor"] is None)
     assert window.settle()["row"] == 0

@@ -322,7 +322,7 @@ class Properties:
             reference = Reference.read("law", typed)
             beside = self._document.path or Path("scenario.toml")
             file = file_beside(Path(reference.file), beside, "a law", [".py"])
-            # Each robot gets the law loaded anew, so that robots share nothing.
+            # Each robot gets the law loaded again, so that robots share nothing.
             self._desk.put(
                 self._desk.draft.with_members(
                     robots, lambda robot: robot.replace(controller=law_in(file, reference.name))
