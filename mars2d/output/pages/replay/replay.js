@@ -5,12 +5,12 @@ const KEYS = [
   [["←", "→"], "one step back, on"],
   [["PgUp", "PgDn"], "ten steps back, on"],
   [["Home", "End"], "to the start, to the end"],
+  [["N", "Shift+N"], "on to the next contact, back to the one before"],
   [["+", "\u2212"], "faster, slower"],
   [["J"], "loop"],
   [["A"], "choose what is shown"],
   [["Shift+arrows"], "move the picture"],
   [["F"], "fit all into the view"],
-  [["N", "Shift+N"], "pick the next, the last robot or prop"],
   [["L"], "follow what is picked"],
   [["D"], "dark or light"],
   [["Esc"], "pick nothing"],
@@ -274,7 +274,7 @@ class Replay {
 
   // What a key does.
   action(key, shift) {
-    const { clock } = this, n = this.record.bodies.length;
+    const { clock } = this;
     const pan = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] }[key];
     if (shift && pan) {
       return () => {
@@ -299,7 +299,7 @@ class Replay {
       j: () => this.setLoop(!clock.loop),
       a: () => this.openLayers(!find("layers").classList.contains("open")),
       f: () => this.fit(),
-      n: () => this.pick((this.look.picked + 1 + (shift ? n : 1)) % (n + 1) - 1),
+      n: () => this.goToContact(shift),
       l: () => this.look.picked >= 0 && this.setFollow(!this.follow),
       d: () => this.setDark(!this.look.dark),
       Escape: () => (find("layers").classList.contains("open") ? this.openLayers(false) : this.pick(-1)),
@@ -351,6 +351,16 @@ class Replay {
     const names = ["page", "paper", "grid", "axis", "muted", "accent"];
     this.look.colors = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
     this.look.dark = dark;
+  }
+
+  // Go to the next row at which a contact begins, or to the one before; forces are shown there.
+  goToContact(before) {
+    const rows = this.record.columns["marks:collision"]?.values ?? [], { position } = this.clock;
+    const found = before ? rows.filter((row) => row < position).at(-1) : rows.find((row) => row > position);
+    for (const layer of this.layers) {
+      if (layer.name === "forces" || layer.name === "impulses") this.look[layer.name] = true;
+    }
+    this.goTo(found ?? (before ? 0 : this.clock.last));
   }
 
   // A key switches other layers along with its own.
