@@ -20,43 +20,45 @@ TOOLS = (
 )
 
 EDIT = (
-    Key("pose", ("=",), ("=",), "type x y, or x y degrees, of what is selected"),
+    Key("pose", ("=",), ("=",), "type x y, or x y degrees, for the selection"),
     Key(
         "nudge",
         ("left", "right", "up", "down"),
         ("←", "→", "↑", "↓"),
-        "move what is selected by a grid step; with Shift by a tenth",
+        "move the selection by a grid step; with Shift by a tenth",
         repeats=True,
     ),
-    Key("delete", ("delete", "backspace"), ("Del",), "remove what is selected, or its corner"),
-    Key("duplicate", ("ctrl+d",), ("Ctrl D",), "duplicate what is selected"),
+    Key("delete", ("delete", "backspace"), ("Del",), "remove the selection, or its corner"),
+    Key("duplicate", ("ctrl+d",), ("Ctrl D",), "duplicate the selection"),
     Key("all", ("ctrl+a",), ("Ctrl A",), "select all"),
     Key("undo", ("ctrl+z",), ("Ctrl Z",), "undo", True),
-    Key("redo", ("ctrl+y", "ctrl+shift+z"), ("Ctrl Y",), "do again", True),
+    Key("redo", ("ctrl+y", "ctrl+shift+z"), ("Ctrl Y",), "redo", True),
 )
 
 VIEW = (
-    Key("snap", ("g",), ("G",), "snap to the grid, on and off"),
+    Key("snap", ("g",), ("G",), "snap to the grid on and off"),
     Key("names", ("i",), ("I",), "names on and off"),
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
-    Key("help", ("f1",), ("F1",), "all keys, on and off"),
-    Key("leave", ("escape",), ("Esc",), "leave the tool, select none, leave"),
+    Key("help", ("f1",), ("F1",), "all keys on and off"),
+    Key("leave", ("escape",), ("Esc",), "leave the tool, deselect, leave"),
     Key("dark", ("d",), ("D",), "dark or light"),
     Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
 )
 
 FILE = (Key("save", ("ctrl+s",), ("Ctrl S",), "save as a scenario file (TOML)"),)
 
-RUN = (Key("run", ("ctrl+r", "f5"), ("F5",), "save and run it; closing the run comes back"),)
+RUN = (Key("run", ("ctrl+r", "f5"), ("F5",), "save and run; closing the run returns here"),)
 
 LIVE = (
-    Key("now", ("return", "enter"), ("Enter",), "go on from now with what was drawn"),
-    Key("start", ("shift+return", "shift+enter"), ("Shift Enter",), "from the start with it"),
+    Key("now", ("return", "enter"), ("Enter",), "go on from now with the drawing"),
+    Key(
+        "start", ("shift+return", "shift+enter"), ("Shift Enter",), "run the drawing from the start"
+    ),
 )
 
 MOUSE = (
     Key("click", (), ("Click",), "select; with Shift one more"),
-    Key("drag", (), ("Drag",), "move; from an empty place, select what lies in the rectangle"),
+    Key("drag", (), ("Drag",), "move; from an empty place, select all in the rectangle"),
     Key("turn", (), ("Ring",), "its handle turns; with Shift in steps of 15 degrees"),
     Key("corner", (), ("Corner",), "moves a corner, or resizes a box; the dots add a corner"),
     Key("zoom", (), ("Wheel",), "zoom about the pointer"),

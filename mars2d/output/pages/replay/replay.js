@@ -2,18 +2,18 @@
 
 const KEYS = [
   [["Space"], "play, pause"],
-  [["←", "→"], "one step back, on"],
-  [["PgUp", "PgDn"], "ten steps back, on"],
-  [["Home", "End"], "to the start, to the end"],
-  [["N", "Shift+N"], "on to the next contact, back to the one before"],
-  [["+", "\u2212"], "faster, slower"],
+  [["←", "→"], "one step back or on"],
+  [["PgUp", "PgDn"], "ten steps back or on"],
+  [["Home", "End"], "to the start, or to the end"],
+  [["N", "Shift+N"], "next contact, previous contact"],
+  [["+", "\u2212"], "faster, or slower"],
   [["J"], "loop"],
-  [["A"], "choose what is shown"],
+  [["A"], "choose layers"],
   [["Shift+arrows"], "move the picture"],
   [["F"], "fit all into the view"],
-  [["L"], "follow what is picked"],
+  [["L"], "follow the picked body"],
   [["D"], "dark or light"],
-  [["Esc"], "pick nothing"],
+  [["Esc"], "clear the choice"],
   [["F1", "?"], "this help"],
 ];
 
