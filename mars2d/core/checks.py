@@ -36,7 +36,7 @@ __all__ = [
 ]
 
 MAX_ITEMS = 1_000_000
-"""The longest list that a field may have; what yields items may have no end."""
+"""The longest list that a field may have; an iterator may have no end."""
 
 MAX_COORDINATE = 1e6
 """The largest coordinate, metres: beyond it a double can't resolve a nanometre."""

@@ -340,7 +340,7 @@ def _opened(
 
 
 def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
-    """Return what a module's list ``scopes`` has: names of columns, and functions."""
+    """Return the items of a module's list ``scopes``: names of columns, and functions."""
     given = getattr(module, "scopes", ())
     expected = "a list of columns, as 'speed', and functions of the record"
     if isinstance(given, (str, Mapping)) or not isinstance(given, Iterable):

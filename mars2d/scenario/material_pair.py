@@ -1,4 +1,4 @@
-"""What two materials do to each other, where their product is not what tables say."""
+"""Friction and restitution of two materials, where measured tables differ from the product."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _material(name: str, value: object) -> str:
 
 
 class MaterialPair(Description):
-    """Friction and restitution between two materials, in place of what the rule makes of both.
+    """Friction and restitution between two materials, in place of the rule's result.
 
     It counts where both surfaces were given by these names: `friction` of the pair where their
     friction was, `restitution` where their restitution was.

@@ -357,7 +357,7 @@ class Sensor(Stateful):
         return reading
 
     def sign(self, scene: Scene, color: str) -> str:  # noqa: ARG002
-        """Draw for a legend what a reading looks like; return its meaning, by default "": none.
+        """Draw a sample of a reading for a legend; return its meaning, by default "": none.
 
         The sign lies round (0, 0), within 12 points, in points.
         """

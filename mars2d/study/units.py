@@ -17,7 +17,7 @@ from mars2d.scenario.scenario import Scenario
 __all__ = ["checked_units", "name_and_unit", "parse_units", "unit_of_field", "with_unit"]
 
 UNIT = re.compile(r"[^\[\]\x00-\x1f=,]{1,20}")
-"""What a unit may be: a few letters, without what separates it from its name."""
+"""The form of a unit: a few letters, without the characters that separate it from its name."""
 
 HEAD = re.compile(rf"(.*\S) \[({UNIT.pattern})\]")
 
@@ -51,7 +51,7 @@ def unit_of_field(setting: str) -> str:
 
 
 def checked_units(given: Mapping[str, str] | None, known: Collection[str]) -> dict[str, str]:
-    """Return units by the names of settings and measures; InputError for what is none of these."""
+    """Return units by the names of settings and measures. Raises InputError for other names."""
     if given is not None and not isinstance(given, Mapping):
         raise wrong("units", given, "a dict, as {'spread': 'm'}")
     for name, unit in (given or {}).items():

@@ -69,7 +69,7 @@ class Law:
             raise
 
     def blame(self, error: BaseException) -> None:
-        """Raise LawError for an exception of what the law returned, unless it passes through."""
+        """Raise LawError for an exception of the law's returned value, unless it passes through."""
         self._calling.blame(error)
 
     def refuse(self, message: str) -> NoReturn:

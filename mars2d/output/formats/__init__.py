@@ -1,4 +1,4 @@
-"""Records as files: one module a format, each of which reads what it writes, to the last bit."""
+"""Records as files: one module per format, each of which reads its own files to the last bit."""
 
 from __future__ import annotations
 

@@ -190,7 +190,7 @@ class Solver:
 
     @cython.cfunc
     def leave(self, body: Body) -> cython.void:
-        """Take a body out, and what it is tied by."""
+        """Remove a body with its ties."""
         tie: Tie
         for tie in self.ties[:]:
             if tie.a is body or tie.b is body:
@@ -329,7 +329,7 @@ class Solver:
 
     @cython.cfunc
     def forget(self, h: cython.double) -> cython.void:
-        """Make what the solver remembers fit a step of h seconds.
+        """Scale the remembered impulses to a step of h seconds.
 
         The solver begins with the impulses of the step before, scaled by the ratio of the steps'
         lengths, but takes back the unscaled ones: a drive at its bound would push with
@@ -373,7 +373,7 @@ class Solver:
 
     @cython.cfunc
     def go(self, h: cython.double, growth: cython.double) -> cython.void:
-        """Step by h seconds, with all bodies moving as they are aimed, and read what came of it.
+        """Step by h seconds, with all bodies moving as they are aimed, and read the result.
 
         `settle` and `share_out` do the rest.
         """
@@ -426,7 +426,7 @@ class Solver:
 
     @cython.cfunc
     def share_out(self, h: cython.double) -> cython.void:
-        """Take over how bodies move, and by what their kinetic energies have changed in the step.
+        """Take over the bodies' motion, and the changes of their kinetic energies in the step.
 
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
@@ -559,7 +559,7 @@ def free_tie(tie: Tie) -> cython.void:
 
 @cython.cfunc
 def free_things_of(body: Body) -> cython.void:
-    """Free what a body that is in no space has in the engine."""
+    """Free the engine's objects of a body that is in no space."""
     if not body.made:
         return
     body.made = False
