@@ -99,7 +99,7 @@ def _of_type(error: TypeError) -> str:
     if text.startswith("'numpy.ndarray' object is not callable"):
         return "; it is an array: write it without the brackets ()"
     if text.endswith("object is not callable") and "robot.drive(" in _line_of(error):
-        return "; a law returns its command, as `return v, omega`"
+        return "; a law returns its command, such as `return v, omega`"
     return ""
 
 

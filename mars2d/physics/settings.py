@@ -40,13 +40,13 @@ TAUT = 1e-6
 # -- substeps -----------------------------------------------------------------------------------
 
 SLACK = 1.25
-"""How much further than at its present speed a body may be thrown before gaps are asked anew."""
+"""How much further than at its present speed a body may be thrown before gaps are asked again."""
 
 GROWTH = 2.0
 """How much longer or shorter a substep may be than the one before, with the same joints.
 
 The solver begins with what they did in the substep before. Where the next one has to be shorter
-than that, they begin anew.
+than that, they start again.
 """
 
 PRESSED = 0.25

@@ -69,7 +69,7 @@ class Sightings(Mapping[str, Sighting]):
 def _names(name: str, value: object) -> tuple[str, ...] | None:
     if value is None:
         return None
-    expected = "a list of beacons' names, as ['lamp'], or None"
+    expected = "a list of beacons' names, such as ['lamp'], or None"
     if not isinstance(value, (tuple, list)) or not value:
         raise wrong(name, value, expected)
     for item in value:
@@ -86,7 +86,7 @@ def _known(beacons: Mapping[str, Point]) -> list[str]:
         if not isinstance(name, str):
             raise LawError(
                 f"a beacon is called {shown(name)}: expected of beacons() of an add-on points "
-                "(x, y) by name, as {'lamp': (1.0, 2.0)}"
+                "(x, y) by name, such as {'lamp': (1.0, 2.0)}"
             )
     return sorted(beacons)
 

@@ -285,7 +285,7 @@ def check_axes(ax: object) -> None:
 
     if not isinstance(ax, Axes) or ax.name != "rectilinear":
         raise InputError(
-            f"ax = {shown(ax)}: expected plain axes of matplotlib, as plt.subplots()[1]"
+            f"ax = {shown(ax)}: expected plain axes of matplotlib, such as plt.subplots()[1]"
         )
 
 

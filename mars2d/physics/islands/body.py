@@ -237,7 +237,7 @@ class Body:
     moved: cython.double
     wall_pairs: list[Any]
     wall_gap: cython.double  # a lower bound of that to the nearest wall
-    wall_skin: cython.double  # how far it may move until the list of walls has to be made anew
+    wall_skin: cython.double  # how far it may move until the list of walls has to be made again
     cell: cython.int
     next: cython.int
     contacts: list[Any]  # with bodies of larger number, and obstacles

@@ -180,7 +180,7 @@ class Touch:
 
     @cython.cfunc
     def begin(self) -> cython.void:
-        """Begin anew, after contacts were taken."""
+        """Start again, after contacts were taken."""
         self.was_on, self.any, self.held = self.goes_on, False, 0.0
         self.impulse_x = self.impulse_y = self.along = self.across = 0.0
 

@@ -261,7 +261,7 @@ def take_powers(solver: Solver, numbers: list[Body], impact: Impact) -> cython.v
 
 @cython.cfunc
 def work_again(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
-    """Find out anew how the impulses of contacts have worked."""
+    """Find out again how the impulses of contacts have worked."""
     i: cython.int
     k: cython.int
     body: Body

@@ -156,7 +156,7 @@ class Solver:
 
     @cython.cfunc
     def hold_by(self, body: Body, holder: Handle) -> cython.void:
-        """Make the joints of a body begin anew: they make it move as its holder does."""
+        """Make the joints of a body start again: they make it move as its holder does."""
         body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
         body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
         set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
@@ -253,7 +253,7 @@ class Solver:
 
     @cython.cfunc
     def make_parts(self, tie: Tie) -> cython.void:
-        """Make the parts of a joint begin anew."""
+        """Make the parts of a joint start again."""
         if self.joint_mend == 0.0 and self.last_step < 1e300:
             self.joint_mend = decay_base(self.joint_mend_rate, self.last_step)
         k: cython.int
@@ -335,7 +335,7 @@ class Solver:
         lengths, but takes back the unscaled ones: a drive at its bound would push with
         F (2 h - h before), and impacts would be undone by half. So the impulses of contacts are
         scaled where they are kept, and the solver is told that both steps are equally long. Joints
-        of bodies begin anew.
+        of bodies start again.
         """
         ratio: cython.double = 0.0 if self.stale else h / self.last_step
         self.stale = False
@@ -363,7 +363,7 @@ class Solver:
 
     @cython.cfunc
     def renew(self, body: Body) -> cython.void:
-        """Let the joints of a body begin anew."""
+        """Let the joints of a body start again."""
         self.disengage(body)
         if body.is_robot:
             self.hold_by(body, body.control)

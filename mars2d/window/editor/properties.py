@@ -329,7 +329,7 @@ class Properties:
                 )
             )
 
-        doc = "a file of Python and a function in it, as walk.py:walk"
+        doc = "a file of Python and a function in it, such as walk.py:walk"
         self._type("Law =", doc, "", "law", change)
 
     # -- drives, colours, sensors, joints -------------------------------------------------------
