@@ -81,7 +81,7 @@ class Reel:
     last: Frame | None = None
 
     def frames(self) -> Iterator[Frame]:
-        """Yield the frames anew."""
+        """Yield the frames again."""
         if self.footage is not None and self.last is not None:
             return self.footage.frames(self.last)
         cut = Cut.of(float(self.record.time[-1]), self.speed, FPS)

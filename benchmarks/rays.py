@@ -5,7 +5,7 @@
 Rays: 20 robots with 180 beams of 5 m among boxes that stand 1.5 m apart on average, of 20, 200 and
 2000 segments in all; the robots are discs or squares. `fans`: `RangeFinder.read_all`, all beams of
 all robots at once, in numpy. `engine`: the engine's function for one ray, called for each beam with
-nothing made anew in between, and corners looked at again; MARS2D asks it for single rays.
+nothing made again in between, and corners looked at again; MARS2D asks it for single rays.
 `pymunk`: its public method `Space.segment_query_first` for each beam. All three take turns in one
 process, so that the ratios hold on a noisy machine; by how much their distances differ is part of
 the benchmark.

@@ -4,7 +4,7 @@
 
 Teams at random places in a square, a circle of 60 corners and a hook, which is not convex, 10 m
 wide. `cells`: the cells, their centroids and the cost; `edges`: who is beside whom, and the shared
-edges; `density`: the cells with masses, centroids and cost by a density. All are worked out anew
+edges; `density`: the cells with masses, centroids and cost by a density. All are worked out again
 for each of 40 places of the team. `drawing`: the shapes for a picture, and their painting at
 1280 x 720. Times are those of the processor: the median, the least and the most over the rounds.
 """

@@ -34,7 +34,7 @@ physics, the second what the examples say of themselves. This page is written by
 
     python docs/make_theory.py
 
-which runs all of it anew; so do the tests, which fail when a number leaves its tolerance.
+which runs all of it again; so do the tests, which fail when a number leaves its tolerance.
 Tolerances are absolute, in the unit given. Where 0 is predicted, what is measured is rounding,
 which differs between processors.
 """

@@ -20,7 +20,7 @@ LENGTH, HALL = 0.6, 2.5  # m, of the doorway from x = 0 on, and half the rooms' 
 
 
 def control(world):
-    """Head for the doorway, off by angles drawn anew every half second, then go straight on."""
+    """Head for the doorway, off by angles drawn again every half second, then go straight on."""
     while True:
         error = world.rng.normal(scale=1.2, size=len(world.robots))
         for _ in range(5):

@@ -7,7 +7,7 @@ What it does not do in these scenes:
   slides), and no contact turns it. Free motion is explicit Euler: straight on for a step, then the
   turn.
 - "stop": a robot that touches anything stands still from then on, for ever. So fewer and fewer
-  robots move, and it gets quicker the longer it runs; its scenes start anew every 100 steps.
+  robots move, and it gets quicker the longer it runs; its scenes start again every 100 steps.
 - Paths are recorded (`trajectory`); commands, readings and contacts are not. Contacts of the last
   step can be read.
 

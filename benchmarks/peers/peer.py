@@ -65,9 +65,9 @@ class Simulator(ABC):
     scene: a Scene of `mars2d.reports.bench.scenes`. setting: one of the class's `SETTINGS`.
     command: the last command of its robots (2, n), v [m/s] and omega [rad/s].
 
-    episode: after how many steps the scene is to start anew. The law of S1 has states that it never
-    leaves, in which little is left to simulate: it backs off for as long as anything is near, into
-    a corner, say, and where robots are shifted in steps of 0.2 m some end outside the walls.
+    episode: the number of steps after which the scene starts again. The law of S1 has final states,
+    in which little is left to simulate: it backs off for as long as anything is near, for example
+    into a corner, and where robots are shifted in steps of 0.2 m some end outside the walls.
     """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("",)
@@ -228,7 +228,7 @@ class Geometry:
 class Run:
     """A simulator that runs a scene: timed, or looked at.
 
-    The clock stands still while a scene starts anew.
+    The clock stands still while a scene starts again.
     """
 
     def __init__(self, kind: type[Simulator], scene: Any, setting: str) -> None:

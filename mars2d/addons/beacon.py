@@ -17,7 +17,7 @@ from mars2d.core.scene import Scene, color, faded
 
 __all__ = ["Beacon"]
 
-PATH = "at least two points, as [(x, y), ...] in metres, or None"
+PATH = "at least two points, such as [(x, y), ...] in metres, or None"
 
 
 @accepts(checks.OUTLINE)
@@ -68,7 +68,7 @@ class Beacon(Addon):
         super()._validate()
         if (self.at is None) == (self.path is None):
             raise InputError(
-                "Beacon: expected where it stands, as at=(1, 2), or its path, as "
+                "Beacon: expected where it stands, such as at=(1, 2), or its path, such as "
                 "path=[(0, 0), (2, 0)], speed=0.5"
             )
         if self.path is not None and self.speed is None:

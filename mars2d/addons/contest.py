@@ -22,7 +22,7 @@ Role = tuple[str, tuple[str | int, ...]]
 Teams = tuple[tuple[int, ...], tuple[int, ...]]
 """The indices of the robots of the first role, in a pursuit the hunters, and of the second."""
 
-ROLES = "two roles, hunters first if there are any, as {'pursuer': ['red'], 'evader': ['blue']}"
+ROLES = "two roles, hunters first if any, such as {'pursuer': ['red'], 'evader': ['blue']}"
 MARK = "#222222"
 """The colour of the mark on a robot that is out of the game."""
 
@@ -69,7 +69,7 @@ def _roles(name: str, value: object) -> tuple[Role, ...]:
 
 def robots_of(name: str, value: object) -> tuple[str | int, ...]:
     """Check a list of robots, by their names or indices."""
-    expected = "a list of robots, by their names or indices, as ['red', 'blue']"
+    expected = "a list of robots, by their names or indices, such as ['red', 'blue']"
     if not isinstance(value, (list, tuple, range)):
         raise wrong(name, value, expected)
     if not value:

@@ -68,8 +68,8 @@ class Density(Addon, Weight):
         super()._validate()
         if (self.function is None) == (self.image is None):
             raise InputError(
-                "Density: expected either a function, as Density(lambda x, y: 1 + x * x), or an "
-                "image, as Density(image='city.png', bounds=(-5, 5, -5, 5))"
+                "Density: expected a function, such as Density(lambda x, y: 1 + x * x), or an "
+                "image, such as Density(image='city.png', bounds=(-5, 5, -5, 5))"
             )
         if (self.image is None) != (self.bounds is None):
             problem = "is missing" if self.bounds is None else "is given without an image"

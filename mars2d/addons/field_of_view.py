@@ -19,7 +19,7 @@ FAR = 50.0
 
 @accepts(NAMES)
 def _names(name: str, value: object) -> tuple[str, ...] | None:
-    return names(name, value, "a list of sensors' names, as ['range_bearing'], or None")
+    return names(name, value, "a list of sensors' names, such as ['range_bearing'], or None")
 
 
 def _field(sensor: Any) -> tuple[float, float] | None:

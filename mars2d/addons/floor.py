@@ -40,7 +40,7 @@ def _opaque(name: str, value: object) -> str:
 
 @accepts({"type": "array"})
 def _patches(name: str, value: object) -> tuple[tuple[Outline, str], ...]:
-    expected = "a list of patches, each (outline, colour), as [([(0, 0), (1, 0), (0, 1)], 'red')]"
+    expected = "a list of patches: (outline, colour), such as [([(0, 0), (1, 0), (0, 1)], 'red')]"
     if not isinstance(value, (tuple, list)):
         raise wrong(name, value, expected)
     patches = []

@@ -47,7 +47,7 @@ class Map(Addon):
         if self.outlines is None:
             if not self.walls:
                 raise InputError(
-                    "Map: expected outlines or walls, as Map([[(0, 0), (1, 0), (1, 1)]]) or "
+                    "Map: expected outlines or walls, such as Map([[(0, 0), (1, 0), (1, 1)]]) or "
                     "Map(walls=[[(0, 0), (4, 0), (4, 3)]])"
                 )
             object.__setattr__(self, "outlines", ())
@@ -79,7 +79,7 @@ class Map(Addon):
         if isinstance(path, Map):
             return path
         if not isinstance(path, (str, Path)):
-            raise wrong("Map.from_file(path)", path, "the name of a file, as 'plan.dxf'")
+            raise wrong("Map.from_file(path)", path, "the name of a file, such as 'plan.dxf'")
         from mars2d.addons import maps
 
         caller = Path(sys._getframe(1).f_code.co_filename)

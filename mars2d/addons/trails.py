@@ -31,7 +31,7 @@ STRENGTH = 0.85
 
 @accepts(NAMES)
 def _names(name: str, value: object) -> tuple[str, ...] | None:
-    return names(name, value, "a list of robots' names, as ['robot0', 'leader'], or None")
+    return names(name, value, "a list of robots' names, such as ['robot0', 'leader'], or None")
 
 
 class Trails(Addon):

@@ -19,7 +19,7 @@ from mars2d.core.scene import Scene, faded
 
 __all__ = ["Waypoints"]
 
-EXPECTED = "one list of points for each robot, as [[(x, y), ...], [(x, y), ...]] in metres"
+EXPECTED = "one list of points for each robot, such as [[(x, y), ...], [(x, y), ...]] in metres"
 
 PALE = 0.35
 """The opacity of waypoints that are reached."""
@@ -33,7 +33,7 @@ def _routes(name: str, value: object) -> tuple[Outline, ...]:
     routes = []
     for i, route in enumerate(value):
         if not isinstance(route, (list, tuple, np.ndarray)):
-            raise wrong(f"{name}[{i}]", route, "a list of points, as [(x, y), ...] in metres")
+            raise wrong(f"{name}[{i}]", route, "a list of points, such as [(x, y), ...] in metres")
         if len(route) and isinstance(route[0], (int, float, np.number)):
             raise InputError(
                 f"{name} = {shown(value)}: expected {EXPECTED}; put one more pair of brackets "

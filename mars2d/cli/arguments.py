@@ -141,7 +141,7 @@ def times(text: str) -> list[float | str]:
         items = [item.strip() for item in text.split(",")]
         return [item if item == "end" else float(item) for item in items]
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected times, as 1,30,end") from None
+        raise argparse.ArgumentTypeError(f"{text!r}: expected times, such as 1,30,end") from None
 
 
 def add_workers(parser: argparse.ArgumentParser) -> None:

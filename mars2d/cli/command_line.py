@@ -76,7 +76,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _leave_behind(code: int) -> None:
-    """End what the user's code has started: threads and processes, which may never end."""
+    """End the threads and processes that the user's code has started, which may never end."""
     children = [child for child in multiprocessing.active_children() if not child.daemon]
     own = threading.current_thread()
     threads = [t for t in threading.enumerate() if not t.daemon and t is not own]
@@ -169,7 +169,7 @@ def _has_folder() -> bool:
 
 
 def _stop_telling() -> None:
-    """Let what is still to be printed go nowhere: Python would fail with it as it ends."""
+    """Discard the rest of the output: Python would fail with it as it ends."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)
@@ -221,7 +221,7 @@ class _Parser(argparse.ArgumentParser):
         return [option for action in self._actions for option in action.option_strings]
 
     def _meant(self, word: str, known: Collection[str]) -> str:
-        """Return a hint at what a word of the command line may mean."""
+        """Return a hint at the meaning of a word of the command line."""
         if self.prog == "mars2d" and Path(word).suffix in (".py", ".toml"):
             return f"; write mars2d run {word}"
         if meant := instead(word, self.prog):

@@ -56,7 +56,7 @@ def _size(text: str) -> tuple[int, int]:
     try:
         return film.size_of(text)
     except InputError as error:
-        expected = "expected width and height in pixels, as 1280x720"
+        expected = "expected width and height in pixels, such as 1280x720"
         raise argparse.ArgumentTypeError(f"{text!r}: {expected}") from error
 
 

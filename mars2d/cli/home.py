@@ -14,7 +14,7 @@ __all__ = ["home"]
 
 
 def home(parser: argparse.ArgumentParser, _: argparse.Namespace) -> None:
-    """Show the home, and do what is chosen there; print the help if there is no display."""
+    """Show the home, and run the command chosen there; print the help if there is no display."""
     if not has_display():
         tell(parser.format_help().rstrip())
         return

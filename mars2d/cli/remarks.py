@@ -1,4 +1,4 @@
-"""Remarks on what is legal and hardly meant: degrees, commands cut off, flags as distances."""
+"""Remarks on legal input that is hardly meant: degrees, commands cut off, flags as distances."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ __all__ = [
 ]
 
 MAX_ITEMS = 1_000_000
-"""The longest list that a field may have; what yields items may have no end."""
+"""The longest list that a field may have; an iterator may have no end."""
 
 MAX_COORDINATE = 1e6
 """The largest coordinate, metres: beyond it a double can't resolve a nanometre."""
@@ -101,7 +101,7 @@ def pose(name: str, value: object) -> tuple[float, float, float]:
 def outline(name: str, value: object, least: int = 2) -> Outline:
     """Check an outline: a wall of two vertices, or a closed polygon that does not cross itself."""
     what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
-    expected = f"{what}, as [(x, y), ...] in metres"
+    expected = f"{what}, such as [(x, y), ...] in metres"
     items = items_of(name, value, expected)
     points = [point(f"{name}[{i}]", item) for i, item in enumerate(items)]
     if len(points) > 2 and points[0] == points[-1]:
@@ -152,7 +152,7 @@ def polylines(name: str, value: object) -> tuple[Outline, ...]:
 
 
 def _polyline(name: str, value: object) -> Outline:
-    expected = "a wall's vertices, as [(x, y), ...] in metres, at least 2"
+    expected = "a wall's vertices, such as [(x, y), ...] in metres, at least 2"
     points = [point(f"{name}[{i}]", p) for i, p in enumerate(items_of(name, value, expected))]
     if len(points) < 2:
         raise wrong(name, value, expected)
@@ -197,7 +197,7 @@ def instance(kind: type, example: str) -> Check:
             )
         if not isinstance(value, kind):
             article = "an" if kind.__name__[0] in "AEIOU" else "a"
-            raise wrong(name, value, f"{article} {kind.__name__}, as {example}")
+            raise wrong(name, value, f"{article} {kind.__name__}, such as {example}")
         return value
 
     return check
@@ -209,7 +209,7 @@ def listing(kind: type, example: str) -> Check:
     def check(name: str, value: object) -> tuple[Any, ...]:
         if isinstance(value, kind):
             raise InputError(f"{name} = {shown(value)}: expected a list; write [{shown(value)}]")
-        items = items_of(name, value, f"a list, as [{example}]")
+        items = items_of(name, value, f"a list, such as [{example}]")
         each = instance(kind, example)
         return tuple(each(f"{name}[{i}]", item) for i, item in enumerate(items))
 

@@ -25,7 +25,7 @@ CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
 UNSEEN = re.compile(
     r"[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufeff]"
 )
-"""`CONTROLS`, and what turns text round; halves of characters; byte order marks."""
+"""`CONTROLS`, and characters that reverse text; halves of characters; byte order marks."""
 
 MAX_TEXT = 2000
 """The most characters of a text that are printed in one line."""

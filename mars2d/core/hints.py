@@ -1,4 +1,4 @@
-"""Hints at what to write instead, for the exceptions that the user's code raises."""
+"""Hints at corrections, for the exceptions that the user's code raises."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LIBRARIES = ("numpy", "scipy", "matplotlib", "pygame", "pymunk", "mars2d")
 
 
 def described(error: BaseException) -> str:
-    """Return the message of an exception in the user's code, with a hint at what to write."""
+    """Return the message of an exception in the user's code, with a hint at the correction."""
     name = class_name(error)
     try:
         said = str(error)
@@ -94,12 +94,12 @@ def _of_import(error: ImportError) -> str:
 
 
 def _of_type(error: TypeError) -> str:
-    """Return how to write what was called, or indexed, though it can't be."""
+    """Return how to write an expression that was called or indexed, though it can't be."""
     text = str(error)
     if text.startswith("'numpy.ndarray' object is not callable"):
         return "; it is an array: write it without the brackets ()"
     if text.endswith("object is not callable") and "robot.drive(" in _line_of(error):
-        return "; a law returns its command, as `return v, omega`"
+        return "; a law returns its command, such as `return v, omega`"
     return ""
 
 

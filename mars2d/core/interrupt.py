@@ -176,7 +176,7 @@ class noted_interrupts(_Handling):  # noqa: N801 - it is used as a function
         _raise_once()
 
     def _give_up(self) -> None:
-        """Save what there is and end the process, if somebody around the block can save it."""
+        """Save the data so far and end the process, if somebody around the block can save them."""
         around: Any = self
         kept = rescue = None
         while isinstance(around, _Handling):

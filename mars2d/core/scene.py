@@ -158,7 +158,7 @@ def wake_style(name: str, value: object) -> str:
             return value
     raise InputError(
         f"{name} = {value!r}: expected a line style ({' '.join(WAKE_LINES)}), "
-        f"a marker ({' '.join(WAKE_MARKERS)}), or a marker and a line style, as 'o--'"
+        f"a marker ({' '.join(WAKE_MARKERS)}), or a marker and a line style, such as 'o--'"
     )
 
 

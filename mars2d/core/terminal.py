@@ -42,7 +42,7 @@ def _write(stream: TextIO | None, text: str) -> None:
 
 @contextmanager
 def legible() -> Iterator[None]:
-    r"""Let stdout and stderr escape, within the block, what a terminal has no letters for.
+    r"""Let stdout and stderr escape, within the block, letters that the terminal does not have.
 
     So a law's own `print` does not fail on a terminal for ASCII: it prints ``\u4e2d``.
     """

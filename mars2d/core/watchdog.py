@@ -1,4 +1,4 @@
-"""A watchdog over the user's code while a run goes on: what never returns is broken off."""
+"""A watchdog over the user's code during a run, which breaks off calls that never return."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ def _prepared(region: Outline) -> Any:
 
 
 class Partition:
-    """A region divided among points: what does not depend on a density.
+    """A region divided among points: the part that does not depend on a density.
 
     points: (2, n) metres. region: a polygon of shapely. Everything is computed once, when it is
     first asked for; all arrays are read-only. See `mars2d.geometry.Tessellation`.
@@ -182,7 +182,7 @@ class Partition:
 
 
 def _within(region: Any, shapes: NDArray[Any]) -> NDArray[Any]:
-    """Return the parts of cells or edges within a region; what lies all in it is left as it is."""
+    """Return the parts of cells or edges within a region; those inside of it stay as they are."""
     import shapely
 
     result = shapes.copy()

@@ -260,7 +260,7 @@ def known_shape(name: str, value: object, example: str = "Disc(0.2)") -> Shape:
 def _parts(name: str, value: object) -> tuple[Shape, ...]:
     parts: tuple[Shape, ...] = checks.listing(Shape, "Disc(0.2)")(name, value)
     if not 1 <= len(parts) <= MAX_PARTS:
-        raise wrong(name, value, f"from 1 to {MAX_PARTS} shapes, as [Disc(0.2), Polygon(...)]")
+        raise wrong(name, value, f"from 1 to {MAX_PARTS} shapes, such as [Disc(0.2), Polygon(...)]")
     return parts
 
 

@@ -58,7 +58,7 @@ CONTROLS = {
         "M3.6 10.5l6 .8M20.4 10.5l-6 .8M12 14.5V21",
     ),
     "edit": Control("Draw", "E", "M4 20l1-4.5L16 4.5l3.5 3.5L8.5 19ZM13.5 7l3.5 3.5"),
-    "restart": Control("Start anew", "R", "M5 12a7 7 0 1 0 2.2-5.1L4.5 9.5M4.5 4v5.5H10"),
+    "restart": Control("Start again", "R", "M5 12a7 7 0 1 0 2.2-5.1L4.5 9.5M4.5 4v5.5H10"),
     "branch": Control(
         "Branches",
         "B",

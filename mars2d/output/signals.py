@@ -137,7 +137,7 @@ def chosen_robots(record: Record, robots: Sequence[str | int] | None) -> tuple[i
         return tuple(range(len(scenario.robots)))
     given = [robots] if isinstance(robots, (str, int)) else list(robots)
     if not given:
-        raise wrong("robots", robots, "names or indices of robots, as ['ann', 0]")
+        raise wrong("robots", robots, "names or indices of robots, such as ['ann', 0]")
     found = []
     for robot in given:
         if isinstance(robot, bool) or not isinstance(robot, (str, int, np.integer)):
@@ -159,7 +159,7 @@ def known_columns(record: Record) -> list[str]:
 
 def _named(record: Record, name: object, robots: tuple[int, ...]) -> list[Signal]:
     if not isinstance(name, str):
-        raise wrong("columns", name, "names of columns, as 'x' or 'effort'")
+        raise wrong("columns", name, "names of columns, such as 'x' or 'effort'")
     head, *parts = name.strip().split(".")
     makers: dict[str, Callable[..., list[Signal]]] = {
         **dict.fromkeys((*POSE_UNITS, SPEED), _motion),

@@ -101,7 +101,7 @@ class Motion:
         return Start(state, np.array(self._mover.slipping(), dtype=bool), self._twist)
 
     def ask(self, twist: Float) -> None:
-        """Take what the robots are asked for at this instant, (3, n), for their velocities.
+        """Set the velocities that the robots are asked for at this instant, (3, n).
 
         Those that stand still since they were stopped go on to do so.
         """

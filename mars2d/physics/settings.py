@@ -40,13 +40,13 @@ TAUT = 1e-6
 # -- substeps -----------------------------------------------------------------------------------
 
 SLACK = 1.25
-"""How much further than at its present speed a body may be thrown before gaps are asked anew."""
+"""How much further than at its present speed a body may be thrown before gaps are asked again."""
 
 GROWTH = 2.0
 """How much longer or shorter a substep may be than the one before, with the same joints.
 
 The solver begins with what they did in the substep before. Where the next one has to be shorter
-than that, they begin anew.
+than that, they start again.
 """
 
 PRESSED = 0.25
@@ -62,7 +62,7 @@ CLOSED = 1e-9
 """A gap that counts as touching, metres: bodies that are put side by side have one by rounding."""
 
 MEETING = 1 / 256
-"""How deep what gathers speed may be in another body when they meet, in parts of the slop.
+"""How deep an accelerating body may be in another when they meet, in parts of the slop.
 
 It has gathered speed over this way too: as small a part of it as substeps allow.
 """
@@ -121,7 +121,7 @@ DEFAULT_OVERLAP = 1e-3
 
 
 def versions() -> dict[str, str]:
-    """Return what a run's numbers may depend on: versions of software, and the processor.
+    """Return the environment on which a run's numbers may depend: software versions, the processor.
 
     The engine, sensors and add-ons round alike on all; laws may use the sines of a C library.
     """
@@ -140,7 +140,7 @@ def versions() -> dict[str, str]:
 
 
 def _processor() -> str:
-    """Return what the processor can do that may let a law's sines round otherwise."""
+    """Return the processor's features that may change the rounding of a law's sines."""
     try:
         able = import_module("numpy._core._multiarray_umath").__cpu_features__
     except (ImportError, AttributeError):

@@ -1,4 +1,4 @@
-"""Space: what stands and moves in a world, as its sensors see it, in pymunk.
+"""Space: the walls and bodies of a world, as its sensors see them, in pymunk.
 
 Bodies are numbered robots first, then props; obstacles are -1, -2, ... Nothing here is stepped.
 """

@@ -36,7 +36,7 @@ Float = NDArray[np.float64]
 
 
 def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) -> Any:
-    """Return what moves the bodies of a scenario.
+    """Return the motion of the bodies of a scenario.
 
     states: (N, 6) where and how all bodies move at first; None: as the scenario says. slips: which
     of them slip then.
@@ -133,7 +133,7 @@ def _settles(scenario: Scenario) -> bool:
 
 
 def _values(surface: Surface | Obstacle) -> tuple[float, ...]:
-    """Return what the engine multiplies: friction and restitution."""
+    """Return the factors that the engine multiplies: friction and restitution."""
     return float(surface.friction), float(surface.restitution)
 
 
@@ -146,7 +146,7 @@ def _skin(surface: Surface | Obstacle) -> tuple[float, ...]:
 
 
 def _surfaces(module: Any, scenario: Scenario, bodies: Sequence[Any]) -> Any:
-    """Return what settles friction and restitution; None where both are products."""
+    """Return the rule of friction and restitution; None where both are products."""
     if not _settles(scenario):
         return None
     of_walls = [_skin(surface) for surface in scenario.surfaces]
@@ -176,7 +176,7 @@ def _pairs(scenario: Scenario) -> tuple[list[float], list[float], list[float]]:
 
 
 def _seams(module: Any, wall: Wall, reach: float) -> Any:
-    """Return what contacts with a wall must know of its ends; None if nothing meets it there."""
+    """Return what contacts need to know of a wall's ends; None if nothing meets it there."""
     if not any(wall.seams):
         return None
     (x, y), (to_x, to_y) = wall.start, wall.end

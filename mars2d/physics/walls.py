@@ -188,7 +188,7 @@ def _near(points: Float, starts: Float, ends: Float) -> tuple[Whole, Whole]:
 
 
 def _met(wall: Wall, walls: Sequence[Wall], meetings: tuple[list[int], list[int]]) -> Wall:
-    """Return a wall that knows what meets it at its ends."""
+    """Return a wall that knows the walls at its ends."""
     seams: list[Seam | None] = []
     shades: list[Shade] = []
     sides = (wall.start, wall.end, 1), (wall.end, wall.start, -1)
@@ -280,7 +280,7 @@ def _extent(edges: Sequence[Edge], group: list[int]) -> tuple[Point, Point]:
 
 
 def _joined(edges: Sequence[Edge], group: list[int]) -> Iterator[Wall]:
-    """Yield the walls of edges in one line: where these are, but for what lies inside of solids."""
+    """Yield the walls of edges in one line, without the parts inside of solids."""
     if len(group) == 1:
         [only] = (edges[k] for k in group)
         yield Wall(only.start, only.end, only.surface, ((0.0, only.obstacle),), (), ())

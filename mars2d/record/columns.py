@@ -128,7 +128,7 @@ class _FileColumn(Column):
         self._rows[: len(in_memory)] = in_memory
 
     def _extend(self, least: int) -> None:
-        """Make the file longer and map it anew. Views of the former map show the same file."""
+        """Make the file longer and map it again. Views of the former map show the same file."""
         from tempfile import TemporaryFile
 
         more = max(FIRST, min(self._size, STEP), self._size // 8)

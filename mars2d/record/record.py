@@ -126,7 +126,7 @@ class Record:
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return what is pickled: what files keep, without laws, and also drawing and branches."""
+        """Return the state to pickle: that of files, without laws, with drawing and branches."""
         from mars2d.output.formats import header
 
         kept = header.of_record(self), self.columns()

@@ -23,7 +23,7 @@ NOWHERE = f"{AGAIN} FOLDER, that of its sources"
 
 
 def remedy() -> str:
-    """Return what lets the engine run compiled, where it does not."""
+    """Return the remedy where the engine does not run compiled."""
     if os.environ.get("MARS2D_PLAIN") == "1":
         return "set MARS2D_PLAIN=" if sys.platform == "win32" else "unset MARS2D_PLAIN"
     if difference():
@@ -32,7 +32,7 @@ def remedy() -> str:
 
 
 def _tools() -> str:
-    """Return what installs a C compiler and Python's headers, as far as they are missing."""
+    """Return the command that installs the missing ones of a C compiler and Python's headers."""
     headers = Path(sysconfig.get_path("include"), "Python.h").exists()
     compiler = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "cl").split()[0]
     if shutil.which(compiler) is None and sys.platform == "win32":
@@ -49,7 +49,7 @@ def _tools() -> str:
 
 
 def _again() -> str:
-    """Return what installs MARS2D again as it was installed, from its sources."""
+    """Return the command that installs MARS2D again as it was installed, from its sources."""
     import mars2d
 
     package = Path(mars2d.__file__).parent

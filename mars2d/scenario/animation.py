@@ -25,7 +25,7 @@ def playback_speed(name: str, value: object) -> float | str:
 @accepts({"type": "array", "items": {"type": "string"}, "minItems": 1})
 def _colors(name: str, value: object) -> tuple[str, ...]:
     if isinstance(value, str) or not isinstance(value, (list, tuple)) or not value:
-        raise wrong(name, value, "a list of colours, as ['#0072b2', 'orange']")
+        raise wrong(name, value, "a list of colours, such as ['#0072b2', 'orange']")
     return tuple(color(f"{name}[{i}]", item) for i, item in enumerate(value))
 
 

@@ -33,7 +33,7 @@ MECHANICAL = frozenset(
     {"mass", "moment", "material", "friction", "restitution", "static_friction"}
     | {"ground_friction", "static_ground_friction"}
 )
-"""Fields of bodies that may change, and with which the engine begins anew."""
+"""Fields of bodies that may change, and with which the engine starts again."""
 
 FREE_OF_BODIES = MECHANICAL | {"pose", "color"}
 FREE_OF_ROBOTS = FREE_OF_BODIES | {"drive", "controller"}
@@ -66,7 +66,7 @@ def check_same(before: Scenario, after: Scenario) -> None:
 def moves_alike(before: Scenario, after: Scenario) -> bool:
     """Return whether bodies and joints of both scenarios answer forces in the same way.
 
-    For a scenario that `check_same` lets pass: else an engine has to begin anew.
+    For a scenario that `check_same` lets pass: else an engine has to start again.
     """
     if before.joints != after.joints:
         return False

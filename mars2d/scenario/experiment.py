@@ -255,7 +255,7 @@ def open_experiment(
     that, so that it can draw starts at random. Raises InputError, which points at file and line.
     """
     if options is not None and not isinstance(options, Mapping):
-        raise wrong("options", options, "a dict, as {'sampling_time': 0.5}")
+        raise wrong("options", options, "a dict, such as {'sampling_time': 0.5}")
     given = dict(options or {})
     rest, of_laws = _split(given)
     with files_read() as files:
@@ -340,9 +340,9 @@ def _opened(
 
 
 def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
-    """Return what a module's list ``scopes`` has: names of columns, and functions."""
+    """Return the items of a module's list ``scopes``: names of columns, and functions."""
     given = getattr(module, "scopes", ())
-    expected = "a list of columns, as 'speed', and functions of the record"
+    expected = "a list of columns, such as 'speed', and functions of the record"
     if isinstance(given, (str, Mapping)) or not isinstance(given, Iterable):
         raise wrong("scopes", given, expected)
     scopes = tuple(given)
@@ -378,9 +378,9 @@ def load_law(
     which points at file and line.
     """
     if not isinstance(path, (str, Path)):
-        raise wrong("load_law(path)", path, "the name of a law's file, as 'my_law.py'")
+        raise wrong("load_law(path)", path, "the name of a law's file, such as 'my_law.py'")
     if not isinstance(name, str):
-        raise wrong("load_law(name)", name, "the name of a function, as 'control'")
+        raise wrong("load_law(name)", name, "the name of a function, such as 'control'")
     caller = Path(sys._getframe(1).f_code.co_filename)
     file = file_beside(Path(path), caller, "a law", [".py", SUFFIX])
     return law_in(file, name, given=(arguments, values))

@@ -12,7 +12,7 @@ from mars2d.core.description import wrong
 
 __all__ = ["Reference", "seen_from"]
 
-EXPECTED = "where a law stands, as 'walk.py:walk': a file of Python, and a function in it"
+EXPECTED = "where a law stands, such as 'walk.py:walk': a file of Python, and a function in it"
 
 MAX_UP = 2
 """The number of folders up to a file that is still named by a relative path."""

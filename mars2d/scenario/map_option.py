@@ -65,7 +65,7 @@ class MapOption:
         if not isinstance(self.file, (str, Path)):
             if self.file is None or isinstance(self.file, Map):
                 raise InputError(f"map.{next(iter(self.settings))} needs map=FILE as well")
-            raise wrong("map", self.file, "the name of a map's file, as 'plan.dxf', or a Map")
+            raise wrong("map", self.file, "the name of a map's file, such as 'plan.dxf', or a Map")
         from mars2d.addons.maps import SUFFIXES
 
         file = file_beside(Path(self.file), self.caller, "a map", SUFFIXES)

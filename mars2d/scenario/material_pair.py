@@ -1,4 +1,4 @@
-"""What two materials do to each other, where their product is not what tables say."""
+"""Friction and restitution of two materials, where measured tables differ from the product."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ def _material(name: str, value: object) -> str:
     """Check a material's name."""
     if not isinstance(value, str) or value not in MATERIALS:
         hint = nearest(value.lower(), MATERIALS) if isinstance(value, str) else ""
-        raise wrong(name, value, f"a material's name, as 'steel'{hint}")
+        raise wrong(name, value, f"a material's name, such as 'steel'{hint}")
     return value
 
 
 class MaterialPair(Description):
-    """Friction and restitution between two materials, in place of what the rule makes of both.
+    """Friction and restitution between two materials, in place of the rule's result.
 
     It counts where both surfaces were given by these names: `friction` of the pair where their
     friction was, `restitution` where their restitution was.
@@ -49,7 +49,7 @@ class MaterialPair(Description):
     def _validate(self) -> None:
         where = f"MaterialPair({self.a!r}, {self.b!r})"
         if self.friction is None and self.restitution is None:
-            raise InputError(f"{where}: expected a friction or a restitution, as friction=0.1")
+            raise InputError(f"{where}: expected a friction or a restitution, such as friction=0.1")
         if self.friction is None and self.static_friction is not None:
             raise wrong(
                 "MaterialPair.static_friction", self.static_friction,

@@ -408,4 +408,4 @@ def neighbourhood(name: str, value: object) -> Neighbourhood:
         raise wrong(name, value, f"an object; write {WRITTEN[value.strip().capitalize()]}")
     if hasattr(value, "nodes") or isinstance(value, (np.ndarray, list, tuple)):
         raise wrong(name, value, "a rule; write Graph(...) of a graph")
-    raise wrong(name, value, "a rule, as Within(2.0), Nearest(3), Delaunay() or Graph(...)")
+    raise wrong(name, value, "a rule, such as Within(2.0), Nearest(3), Delaunay() or Graph(...)")

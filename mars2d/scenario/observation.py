@@ -33,7 +33,7 @@ class Part(NamedTuple):
 
 
 class Observation:
-    """Turns what a robot's law may see into a row of numbers (k,), float32, within bounds.
+    """Turns the data that a robot's law may see into a row of numbers (k,), float32, within bounds.
 
     Its parts depend on `Robot.sees`:
 
@@ -106,7 +106,7 @@ class Observation:
         return cls(parts)
 
     def __call__(self, view: Any) -> Row:
-        """Return what a robot sees now, (k,), float32, within the bounds.
+        """Return a robot's present observation, (k,), float32, within the bounds.
 
         Raises InputError where a part is of another size. It does not ask whether the robot's law
         may see all parts: `check` does.

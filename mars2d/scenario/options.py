@@ -46,7 +46,7 @@ def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
             option = ".".join(path)
             raise InputError(
                 f"{option} = {tree.value!r}: a setting is a number, a word or a tuple; write "
-                f"{tree.value} in the file, or set single fields, as {option}.FIELD=..."
+                f"{tree.value} in the file, or set single fields, such as {option}.FIELD=..."
             )
         return tree.value
     if isinstance(target, tuple):
@@ -106,7 +106,7 @@ def parse_setting(text: str) -> tuple[str, Any]:
     """
     name, equals, value = text.partition("=")
     if not equals or not name.strip():
-        raise InputError(f"--set {text}: expected NAME=VALUE, as --set sampling_time=0.5")
+        raise InputError(f"--set {text}: expected NAME=VALUE, such as --set sampling_time=0.5")
     try:
         return name.strip(), ast.literal_eval(value.strip())
     except (ValueError, SyntaxError, MemoryError, RecursionError):

@@ -183,7 +183,7 @@ def _annotation(
 
 
 def _meant(annotation: str, names: dict[str, Any]) -> Any:
-    """Return what an annotation in quotes means, where these names are known."""
+    """Return the value of an annotation in quotes, where these names are known."""
 
     def annotated() -> None: ...
 

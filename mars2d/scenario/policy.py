@@ -98,7 +98,7 @@ class Policy:
         return self
 
     def __call__(self, robot: Any) -> tuple[float, float]:
-        """Return the command for what a robot sees now.
+        """Return the command for a robot's present observation.
 
         Raises LawError for a robot with another drive, or another observation.
         """

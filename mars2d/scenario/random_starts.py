@@ -48,7 +48,7 @@ def _names(name: str, value: object) -> tuple[str, ...]:
     """Check a list of names, which may be empty."""
     if isinstance(value, (tuple, list)) and not value:
         return ()
-    found = checks.names(name, value, "a list of names of robots and props, as ['red', 'box0']")
+    found = checks.names(name, value, "names of robots and props, such as ['red', 'box0']")
     return () if found is None else found
 
 

@@ -31,7 +31,7 @@ def contest_of(scenario: Scenario, name: str) -> Contest:
     if len(contests) != 1:
         found = "has none" if not contests else f"has {len(contests)}"
         raise InputError(
-            f"{name}: a game needs one add-on that says who has won, as {REFEREE}; "
+            f"{name}: a game needs one add-on that says who has won, such as {REFEREE}; "
             f"this experiment {found}"
         )
     contest = contests[0]

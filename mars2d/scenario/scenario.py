@@ -75,7 +75,7 @@ def _robots(name: str, value: object) -> object:
         return int(value)
     robots = checks.listing(Robot, "Robot(pose=(0, 0, 0))")(name, value)
     if not robots:
-        raise wrong(name, value, "at least one robot, as [Robot(pose=(0, 0, 0))]")
+        raise wrong(name, value, "at least one robot, such as [Robot(pose=(0, 0, 0))]")
     return robots
 
 
@@ -210,7 +210,7 @@ class Scenario(Description):
         from mars2d.scenario import toml_file
 
         if not isinstance(path, (str, Path)):
-            raise wrong("Scenario.from_file(path)", path, "the name of a file, as 'room.toml'")
+            raise wrong("Scenario.from_file(path)", path, "the name of a file, such as 'room.toml'")
         caller = Path(sys._getframe(1).f_code.co_filename)
         file = file_beside(Path(path), caller, "a scenario", [toml_file.SUFFIX])
         return toml_file.read(file)[0]

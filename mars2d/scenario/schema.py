@@ -14,7 +14,7 @@ from mars2d.scenario.toml_file import FORMAT, NONE, READY_MADE, takes_none
 
 __all__ = ["schema"]
 
-LAW: Schema = {"type": "string", "description": "a law, as file.py:function"}
+LAW: Schema = {"type": "string", "description": "a law, such as file.py:function"}
 
 
 def schema() -> Schema:

@@ -39,6 +39,6 @@ def team_colors(robots: Sequence[Robot], base: Sequence[str]) -> tuple[str, ...]
 
 
 def _group(robot: Robot) -> Hashable:
-    """Return what robots of one group have in common."""
+    """Return the properties that robots of one group have in common."""
     law = None if robot.controller is None else name_of(robot.controller)
     return re.sub(r"\d+$", "", str(robot.name)), law, type(robot.drive).__name__, robot.radius

@@ -1,4 +1,4 @@
-"""The sensors: what robots perceive. A new one is a file here, and a line below."""
+"""The sensors of robots. A new one is a file here, and a line below."""
 
 from mars2d.sensors.base import (
     ANGLE,

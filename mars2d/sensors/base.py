@@ -297,7 +297,7 @@ class Sensor(Stateful):
         checks.identifier(f"{kind}.name", self.name, "robot.sense.")
         known = isinstance(self.quantities, tuple) and self.quantities
         if not (known and all(isinstance(quantity, Quantity) for quantity in self.quantities)):
-            expected = "a tuple of quantities, as (DISTANCE,); a single one needs the comma"
+            expected = "a tuple of quantities, such as (DISTANCE,); a single one needs the comma"
             raise wrong(f"{kind}.quantities", self.quantities, expected)
         for field, given in (("noise", self.noise), ("resolution", self.resolution)):
             if isinstance(given, tuple) and len(given) != len(self.quantities):
@@ -357,7 +357,7 @@ class Sensor(Stateful):
         return reading
 
     def sign(self, scene: Scene, color: str) -> str:  # noqa: ARG002
-        """Draw for a legend what a reading looks like; return its meaning, by default "": none.
+        """Draw a sample of a reading for a legend; return its meaning, by default "": none.
 
         The sign lies round (0, 0), within 12 points, in points.
         """

@@ -69,7 +69,7 @@ class Sightings(Mapping[str, Sighting]):
 def _names(name: str, value: object) -> tuple[str, ...] | None:
     if value is None:
         return None
-    expected = "a list of beacons' names, as ['lamp'], or None"
+    expected = "a list of beacons' names, such as ['lamp'], or None"
     if not isinstance(value, (tuple, list)) or not value:
         raise wrong(name, value, expected)
     for item in value:
@@ -86,7 +86,7 @@ def _known(beacons: Mapping[str, Point]) -> list[str]:
         if not isinstance(name, str):
             raise LawError(
                 f"a beacon is called {shown(name)}: expected of beacons() of an add-on points "
-                "(x, y) by name, as {'lamp': (1.0, 2.0)}"
+                "(x, y) by name, such as {'lamp': (1.0, 2.0)}"
             )
     return sorted(beacons)
 
@@ -175,7 +175,7 @@ class Beacon(Scanner):
         return Sightings({name: Sighting(*row) for name, row in rows})
 
     def sign(self, scene: Scene, color: str) -> str:
-        """Draw a line to what is seen."""
+        """Draw a line to each beacon that is seen."""
         scene.line([(-11.0, 0.0), (8.0, 0.0)], stroke=faded(color, 0.7))
         scene.circle((8.0, 0.0), 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)
         return "range and bearing"

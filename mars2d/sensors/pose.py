@@ -19,7 +19,7 @@ class Pose(Sensor):
 
     The reading is an array (3,), nan when lost. It is the pose of the mount: with the default one,
     that of the robot. theta is not wrapped, as in ``robot.pose``. `noise` is white: one number for
-    each, as ``noise=(0.5, 0.5, 0.05)``.
+    each, such as ``noise=(0.5, 0.5, 0.05)``.
 
     Source: Siegwart, Nourbakhsh and Scaramuzza, Introduction to Autonomous Mobile Robots (2011),
     sections 4.1.4 and 4.1.5.

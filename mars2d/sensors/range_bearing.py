@@ -77,7 +77,7 @@ class RangeBearing(Scanner):
         return tuple(sorted([Sighting(apart, bearing, i) for (apart, bearing), i in near]))
 
     def sign(self, scene: Scene, color: str) -> str:
-        """Draw a line to what is seen."""
+        """Draw a line to each target that is seen."""
         scene.line([(-11.0, 0.0), (8.0, 0.0)], stroke=faded(color, 0.7))
         scene.circle((8.0, 0.0), 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)
         return "range and bearing"

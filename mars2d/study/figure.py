@@ -255,7 +255,7 @@ def _entry(layout: Layout, name: str, look: Style) -> Entry:
 
 
 def _kinds(shown: Sequence[Estimate]) -> str:
-    """Return what is drawn, such as ``means and shares``."""
+    """Return the quantities that are drawn, such as ``means and shares``."""
     there = {"shares" if estimate.share else "means" for estimate in shown}
     return " and ".join(sorted(there))
 

@@ -148,7 +148,7 @@ def measure_named(
         if not _takes_one(own):
             raise InputError(
                 f"measure {name!r}: {name}{inspect.signature(own)} is no measure: expected a "
-                f"function of the record alone, as {name}(record)"
+                f"function of the record alone, such as {name}(record)"
             )
         return own
     if name not in BUILT_IN:

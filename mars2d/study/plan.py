@@ -77,11 +77,11 @@ def settings_of(given: Mapping[str, Any] | None) -> dict[str, tuple[Any, ...]]:
     Raises InputError for values that a table can't hold, for no values, and for duplicates.
     """
     if given is not None and not isinstance(given, Mapping):
-        raise wrong("settings", given, "a dict, as {'gain': [0.1, 0.2]}")
+        raise wrong("settings", given, "a dict, such as {'gain': [0.1, 0.2]}")
     settings: dict[str, tuple[Any, ...]] = {}
     for name, value in (given or {}).items():
         if not isinstance(name, str):
-            raise wrong("settings", name, "names as the keys, as {'gain': [0.1, 0.2]}")
+            raise wrong("settings", name, "names as the keys, such as {'gain': [0.1, 0.2]}")
         several = value if isinstance(value, (list, range)) or _is_array(value) else [value]
         listed = items_of(f"settings[{name!r}]", several, "values", MAX_RUNS)
         values = tuple(_plain(name, each) for each in listed)
@@ -149,7 +149,8 @@ def parse_values(text: str) -> tuple[str, list[Any]]:
     name, equals, given = text.partition("=")
     name = name.strip()
     if not equals or not name or not given.strip():
-        raise InputError(f"--set {text}: expected NAME=VALUES, as --set n=4,8 or --set k=0.1:1:10")
+        expected = "expected NAME=VALUES, such as --set n=4,8 or --set k=0.1:1:10"
+        raise InputError(f"--set {text}: {expected}")
     values: list[Any] = []
     for item in _split(text, given):
         spaced = RANGE.fullmatch(item)

@@ -270,7 +270,7 @@ def _deviation(values: Float) -> float:
 
 def confident(value: object) -> float:
     """Return a given confidence; raise InputError if it is not between 0 and 1."""
-    expected = "a share between 0 and 1, as 0.95"
+    expected = "a share between 0 and 1, such as 0.95"
     confidence = real("confidence", value, expected)
     if not 0 < confidence < 1:
         raise wrong("confidence", value, expected)

@@ -17,7 +17,7 @@ from mars2d.scenario.scenario import Scenario
 __all__ = ["checked_units", "name_and_unit", "parse_units", "unit_of_field", "with_unit"]
 
 UNIT = re.compile(r"[^\[\]\x00-\x1f=,]{1,20}")
-"""What a unit may be: a few letters, without what separates it from its name."""
+"""The form of a unit: a few letters, without the characters that separate it from its name."""
 
 HEAD = re.compile(rf"(.*\S) \[({UNIT.pattern})\]")
 
@@ -51,15 +51,15 @@ def unit_of_field(setting: str) -> str:
 
 
 def checked_units(given: Mapping[str, str] | None, known: Collection[str]) -> dict[str, str]:
-    """Return units by the names of settings and measures; InputError for what is none of these."""
+    """Return units by the names of settings and measures. Raises InputError for other names."""
     if given is not None and not isinstance(given, Mapping):
-        raise wrong("units", given, "a dict, as {'spread': 'm'}")
+        raise wrong("units", given, "a dict, such as {'spread': 'm'}")
     for name, unit in (given or {}).items():
         if name not in known:
             what = "there is no such setting or measure"
             raise InputError(f"unit of {name!r}: {what}{nearest(name, known)}")
         if not isinstance(unit, str) or not UNIT.fullmatch(unit) or unit != unit.strip():
-            expected = "at most 20 letters without [ ] = and commas, as 'm/s'"
+            expected = "at most 20 letters without [ ] = and commas, such as 'm/s'"
             raise wrong(f"unit of {name!r}", unit, expected)
     return dict(given or {})
 
@@ -74,7 +74,7 @@ def parse_units(texts: Iterable[str]) -> dict[str, str]:
     for text in texts:
         name, equals, unit = (part.strip() for part in text.partition("="))
         if not (name and equals and unit):
-            raise InputError(f"--unit {text}: expected NAME=UNIT, as --unit spread=m")
+            raise InputError(f"--unit {text}: expected NAME=UNIT, such as --unit spread=m")
         if name in units:
             raise InputError(f"--unit {name}: is given twice")
         units[name] = unit

@@ -39,7 +39,7 @@ IN_FLIGHT = 1000
 """How many tasks a foreign executor holds at once, at most."""
 
 LOOK = 0.5
-"""The time between two looks at what is done, seconds."""
+"""The time between two looks at the progress, seconds."""
 
 LOST = "the executor takes no more tasks, or has lost them"
 INSTEAD = "without one, processes are started, and replaced where they end"

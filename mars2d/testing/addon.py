@@ -222,7 +222,7 @@ class _Subject:
             if color is not None and not _is_color(color):
                 self.report.wrong(
                     f"{self.notes.name}.ground((x, y)) returned {shown(color)}{at(world.time)}: "
-                    "expected red, green and blue from 0 to 1, as (1.0, 0.5, 0.0), or None"
+                    "expected red, green and blue from 0 to 1, such as (1.0, 0.5, 0.0), or None"
                 )
 
     def _look_at_drawing(self, method: str, world: World) -> None:

@@ -1,4 +1,4 @@
-"""Bars of buttons with icons, and what they say beside the pointer."""
+"""Bars of buttons with icons, and their tooltips."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Buttons:
         )
 
     def handle(self, event: pygame.Event) -> bool:
-        """Do what a button is for that the left mouse button is pressed on; return whether so."""
+        """Handle a press of the left mouse button on a button; return whether there was one."""
         if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
             return False
         name = self.at(event.pos)
@@ -85,7 +85,7 @@ class Buttons:
     def draw_tip(
         self, surface: pygame.Surface, painter: Painter, pointer: tuple[int, int] | None
     ) -> None:
-        """Say what the button under the pointer is for."""
+        """Draw the tooltip of the button under the pointer."""
         name = None if pointer is None else self.at(pointer)
         if name is None:
             return

@@ -131,7 +131,7 @@ class Page:
         return next(found, None)
 
     def draw(self, surface: pygame.Surface, painter: Painter) -> None:
-        """Draw what is in view, and how far that is down."""
+        """Draw the visible cards, and the scroll bar."""
         surface.set_clip(self._area)
         surface.fill(painter.theme.page, self._area)
         for title, place in self._headings:

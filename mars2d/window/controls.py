@@ -122,7 +122,7 @@ class Controls:
 
 
 def _marks_of(source: Source) -> Callable[[], Mapping[MarkKind, Sequence[int]]]:
-    """Return what tells the rows with marks: of a recording they stay the same."""
+    """Return a key for the rows with marks, which stay the same in a recording."""
     if isinstance(source, Trio):
         source = source.contact
     if isinstance(source, Timeline):

@@ -30,7 +30,7 @@ BESIDE = 0.5
 """The smallest scale of the arena beside panels, in parts of that without any; where it would be
 smaller, panels cover a part of the picture."""
 NEAR = 30.0
-"""How far panels that cover a part of the picture stay from what is selected, points."""
+"""How far panels that cover a part of the picture stay from the selected body, points."""
 MOUSE = (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION, pygame.MOUSEWHEEL)
 
 

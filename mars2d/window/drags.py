@@ -35,7 +35,7 @@ CHECK_INTERVAL = 0.05
 """How often a new place is checked for obstacles at most, seconds."""
 
 PULL_ACCELERATION = 10.0
-"""How strongly a pull accelerates a body, besides overcoming what holds it back, m/s^2."""
+"""How strongly a pull accelerates a body, after it has overcome the resistance, m/s^2."""
 MAX_PULL_SPEED = 5.0
 """m/s."""
 

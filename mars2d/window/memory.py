@@ -50,7 +50,7 @@ class Memory:
         return [path for path in paths if path.is_file()][:RECENT]
 
     def preferences(self, *, dark: bool | None = None, text: float | None = None) -> Preferences:
-        """Return how windows looked last; what is given here counts more."""
+        """Return how windows looked last; arguments take precedence."""
         known, usual = self.read(WINDOWS), Preferences()
         try:
             last = Preferences(
@@ -95,7 +95,7 @@ class Memory:
         return self._folder / f"{hashlib.sha256(str(path).encode()).hexdigest()[:16]}.png"
 
     def read(self, name: str) -> dict[str, Any]:
-        """Return what a file of the folder holds; nothing if it can't be read."""
+        """Return the content of a file of the folder; empty if it can't be read."""
         if self._folder is None:
             return {}
         try:

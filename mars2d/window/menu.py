@@ -1,4 +1,4 @@
-"""Menus over the picture: of layers to show, of what can be done with a body."""
+"""Menus over the picture: of layers to show, of actions on a body."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ NAME, PAD = 20.0, 6.0
 RESET = 18.0
 """The side of the button at the end of a row that puts it back, points."""
 WORDS, LINES, MAX_LINES = 17.0, 2, 4
-"""The height of a line of what the panel says, points; how many have room, and how many there are
+"""The height of a line of the panel's message, points; how many have room, and how many there are
 at most."""
 LEAST_ROWS = 3
 """The rows that are seen at least."""
@@ -143,7 +143,7 @@ class ParameterPanel(Panel):
     # -- drawing ------------------------------------------------------------------------------
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
-        """Draw the content within a rectangle; what was drawn is kept until it changes."""
+        """Draw the content within a rectangle; the picture is kept until it changes."""
         lines, painter = self._look(), self.painter
         state = (
             rect.copy(), painter.ui, painter.theme, lines, self.focus, self.typed, self._words(),
@@ -321,7 +321,7 @@ class ParameterPanel(Panel):
             self._value, self._waits = value, True
 
     def tick(self) -> None:
-        """While time passes, set what is dragged as often as that is quick; call it often."""
+        """While time passes, set the dragged value as often as that is quick; call it often."""
         if self._held is None or not self._waits or self._anew or not self._plays():
             return
         start = self._clock()
@@ -340,7 +340,7 @@ class ParameterPanel(Panel):
             self._set(name, self._value)
 
     def _set(self, name: str, value: float, *, restart: bool = True) -> None:
-        """Set a parameter, and say what happens."""
+        """Set a parameter, and report the effect."""
         parameter = self.parameters()[name]
         unit = f" {parameter.unit}" if parameter.unit else ""
         try:

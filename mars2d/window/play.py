@@ -1,4 +1,4 @@
-"""A game that people play in a window: who plays what, the countdown, and who has won."""
+"""A game that people play in a window: the roles, the countdown, and the winner."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ class Play:
         return Result(words, teams.get(winner or "", ()), self._noted(record, winner, mine))
 
     def _noted(self, record: Record, winner: str | None, seats: Sequence[Seat]) -> str:
-        """Note an end in the scores; return what is new, or why it does not count."""
+        """Note an end in the scores; return the news, or why it does not count."""
         timeline = self._director.timeline
         others = [act for act in record.interventions if not isinstance(act, Steer) or act.row]
         if others or timeline is None or timeline.branches:
@@ -178,7 +178,7 @@ class Play:
         return self._scores if len(seats) == 1 else self._both
 
     def tally(self, role: str) -> Tally:
-        """Return what has been done in a role, alone or as two people."""
+        """Return the scores of a role, alone or as two people."""
         return self._scores_of(self.seats).of(role)
 
     # -- how it stands ------------------------------------------------------------------------
@@ -226,7 +226,7 @@ class Play:
 
 
 def _news(before: Tally, won: bool | None, time: float | None) -> str:
-    """Return what is better than ever before, or ""."""
+    """Return the new best results in words, or ""."""
     if time is None or won is None:
         return ""
     best = before.quickest if won else before.longest

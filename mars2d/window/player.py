@@ -349,7 +349,7 @@ class Player:
 
 
 def time_actions(player: Player, typed: Callable[[int], int]) -> dict[str, Callable[[], None]]:
-    """Return what the keys and buttons of time do, by the names of their actions.
+    """Return the actions of the keys and buttons of time, by name.
 
     typed: returns the number that was typed before a key, or else the one given.
     """

@@ -146,7 +146,7 @@ def draw_crowd(
     values: Float,
     colors: Sequence[str],
 ) -> None:
-    """Draw many curves (T, k) at once, thin and without steps; what is not finite is left out."""
+    """Draw many curves (T, k) at once, thin and without steps; only finite values are drawn."""
     lies = np.searchsorted(times, [limits.start, limits.end])
     seen = slice(max(int(lies[0]) - 1, 0), int(lies[1]) + 1)
     times, values = times[seen], values[seen]

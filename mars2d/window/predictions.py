@@ -1,4 +1,4 @@
-"""A panel with what the experiment's `checks` predict, beside what is measured, as it happens."""
+"""A panel that compares the predictions of the experiment's `checks` with measurements."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ NUMBER = 13.0
 UNIT, MARK = 58.0, 8.0
 """The room for a unit, and the diameter of the mark before a name, points."""
 MAX_WORDS = 6
-"""The most lines of words about what could not be read."""
+"""The most lines of words about values that could not be read."""
 
 
 class Reading(NamedTuple):
@@ -123,7 +123,7 @@ class Predictions(Panel):
         return False
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
-        """Draw the table, and below it what could not be read."""
+        """Draw the table, and below it the values that could not be read."""
         theme, words = self.painter.theme, self._words(rect.width)
         of = rect.size, self.reading, self._first, words, theme, self.painter.ui
         if self._image is None or self._image_of != of:
@@ -219,7 +219,7 @@ class Predictions(Panel):
         return self.reading.error is not None and self.reading.finished
 
     def _words(self, width: float) -> list[str]:
-        """Return lines about the run, and about what could not be read; width: pixels."""
+        """Return lines about the run, and about values that could not be read; width: pixels."""
         timeline, reading, ui = self._timeline, self.reading, self.painter.ui
         if timeline is not None and timeline.world.operator.log:
             text = "A hand has changed this run; the predictions are for one without."

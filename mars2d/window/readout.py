@@ -108,7 +108,7 @@ def _number(value: float, unit: str = "") -> str:
 
 
 def _digits(value: float, unit: str) -> str:
-    """Return a number of three digits, with its unit; what is below a millionth is 0."""
+    """Return a number of three digits, with its unit; below a millionth it is 0."""
     return f"{value if value >= 1e-6 else 0.0:.3g} {unit}".replace("-", MINUS)
 
 
@@ -123,7 +123,7 @@ def in_both_units(angle: float) -> str:
 
 
 def touching(frame: Frame, body: int) -> frozenset[int]:
-    """Return what a body touches: indices of bodies, or -1 - k of obstacle k."""
+    """Return the things that a body touches: indices of bodies, or -1 - k for obstacle k."""
     rows = frame.contacts
     others = np.where(rows["a"] == body, rows["b"], rows["a"])
     return frozenset(others[(rows["a"] == body) | (rows["b"] == body)].tolist())

@@ -34,7 +34,7 @@ class Reload:
     """Makes a timeline follow its experiment's files as they are saved.
 
     New laws, obstacles and the like apply from the present row on; larger changes start the run
-    anew. If a file has an error, the old law goes on. progress: is called with how far the new
+    again. If a file has an error, the old law goes on. progress: is called with how far the new
     laws have come in the rows that were run before.
     """
 

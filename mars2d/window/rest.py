@@ -11,7 +11,7 @@ from mars2d.window import display_loss
 __all__ = ["Rest"]
 
 QUIET = 0.5
-"""How long nothing has to move before a window rests, seconds; what lags is there by then."""
+"""How long nothing has to move before a window rests, seconds; late events have come by then."""
 LOOK = 0.25
 """How long a window that rests waits for an event before it looks at its files, seconds."""
 NAP, LONG_NAP = 0.004, 0.016

@@ -43,15 +43,14 @@ def run(
 
     experiment: a file, the name of a shipped example, a module, or a Scenario. stop_time: seconds,
     in place of the scenario's. speed: simulated seconds per second; "max" does not wait, 0 makes
-    one step a key press. options: fields by their dotted names, as ``{"robots.*.diameter": 0.2}``,
-    and parameters of a scenario function. control: the law of the team, in place of the
+    one step a key press. options: fields by their dotted names, such as ``{"robots.*.diameter":
+    0.2}``, and parameters of a scenario function. control: the law of the team, in place of the
     experiment's. seed: of all random streams, and the ``seed`` of a scenario function that has such
     a parameter. show: whether in a window; by default, if a speed is given and there is a display.
     human: a robot that is driven by hand in a window: its name, its index, or a game's role; or a
-    list of two.
-    watchers: functions called with the world at each control step, after its sensors are read.
-    record: a file for the record, see `Record.save`. An .mcap file is written at each control step,
-    so that nothing is lost where the process is killed; other files at the end.
+    list of two. watchers: functions called with the world at each control step, after its sensors
+    are read. record: a file for the record, see `Record.save`. An .mcap file is written at each
+    control step, so that nothing is lost where the process is killed; other files at the end.
 
     Raises InputError for an experiment that can't be run. When a law fails, the error carries the
     record until then as its `record`. Source: MARS's ``mars(exp_file, stop_time, speed, options)``.
@@ -96,7 +95,7 @@ def _output(record: str | Path) -> tuple[Path, Log | None]:
     from mars2d.output import formats
 
     if not isinstance(record, (str, Path)):
-        raise wrong("record", record, "the name of a file, as 'run.mcap'")
+        raise wrong("record", record, "the name of a file, such as 'run.mcap'")
     target = Path(record)
     formats.require(target)
     if not target.parent.is_dir():

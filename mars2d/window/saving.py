@@ -121,7 +121,7 @@ class Saver:
         painter.paint(screen, scene.shapes, PIXELS, shaded=False)
 
     def _try(self, save: Callable[[], str]) -> bool:
-        """Save something, and say what or why not in a note; return whether it worked."""
+        """Save something, and report it or the error in a note; return whether it worked."""
         try:
             self._notes.say(save())
         except InputError as error:

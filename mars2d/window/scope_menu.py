@@ -1,4 +1,4 @@
-"""The menu of what can be plotted over time, of a body or of all robots."""
+"""The menu of quantities to plot over time, of a body or of all robots."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def entries_of_scopes(
     functions: Sequence[Callable[[Any], Any]],
     distances: Callable[[], None],
 ) -> list[Entry]:
-    """Return what can be plotted of a body, an index of `Scenario.bodies`, or of all robots.
+    """Return the quantities to plot of a body, an index of `Scenario.bodies`, or of all robots.
 
     functions: those of the experiment's file that it names as its scopes. distances: opens the
     menu of distances.

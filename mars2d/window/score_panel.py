@@ -1,4 +1,4 @@
-"""The panel of a game: time left, distance, who plays what by which keys, and who has won."""
+"""The panel of a game: time left, distance, the players with roles and keys, and the winner."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MAX_LINES = 3
 
 
 class Part(NamedTuple):
-    """A part of the panel: its height [points], and what draws it within a rectangle."""
+    """A part of the panel: its height [points], and the function that draws it."""
 
     height: float
     draw: Callable[[pygame.Surface, pygame.Rect], None]
@@ -118,7 +118,7 @@ class ScorePanel(Panel):
             yield Part(LINE, partial(self._text, line))
 
     def _tally(self) -> str:
-        """Return what was won so far, of one person or of the first role of two."""
+        """Return the games won so far, by one person or by the first role of two."""
         seats = [seat for seat in self.play.seats if seat.role]
         words = self.play.tally(seats[0].role).in_words if seats else ""
         who = f" as {seats[0].role}" if seats else ""

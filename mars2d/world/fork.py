@@ -60,7 +60,7 @@ def _replaced(simulation: Simulation, *, laws: bool) -> Iterator[tuple[object, o
 
 
 def _parts_of_users(simulation: Simulation, *, laws: bool) -> Iterator[tuple[str, object]]:
-    """Yield what the user's code may have put things into, with its name."""
+    """Yield the places in which the user's code may have stored objects, with their names."""
     for law in simulation.laws if laws else ():
         if law.started:
             raise InputError(

@@ -69,7 +69,7 @@ class Law:
             raise
 
     def blame(self, error: BaseException) -> None:
-        """Raise LawError for an exception of what the law returned, unless it passes through."""
+        """Raise LawError for an exception of the law's returned value, unless it passes through."""
         self._calling.blame(error)
 
     def refuse(self, message: str) -> NoReturn:
@@ -82,7 +82,7 @@ class Law:
 def robot_command(value: Any, refuse: Callable[[str], NoReturn]) -> tuple[float, float]:
     """Check the command of one robot: two finite numbers. refuse: raises the error."""
     if value is None:
-        refuse("returned nothing: a law returns its command, as `return v, omega`")
+        refuse("returned nothing: a law returns its command, such as `return v, omega`")
     if type(value) is tuple and len(value) == 2:
         first, second = value
         plain = type(first) in PLAIN and type(second) in PLAIN
@@ -90,7 +90,7 @@ def robot_command(value: Any, refuse: Callable[[str], NoReturn]) -> tuple[float,
             return first, second
     command = _numbers(value, refuse)
     if command is None or command.shape not in ((2,), (2, 1)):
-        refuse(f"returned {shown(value)}: expected two numbers, as (v, omega) or (vx, vy)")
+        refuse(f"returned {shown(value)}: expected two numbers, such as (v, omega) or (vx, vy)")
     first, second = command.ravel().tolist()
     if not (abs(first) <= LARGEST and abs(second) <= LARGEST):  # neither for NaN
         refuse(f"returned {shown((first, second))}: {BOUNDED}")

@@ -248,7 +248,7 @@ class Simulation(State):
             self._stepping = False
 
     def refuse_within_step(self, call: str) -> None:
-        """Raise InputError within a step, where a call would change what is going on."""
+        """Raise InputError within a step, where a call would interfere with it."""
         if self._stepping:
             raise InputError(
                 f"world.{call}() was called from within a step: by a law, sensor or add-on"

@@ -35,7 +35,7 @@ OF_A_RUN = (
     "_world", "_experiment", "_past", "branches", "row", "_lines", "_errors", "_count",
     "_gone_back",
 )  # fmt: skip
-"""The attributes of a timeline that begin anew with a run."""
+"""The attributes of a timeline that start again with a run."""
 
 
 class Timeline:
@@ -46,7 +46,7 @@ class Timeline:
     then. Laws are asked again on the way, so that they remember what they did. The rows after it
     become another branch, to which one can go back.
 
-    The laws are those of the experiment, whose file is run anew for each world: so no two worlds
+    The laws are those of the experiment, whose file is run again for each world: so no two worlds
     share what a law keeps in its module. What laws print is not repeated, but other effects
     outside of the world, such as writing a file, are. So no world is made before somebody has gone
     back for the first time.
@@ -84,7 +84,7 @@ class Timeline:
             self._observe()
 
     def restart(self, experiment: Experiment | None = None) -> None:
-        """Begin anew, with the experiment as its file is now, or as given.
+        """Start again, with the experiment as its file is now, or as given.
 
         A run in which hands did something is kept, with its branches, as one of `others`.
         """
@@ -348,8 +348,8 @@ class Timeline:
     ) -> str:
         """Set parameters of the experiment, by the names of ``--set``.
 
-        The run goes on with them from the present row if it can, else it starts anew; returns the
-        reason for a new start, or "". restart: whether it may start anew; else it is left as it is.
+        The run goes on with them from the present row if it can, else it starts again; returns the
+        reason for a new start, or "". restart: whether it may start again; else it stays as it is.
         Raises InputError, and changes nothing, where there are no such parameters, or no such
         values.
         """

@@ -149,7 +149,7 @@ def _follow(
     step: Callable[[NDArray[np.float64]], None],
     progress: Callable[[int], None] | None,
 ) -> tuple[int, Departure | None]:
-    """Let a world do what a record says; return the row reached, and how it departs there."""
+    """Repeat a record in a world; return the row reached, and the deviation there."""
     done: dict[int, list[Intervention]] = defaultdict(list)
     for intervention in interventions:
         done[intervention.row].append(intervention)

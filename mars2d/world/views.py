@@ -77,7 +77,7 @@ def unknown(view: object, kind: str, name: str, *more: str) -> NoReturn:
 
 
 class Memory(SimpleNamespace):
-    """Keeps what a law remembers between steps, as attributes: ``robot.memory.integral``."""
+    """Keeps a law's variables between steps, as attributes: ``robot.memory.integral``."""
 
     def __getattr__(self, name: str) -> NoReturn:
         if name.startswith("__"):

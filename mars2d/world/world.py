@@ -94,7 +94,7 @@ class World(WorldView):
 
     @property
     def watch(self) -> Watcher | None:
-        """Called with the world once a control step; may be set anew."""
+        """Called with the world once a control step; may be set again."""
         return self._simulation.watch
 
     @watch.setter

@@ -634,7 +634,7 @@ def test_what_exceeds_the_bandwidth_of_a_control_step_is_dropped():
     assert rows["size"].tolist() == [10, 10, 11, 11, 10, 10, 1, 1, 1, 1]
     dropped = (rows["status"] == OVER_BANDWIDTH).tolist()
     assert dropped == [False] * 2 + [True] * 2 + [False] * 2 + [True] * 2 + [False] * 2
-    assert len(record.messages) == 30  # each control step has the bandwidth anew
+    assert len(record.messages) == 30  # each control step has the bandwidth again
     assert (record.messages["status"] == OVER_BANDWIDTH).sum() == 12
 
 

@@ -110,7 +110,7 @@ def test_robots_gather_where_it_is_dense():
 @pytest.mark.parametrize(
     ("fields", "message"),
     [
-        ({}, "Density: expected either a function"),
+        ({}, "Density: expected a function"),
         (
             {"function": abs, "image": "p.png", "bounds": (0, 1, 0, 1)},
             r"expected a function|either",

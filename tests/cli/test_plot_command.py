@@ -73,7 +73,7 @@ def test_columns_and_robots_are_chosen_by_name_before_index(plot, tmp_path):
         (["paths", "--from", "1"], "mars2d: --from is for signals"),
         (["signals", "--to", "9"], "mars2d: signals from 0 to 9 s: expected a part of the run"),
         (["--headless"], "unrecognized arguments: --headless (see mars2d plot --help)"),
-        (["snapshots"], "mars2d: snapshots need their times, as --at 0,5,end"),
+        (["snapshots"], "mars2d: snapshots need their times, such as --at 0,5,end"),
         (["snapshots", "--at", "9"], "mars2d: times: 9 s is outside of the record"),
         (["signals", "--columns", "efort"], "did you mean 'effort'?"),
         (["signals", "--columns", "x,"], "'x,': expected names with commas between them"),

@@ -117,8 +117,8 @@ FILES = [
 """Lines of an experiment's file."""
 
 LAWS = [
-    ("v = 1", "go returned nothing: a law returns its command, as `return v, omega`"),
-    ("return 1", "expected two numbers, as (v, omega) or (vx, vy)"),
+    ("v = 1", "go returned nothing: a law returns its command, such as `return v, omega`"),
+    ("return 1", "expected two numbers, such as (v, omega) or (vx, vy)"),
     ("return 0.2, 0, 0", "expected two numbers"),
     ("return '0.2', 0", "expected two numbers"),
     ("return np.nan, 0", "a command must be finite"),
@@ -150,7 +150,7 @@ LAWS = [
     ("return robot.dt, 0", "write robot.sampling_time"),
     ("return robot.goal[0], 0", "robot.memory"),
     ("robot.stop()", "write return v, omega: a law returns its command"),
-    ("robot.drive(1, 0)", "a law returns its command, as `return v, omega`"),
+    ("robot.drive(1, 0)", "a law returns its command, such as `return v, omega`"),
     ("robot.set_velocity(1, 0)", "write return v, omega"),
     ("return sinus(1), 0", "line 9: go raised NameError: name 'sinus' is not defined"),
     ("return random.random(), 0", "write `import random` at the top"),

@@ -1,4 +1,4 @@
-"""What docs/theory.md says is measured anew: every number is within its tolerance."""
+"""What docs/theory.md says is measured again: every number is within its tolerance."""
 
 from __future__ import annotations
 

@@ -28,8 +28,8 @@ def is_compiled(world: World) -> bool:
 
 
 @pytest.fixture
-def anew() -> Iterator[None]:
-    """What is compiled is loaded anew in this test, and after it."""
+def again() -> Iterator[None]:
+    """What is compiled is loaded again in this test, and after it."""
     islands._loaded.cache_clear()
     yield
     islands._loaded.cache_clear()
@@ -49,14 +49,14 @@ def in_python_because(reason: str) -> bool:
 
 
 @compiled
-@pytest.mark.usefixtures("anew")
+@pytest.mark.usefixtures("again")
 def test_it_is_not_used_after_a_change_of_its_sources(monkeypatch):
     monkeypatch.setattr(islands, "fingerprint", lambda: "of other sources")
     assert in_python_because("its sources have changed since it was compiled")
 
 
 @compiled
-@pytest.mark.usefixtures("anew")
+@pytest.mark.usefixtures("again")
 def test_it_is_not_used_with_a_pymunk_that_it_was_not_written_for(monkeypatch):
     monkeypatch.setattr(islands, "CONTACT_SIZE", islands.CONTACT_SIZE + 8)
     version = versions()["pymunk"]

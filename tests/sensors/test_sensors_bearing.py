@@ -355,7 +355,7 @@ def test_a_beacon_that_goes_out_is_not_seen_any_more():
 
 @pytest.mark.parametrize("names", ["lamp", [], [3], ["a", "a"]])
 def test_names_are_a_list_of_different_texts(names):
-    words = r"stands there twice|expected a list of beacons' names, as \['lamp'\], or None"
+    words = r"stands there twice|expected a list of beacons' names, such as \['lamp'\], or None"
     with pytest.raises(InputError, match=rf"Beacon\.names.*: .*({words})$"):
         sensors.Beacon(names=names)
 

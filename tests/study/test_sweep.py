@@ -376,9 +376,9 @@ def test_what_is_in_the_file_is_not_run_again_and_seeds_and_values_may_become_mo
     assert runs(here) == 4
     more = sweep({"gain": [0.25, 0.5, 1.0]}, 3, out="r.csv")
     assert runs(here) == 9
-    again = sweep({"gain": [0.25, 0.5, 1.0]}, 3, out="anew.csv")
+    again = sweep({"gain": [0.25, 0.5, 1.0]}, 3, out="again.csv")
     assert more == again == load_table("r.csv")
-    assert (here / "r.csv").read_bytes() == (here / "anew.csv").read_bytes()
+    assert (here / "r.csv").read_bytes() == (here / "again.csv").read_bytes()
 
 
 def test_rows_that_move_have_their_new_numbers_before_the_next_is_added(here):

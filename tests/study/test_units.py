@@ -64,7 +64,7 @@ def test_a_unit_that_is_stated_is_kept_in_the_file_and_no_other(tmp_path):
 @pytest.mark.parametrize(
     ("texts", "said"),
     [
-        (["far"], "--unit far: expected NAME=UNIT, as --unit spread=m"),
+        (["far"], "--unit far: expected NAME=UNIT, such as --unit spread=m"),
         (["far="], "expected NAME=UNIT"),
         (["far=m", "far=s"], "--unit far: is given twice"),
         (["fer=m"], "unit of 'fer': there is no such setting or measure; did you mean 'far'?"),

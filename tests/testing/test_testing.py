@@ -74,7 +74,7 @@ class Whisker(Sensor):
 
 
 class Milestones(Sensor):
-    """A sound sensor that keeps something: the way gone, and how often it has begun anew."""
+    """A sound sensor that keeps something: the way gone, and how often it has begun again."""
 
     quantities = (NUMBER, FLAG)
 

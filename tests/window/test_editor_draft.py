@@ -311,7 +311,7 @@ def test_a_prompt_shows_what_is_wrong_and_stays():
     prompt.press("backspace", "\b")
     prompt.press("return", "\r")
     assert prompt.open
-    assert prompt.error == "expected a name, as room.toml"
+    assert prompt.error == "expected a name, such as room.toml"
     prompt.press("q", "q")
     prompt.press("enter", "\r")
     assert (prompt.open, taken) == (False, ["", "q"])

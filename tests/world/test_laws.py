@@ -119,7 +119,7 @@ def test_a_team_of_one_may_return_just_two_numbers():
 @pytest.mark.parametrize(
     ("value", "message"),
     [
-        (None, "returned nothing: a law returns its command, as `return v, omega`"),
+        (None, "returned nothing: a law returns its command, such as `return v, omega`"),
         (0.2, r"returned 0.2: expected two numbers"),
         ((1, 2, 3), r"returned \(1, 2, 3\): expected two numbers"),
         ((float("nan"), 0), "a command must be finite"),

@@ -962,7 +962,7 @@ scenario = Scenario(
         assert timeline.record.digest == expected.digest
 
 
-# -- started anew ----------------------------------------------------------------------------------
+# -- started again --------------------------------------------------------------------------------
 
 
 def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):

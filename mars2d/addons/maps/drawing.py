@@ -255,7 +255,7 @@ def check_bytes(name: str, path: Path, most: int) -> None:
 
 
 def listed(counts: Mapping[str, int], most: int = 8) -> str:
-    """Return counts in words, the largest first, as ``12 TEXT, 3 HATCH``."""
+    """Return counts in words, the largest first, such as ``12 TEXT, 3 HATCH``."""
     ranked = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
     words = [f"{count} {name}" for name, count in ranked[:most]]
     rest = sum(count for _, count in ranked[most:])

@@ -131,7 +131,7 @@ class _Reader:
             return np.array([(real("x", p[0]), real("y", p[1])) for p in positions]).reshape(-1, 2)
         except (TypeError, ValueError, KeyError, IndexError):
             raise InputError(
-                f"{self._name}: {shown(positions)}: expected positions, as [[x, y], [x, y]]"
+                f"{self._name}: {shown(positions)}: expected positions, such as [[x, y], [x, y]]"
             ) from None
 
     def _line(self, layer: str, points: Float) -> None:

@@ -126,7 +126,7 @@ def _checked(name: str, resolution: Any) -> float:
 
 
 def _origin(name: str, value: Any) -> Pose:
-    expected = "the pose of the lower left pixel, as [x, y, yaw] in metres and radians"
+    expected = "the pose of the lower left pixel, such as [x, y, yaw] in metres and radians"
     if not isinstance(value, list) or len(value) not in (2, 3):
         raise wrong(f"{name}: origin", value, expected)
     x, y, yaw = (real(f"{name}: origin[{i}]", v) for i, v in enumerate([*value, 0.0][:3]))

@@ -60,7 +60,7 @@ def read(
                 f"{path.name}: {option} is for {', '.join(takers)}, not {suffix}; leave it None"
             )
     if suffix in IMAGES and resolution is None:
-        raise InputError(f"{path.name}: an image needs resolution=..., metres per pixel, as 0.05")
+        raise InputError(f"{path.name}: an image needs resolution, metres per pixel, such as 0.05")
     chosen = None if layers is None else _layers(layers)
     place = None if at is None else point("at", at)
     _check_file(path, suffix)
@@ -116,7 +116,7 @@ def _check_file(path: Path, suffix: str) -> None:
 def _layers(value: Any) -> list[str]:
     """Check names of layers: a list, or one text with commas."""
     names = value.split(",") if isinstance(value, str) else value
-    expected = "names of layers, as ['WALLS'] or 'WALLS,DOORS'"
+    expected = "names of layers, such as ['WALLS'] or 'WALLS,DOORS'"
     if not isinstance(names, (list, tuple)) or not names:
         raise wrong("layers", value, expected)
     if not all(isinstance(name, str) and name.strip() for name in names):

@@ -93,7 +93,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _opened(source: str, options: dict[str, Any], seed: int, mode: str) -> Experiment:
-    """Return an experiment with a physics, opened anew.
+    """Return an experiment with a physics, opened again.
 
     Laws keep state in generators and in their module's globals, so that no two runs share them.
     """

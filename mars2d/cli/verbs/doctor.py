@@ -16,7 +16,7 @@ def add_arguments(_: argparse.ArgumentParser) -> None:
 
 
 def execute(_: argparse.Namespace) -> None:
-    """Show what this machine offers, and test the installation."""
+    """Show the libraries and devices of this machine, and test the installation."""
     broken = []
     for finding in examine():
         tell(f"{MARKS[finding.ok]}  {finding.name:<12}{finding.text}")

@@ -32,7 +32,7 @@ def _numbers(text: str) -> list[int]:
     except ValueError:
         numbers = set()
     if not numbers or not numbers <= set(known):
-        wanted = f"numbers of figures from {known[0]} to {known[-1]}, as 4,7"
+        wanted = f"numbers of figures from {known[0]} to {known[-1]}, such as 4,7"
         raise argparse.ArgumentTypeError(f"{text!r}: expected {wanted}")
     return sorted(numbers)
 

@@ -61,7 +61,7 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.layers is not None and kind not in DRAWINGS:
         raise InputError(f"--layers is for {' and '.join(DRAWINGS)}: mars2d plot {path} paths")
     if kind == "snapshots" and arguments.at is None:
-        raise InputError("snapshots need their times, as --at 0,5,end")
+        raise InputError("snapshots need their times, such as --at 0,5,end")
     look = style_of(arguments.style)
     check_outputs(arguments, {"figure": figure.SUFFIXES})
     _refuse_experiments(path)

@@ -22,7 +22,7 @@ from mars2d.record.record import Record
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the script, and what is made of its run."""
+    """Add the script, and the outputs of its run."""
     add = parser.add_argument
     add("script", type=Path, metavar="SCRIPT", help="a .py file that imports rps")
     add("--headless", action="store_true", help="without a window, even where there is a display")

@@ -53,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--measure", action="append", default=[], metavar="NAME",
         help="a function of the record in the experiment's file, or a built-in one")  # fmt: skip
     add("--unit", action="append", default=[], metavar="NAME=UNIT",
-        help="the unit of a setting or a measure, as spread=m")  # fmt: skip
+        help="the unit of a setting or a measure, such as spread=m")  # fmt: skip
     add("--out", type=Path, metavar="OUT.csv", help=f"file of the rows (default: {TABLE})")
     add("--figure", type=Path, metavar="OUT", help="draw the measures: .png, .pdf, .svg")
     add("--style", metavar="STYLE", help=f"of the figure: {', '.join(STYLES)}")
@@ -78,7 +78,8 @@ def _confidence(text: str) -> float:
     except ValueError:
         value = 0.0
     if not 0 < value < 1:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected a number between 0 and 1, as 0.95")
+        why = "expected a number between 0 and 1, such as 0.95"
+        raise argparse.ArgumentTypeError(f"{text!r}: {why}")
     return value
 
 

@@ -150,7 +150,8 @@ def _roles(arguments: argparse.Namespace) -> dict[str, list[str]]:
             elif name and file:
                 role = name
             else:
-                raise InputError(f"--role {word}: expected ROLE=FILES, as --role pursuer=laws/*.py")
+                expected = "expected ROLE=FILES, such as --role pursuer=laws/*.py"
+                raise InputError(f"--role {word}: {expected}")
             roles.setdefault(role, []).append(file)
     return roles
 

@@ -112,7 +112,7 @@ def rows_at(record: Record, times: ArrayLike) -> list[int]:
     Raises InputError for a time outside the record, and for no times or too many.
     """
     check_rows(record)
-    expected = 'expected times in seconds, as [0, 2.5, "end"]'
+    expected = 'expected times in seconds, such as [0, 2.5, "end"]'
     if isinstance(times, (list, tuple)):
         times = [record.time[-1] if is_end(time) else time for time in times]
     try:

@@ -285,7 +285,7 @@ def check_axes(ax: object) -> None:
 
     if not isinstance(ax, Axes) or ax.name != "rectilinear":
         raise InputError(
-            f"ax = {shown(ax)}: expected plain axes of matplotlib, as plt.subplots()[1]"
+            f"ax = {shown(ax)}: expected plain axes of matplotlib, such as plt.subplots()[1]"
         )
 
 
@@ -447,7 +447,7 @@ def _paint_legend(ax: Axes, now: Frame, layers: Layers, scale: float, words: flo
 
 
 def _paint_signs(ax: Axes, now: Frame, layers: Layers, words: float) -> None:
-    """Paint what the signs of the layers mean, in a corner: above the scale of forces, if any."""
+    """Paint the legend of the layers' signs in a corner, above the scale of forces, if any."""
     shown = [
         legend
         for legend in legends(now.scenario)

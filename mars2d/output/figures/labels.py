@@ -12,7 +12,7 @@ value, and within names and paths."""
 
 
 def wrapped(text: str, letters: int, lines: int = 6) -> str:
-    r"""Return a text on lines of at most so many letters; what needs more lines is left out.
+    r"""Return a text on lines of at most so many letters; further lines are left out.
 
     Names are broken after underscores and slashes, before dots, and elsewhere only if they must be.
 

@@ -108,7 +108,7 @@ def check_film(path: str | os.PathLike[str], size: tuple[int, int], fps: float =
     if suffix == ".mp4":
         if width % 2 or height % 2:
             even = f"{width + width % 2} x {height + height % 2}"
-            raise wrong("size", size, f"even numbers of pixels for .mp4, as {even}")
+            raise wrong("size", size, f"even numbers of pixels for .mp4, such as {even}")
         require_av(Path(path))
     require_pygame("a film")
 
@@ -117,7 +117,7 @@ def size_of(text: str) -> tuple[int, int]:
     """Return the size in a text such as "1280x720"; `check_film` checks it."""
     width, cross, height = text.strip().lower().partition("x")
     if not (cross and width.strip().isdecimal() and height.strip().isdecimal()):
-        raise InputError(f"size = {text!r}: expected width and height in pixels, as 1280x720")
+        raise InputError(f"size = {text!r}: expected width and height in pixels, such as 1280x720")
     return int(width), int(height)
 
 

@@ -1,4 +1,4 @@
-"""Records as files: one module a format, each of which reads what it writes, to the last bit."""
+"""Records as files: one module per format, each of which reads its own files to the last bit."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def require(path: Path) -> None:
 
 def _path(path: str | Path) -> Path:
     if not isinstance(path, (str, Path)) or "\0" in str(path):
-        raise InputError(f"path = {shown(path)}: expected the name of a file, as 'run.npz'")
+        raise InputError(f"path = {shown(path)}: expected the name of a file, such as 'run.npz'")
     return Path(path)
 
 

@@ -136,7 +136,7 @@ def of_text(path: Path, text: str | bytes, largest: int) -> dict[str, Any]:
 
 
 def check_sums(header: dict[str, Any], version: int) -> None:
-    """Take the check sums out of a header; InputError that names what was changed since.
+    """Take the check sums out of a header. Raises InputError that names later changes.
 
     version: of the file; files of the former one may have none.
     """

@@ -1,1 +1,1 @@
-"""The layers of a picture: what is drawn of an instant, the same for all painters."""
+"""The layers of a picture of an instant, the same for all painters."""

@@ -12,7 +12,7 @@ __all__ = ["addons", "floor", "sensors", "theory"]
 
 
 def floor(scenario: Scenario) -> Scene:
-    """Return what the add-ons paint on the workspace, beneath the grid."""
+    """Return the add-ons' drawings on the floor of the workspace, beneath the grid."""
     scene, area = Scene(), scenario.workspace or rectangle(*scenario.bounds)
     for addon in scenario.addons:
         with called(f"add-on {addon.key!r}", addon.paint):
@@ -21,7 +21,7 @@ def floor(scenario: Scenario) -> Scene:
 
 
 def addons(frame: Frame) -> Scene:
-    """Return what the add-ons draw, from their fields and the time, and from their live state."""
+    """Return the add-ons' drawings, from their fields, the time and their live state."""
     scene = Scene()
     for addon in frame.scenario.addons:
         with called(f"add-on {addon.key!r}", addon.draw):
@@ -32,7 +32,7 @@ def addons(frame: Frame) -> Scene:
 
 
 def theory(frame: Frame) -> Scene:
-    """Return what the add-ons draw of theory's predictions."""
+    """Return the add-ons' drawings of theoretical predictions."""
     scene = Scene()
     for addon in frame.scenario.addons:
         with called(f"add-on {addon.key!r}", addon.theory):

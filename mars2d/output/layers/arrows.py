@@ -12,7 +12,7 @@ __all__ = ["EDGE", "LABEL_SIZE", "LONGEST", "arrow", "beside", "has_cut", "short
 Float = NDArray[np.float64]
 
 EDGE = "#ffffff"
-"""The colour of the thin edges that set arrows off from what is below them."""
+"""The colour of the thin edges that set arrows off from their background."""
 
 LABEL_SIZE = 13.0
 """The height of the number beside an arrow, points."""

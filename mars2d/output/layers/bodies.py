@@ -1,4 +1,4 @@
-"""How single bodies look: robots, props, and what ties them together."""
+"""The looks of single bodies: robots, props, and the joints between them."""
 
 from __future__ import annotations
 
@@ -185,7 +185,7 @@ def prop_edge(color: str) -> str:
 
 
 def draw_tie(scene: Scene, tie: AttachedJoint, poses: Float) -> None:
-    """Draw what ties two bodies, (3, bodies): a rope, rod, spring or hinge."""
+    """Draw the tie of two bodies, (3, bodies): a rope, rod, spring or hinge."""
     joint = tie.joint
     start = _placed([joint.anchor_a], poses[:, tie.a])[0]
     end = np.array(joint.anchor_b)
@@ -243,7 +243,7 @@ def _region(shape: Shape) -> Any:
 
 @lru_cache(maxsize=1024)
 def _edges(shape: Shape) -> tuple[Rim, ...]:
-    """Return the rims of a shape's parts as one: what overlaps has no edge inside."""
+    """Return the outline of a shape's parts together, without edges where they overlap."""
     import shapely
 
     if len(shape.rims) == 1:

@@ -62,7 +62,7 @@ class Ruler(NamedTuple):
 
 
 class Sign(NamedTuple):
-    """A sign and what it means. scene: round (0, 0), in points. room: its width, points."""
+    """A sign and its meaning. scene: round (0, 0), in points. room: its width, points."""
 
     scene: Scene
     room: float

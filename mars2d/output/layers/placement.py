@@ -181,7 +181,7 @@ def _is_free(boxes: Float, bodies: Float, fixed: Sequence[Box], view: Box) -> ND
 
 
 def _cost(boxes: Float, taken: Float, bodies: Float, view: Float) -> Float:
-    """Return how much of each box is not free; what covers another name counts most."""
+    """Return how much of each box is not free; covering another name counts most."""
     covered = 10 * _overlaps(boxes, taken).sum(axis=1) + _overlaps(boxes, bodies).sum(axis=1)
     outside = 4 * boxes[:, 2] * boxes[:, 3] - _overlaps(boxes, view)[:, 0]
     return np.asarray(np.round(covered + 10 * outside, 12))

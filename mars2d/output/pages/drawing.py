@@ -106,7 +106,7 @@ def _parts(
 
 
 def _signs(frame: Frame, view: View, layers: Layers) -> Scene:
-    """Return what the signs of the layers mean, in the lower left corner."""
+    """Return the legend of the layers' signs, in the lower left corner."""
     shown = [
         legend
         for legend in legends(frame.scenario)

@@ -25,7 +25,7 @@ def islands() -> Any:
 
 
 def reason_without() -> str:
-    """Return why worlds do without what is compiled; empty if they use it."""
+    """Return why worlds do not use the compiled islands; empty if they do."""
     if os.environ.get("MARS2D_PLAIN") == "1":
         return "the environment variable MARS2D_PLAIN is 1"
     return _loaded()[1]
@@ -59,7 +59,7 @@ def version() -> str:
 
 
 def difference() -> str:
-    """Return how pymunk differs from what the islands can be compiled for; empty if it does not."""
+    """Return how pymunk differs from the supported versions; empty if it does not."""
     from pymunk._chipmunk_cffi import ffi, lib
 
     from mars2d.physics.islands.chipmunk import (

@@ -1,4 +1,4 @@
-"""A body, in motion: robot or prop, and what drives or holds it."""
+"""A body in motion: a robot or prop, with its drive and its friction on the floor."""
 
 from __future__ import annotations
 
@@ -237,7 +237,7 @@ class Body:
     moved: cython.double
     wall_pairs: list[Any]
     wall_gap: cython.double  # a lower bound of that to the nearest wall
-    wall_skin: cython.double  # how far it may move until the list of walls has to be made anew
+    wall_skin: cython.double  # how far it may move until the list of walls has to be made again
     cell: cython.int
     next: cython.int
     contacts: list[Any]  # with bodies of larger number, and obstacles
@@ -300,7 +300,7 @@ class Body:
         self.shapes = []
 
     def describe(self, what: dict[str, Any]) -> None:
-        """Take what it is, by the names above; what does not hold of it may be left out."""
+        """Set the properties, by the names above; those that do not apply may be left out."""
         self.mass, self.moment = what["mass"], what["moment"]
         self.lead = what.get("lead", 0.0)
         self.radius, self.is_disc = what["radius"], what["is_disc"]
@@ -420,7 +420,7 @@ class Body:
 
     @cython.cfunc
     def account(self, vx: cython.double, vy: cython.double, spin: cython.double) -> cython.void:
-        """Count what it has gained at a velocity as the work of its drive, or of the floor."""
+        """Count the momentum gained at a velocity as work of its drive, or of the floor."""
         energy: cython.double = self.kinetic_at(vx, vy, spin)
         self.by_holder += energy - self.energy
         self.energy = energy

@@ -42,7 +42,7 @@ EXACTLY = ["/O2", "/fp:precise", "/w"] if sys.platform == "win32" else [
 
 
 def fingerprint() -> str:
-    """Return what tells whether the islands were compiled of the sources that are here now."""
+    """Return a key that tells whether the islands were compiled from the present sources."""
     names = [*(f"{name}.py" for name in MODULES), "build.py", "chipmunk.pxi"]
     return hashlib.sha256(b"\0".join((HERE / name).read_bytes() for name in names)).hexdigest()
 
@@ -68,7 +68,7 @@ def joined() -> str:
 
 
 def compile_into(folder: Path, flags: Sequence[str] = ()) -> Path:
-    """Compile, with `folder` for what comes and goes, and return the extension module's file.
+    """Compile, with `folder` for temporary files, and return the extension module's file.
 
     flags: more of them for the compiler and the linker, as a sanitizer's.
     """

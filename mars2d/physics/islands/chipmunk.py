@@ -283,7 +283,7 @@ def _made(
 
 
 def set_joint(joint: Handle, bias: float, collide: bool) -> None:
-    """Set what is left of its error after a second, and whether its bodies collide."""
+    """Set the share of its error that is left after a second, and whether its bodies collide."""
     lib.cpConstraintSetErrorBias(joint, bias)
     lib.cpConstraintSetCollideBodies(joint, collide)
 
@@ -667,7 +667,7 @@ class Seams:
     def _holds(
         self, end: int, turn: float, own_x: float, own_y: float, dx: float, dy: float
     ) -> bool:
-        """Return whether a direction lies between the wall and what it meets on one side."""
+        """Return whether a direction lies between the wall and its neighbour on one side."""
         kind, tx, ty = self._numbers[end : end + 3]
         past_own = turn * (own_x * dy - own_y * dx) >= 0.0
         before_other = turn * (dx * ty - dy * tx) >= 0.0

@@ -49,7 +49,7 @@ class Row:
             self.impulse_x, self.impulse_y = -self.impulse_x, -self.impulse_y
 
     def order(self) -> tuple[float, ...]:
-        """Return what the rows of a pair are sorted by: the strongest comes first."""
+        """Return the sort key of a pair's rows: the strongest comes first."""
         strength = length(self.impulse_x, self.impulse_y)
         return -strength, self.x, self.y, self.normal_x, self.normal_y
 
@@ -107,7 +107,7 @@ class Touch:
 
     @cython.cfunc
     def begin_again(self) -> cython.void:
-        """Go back to what was kept; the first row stays, if there was one."""
+        """Go back to the kept rows; the first row stays, if there was one."""
         self.goes_on, self.any, self.count = self.kept_goes_on, self.kept_any, 0
         self.held, self.along, self.across = self.kept_held, self.kept_along, self.kept_across
         self.impulse_x, self.impulse_y = self.kept_impulse_x, self.kept_impulse_y
@@ -153,7 +153,7 @@ class Touch:
         self.across += row.impulse_y * row.normal_x - row.impulse_x * row.normal_y
 
     def order(self) -> tuple[float, int, int]:
-        """Return what contacts are sorted by: when they began, in this control step, and who."""
+        """Return the sort key of contacts: when they began in this step, and between whom."""
         return self.time if not self.was_on else self.time - self.h, self.a, self.b
 
     @cython.cfunc
@@ -180,7 +180,7 @@ class Touch:
 
     @cython.cfunc
     def begin(self) -> cython.void:
-        """Begin anew, after contacts were taken."""
+        """Start again, after contacts were taken."""
         self.was_on, self.any, self.held = self.goes_on, False, 0.0
         self.impulse_x = self.impulse_y = self.along = self.across = 0.0
 

@@ -23,7 +23,7 @@ __all__ = ["Glide", "hold"]
 
 @cython.cfunc
 def hold(body: Body, h: cython.double) -> cython.void:
-    """Set what the floor may use against a body in the next substep of h s.
+    """Set the floor's largest impulses on a body in the next substep of h s.
 
     A body at rest is held by force and torque together as by either alone, in the parts that they
     had in the last substep. It counts as at rest if the floor stops it at once, within a hundredth
@@ -158,7 +158,7 @@ class Glide:
 
     @cython.cfunc
     def left_after(self, h: cython.double) -> cython.double:
-        """Return what is left of the slow speed after h seconds, by Newton's method.
+        """Return the slow speed that is left after h seconds, by Newton's method.
 
         Where that leaves the bounds, they are halved.
         """

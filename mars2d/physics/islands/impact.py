@@ -1,4 +1,4 @@
-"""Impacts: what contacts do to the energy of the bodies that touch in a substep.
+"""Impacts: the effect of contacts on the energy of the bodies that touch in a substep.
 
 An impulse J works J (u + u') / 2, with the velocities u before and u' after of its point on one
 body as seen from the other. The sum over all impulses is the change of the kinetic energy.
@@ -28,7 +28,7 @@ __all__ = ["Impact", "settle"]
 
 
 REBOUND = 0.1
-"""How much more than its restitution says a contact may throw back what it has stopped.
+"""How much faster than by its restitution a contact may throw back a body that it has stopped.
 
 Between two walls that are almost parallel, what the solver remembers of an impact throws back
 bodies at several times their speed.
@@ -138,7 +138,7 @@ class Impact:
 
     @cython.cfunc
     def power(self) -> cython.void:
-        """Add up for the group the power of the impulse on what all impulses alone would give."""
+        """Add up for the group the power of the impulse on the motion due to all impulses alone."""
         group: Body = group_of(self.a)
         x: cython.double = 0.0
         y: cython.double = 0.0
@@ -189,7 +189,7 @@ def join_groups(a: Body, b: Body) -> cython.void:
 
 @cython.cfunc
 def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
-    """Let the solver's step of h s add no energy by contacts or joints; add up what they have done.
+    """Let the solver's step of h s add no energy by contacts or joints; add up their work.
 
     Of bodies that touch or hold each other, all impulses are weakened by one factor, so momentum is
     kept. impact: any, to work with.
@@ -245,7 +245,7 @@ def gains(solver: Solver) -> cython.bint:
 
 @cython.cfunc
 def take_powers(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
-    """Find out how fast the impulses of contacts would work on what they alone would give."""
+    """Find the power of the contacts' impulses on the motion due to them alone."""
     i: cython.int
     k: cython.int
     body: Body
@@ -261,7 +261,7 @@ def take_powers(solver: Solver, numbers: list[Body], impact: Impact) -> cython.v
 
 @cython.cfunc
 def work_again(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
-    """Find out anew how the impulses of contacts have worked."""
+    """Find out again how the impulses of contacts have worked."""
     i: cython.int
     k: cython.int
     body: Body
@@ -342,7 +342,7 @@ def weaken_body(
 
 @cython.cfunc
 def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
-    """Let the solver remember no more of the impulses of contacts than what they keep."""
+    """Let the solver remember only the part of the contacts' impulses that they keep."""
     i: cython.int
     group: Body
     for i in range(solver.arbiters.count()):

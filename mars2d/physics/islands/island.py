@@ -131,7 +131,7 @@ class Island:
         spare: list[Solver],
         surfaces: Any,
     ) -> None:
-        """Take what all islands share: bodies by number, all solvers, and those in no use."""
+        """Set the objects that all islands share: bodies by number, all and the unused solvers."""
         self.accuracy, self.glide, self.numbers = accuracy, glide, numbers
         self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
         self.thrust = Thrust()
@@ -413,7 +413,7 @@ class Island:
 
     @cython.cfunc
     def contact_limit(self, left: cython.double) -> cython.double:
-        """Mark who slips: what touches or is pulled does, and what its drive can't bring back.
+        """Mark the bodies that slip: those touched or pulled, or too fast for their drive.
 
         Returns how long a substep may be for them, at most `left`.
         """
@@ -536,7 +536,7 @@ class Island:
 
     @cython.cfunc
     def stop_some(self) -> cython.void:
-        """Stop what moves into something that it touches."""
+        """Stop each body that moves into something it touches."""
         pair: Pair
         body: Body
         for pair in self.pairs:
@@ -608,7 +608,7 @@ class Island:
 
     @cython.cfunc
     def close(self, time: cython.double, h: cython.double) -> cython.void:
-        """Add up what was noted in a substep."""
+        """Add up the notes of a substep."""
         body: Body
         touch: Touch
         for body in self.bodies:
@@ -617,7 +617,7 @@ class Island:
 
     @cython.cfunc
     def note_one(self, arbiter: Handle) -> cython.void:
-        """Note what the solver knows of one contact, if it touches still."""
+        """Note the solver's data of one contact, if it still touches."""
         first: cython.int = first_of(arbiter)
         second: cython.int = second_of(arbiter)
         swap: cython.bint = first < 0 or (second >= 0 and second < first)

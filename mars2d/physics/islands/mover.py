@@ -28,7 +28,7 @@ __all__ = ["Mover"]
 @cython.final
 @cython.cclass
 class Mover:
-    """All bodies of a world, by their numbers, with what they may touch and what ties them."""
+    """All bodies of a world, by their numbers, with their possible contacts and their ties."""
 
     accuracy: Accuracy
     glide: Glide
@@ -489,7 +489,7 @@ class Mover:
         return length(force / body.rest_grip, torque / body.rest_twist_grip) <= 1.0
 
     def free(self) -> None:
-        """Free what the engine has; nothing is moved after that."""
+        """Free the engine's objects; nothing is moved after that."""
         solver: Solver
         for solver in self.solvers:
             solver.free()

@@ -82,7 +82,7 @@ class Wall:
 
     @cython.cfunc
     def hidden(self, x: cython.double, y: cython.double, room: cython.double) -> cython.bint:
-        """Return whether what moves within a circle is kept from it by a wall that it ends at."""
+        """Return whether a wall that it ends at keeps a body within a circle from it."""
         for end_x, end_y, away_x, away_y, far in self.shades:
             from_x: cython.double = x - end_x
             from_y: cython.double = y - end_y

@@ -156,7 +156,7 @@ class Solver:
 
     @cython.cfunc
     def hold_by(self, body: Body, holder: Handle) -> cython.void:
-        """Make the joints of a body begin anew: they make it move as its holder does."""
+        """Make the joints of a body start again: they make it move as its holder does."""
         body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
         body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
         set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
@@ -190,7 +190,7 @@ class Solver:
 
     @cython.cfunc
     def leave(self, body: Body) -> cython.void:
-        """Take a body out, and what it is tied by."""
+        """Remove a body with its ties."""
         tie: Tie
         for tie in self.ties[:]:
             if tie.a is body or tie.b is body:
@@ -253,7 +253,7 @@ class Solver:
 
     @cython.cfunc
     def make_parts(self, tie: Tie) -> cython.void:
-        """Make the parts of a joint begin anew."""
+        """Make the parts of a joint start again."""
         if self.joint_mend == 0.0 and self.last_step < 1e300:
             self.joint_mend = decay_base(self.joint_mend_rate, self.last_step)
         k: cython.int
@@ -329,13 +329,13 @@ class Solver:
 
     @cython.cfunc
     def forget(self, h: cython.double) -> cython.void:
-        """Make what the solver remembers fit a step of h seconds.
+        """Scale the remembered impulses to a step of h seconds.
 
         The solver begins with the impulses of the step before, scaled by the ratio of the steps'
         lengths, but takes back the unscaled ones: a drive at its bound would push with
         F (2 h - h before), and impacts would be undone by half. So the impulses of contacts are
         scaled where they are kept, and the solver is told that both steps are equally long. Joints
-        of bodies begin anew.
+        of bodies start again.
         """
         ratio: cython.double = 0.0 if self.stale else h / self.last_step
         self.stale = False
@@ -363,7 +363,7 @@ class Solver:
 
     @cython.cfunc
     def renew(self, body: Body) -> cython.void:
-        """Let the joints of a body begin anew."""
+        """Let the joints of a body start again."""
         self.disengage(body)
         if body.is_robot:
             self.hold_by(body, body.control)
@@ -373,7 +373,7 @@ class Solver:
 
     @cython.cfunc
     def go(self, h: cython.double, growth: cython.double) -> cython.void:
-        """Step by h seconds, with all bodies moving as they are aimed, and read what came of it.
+        """Step by h seconds, with all bodies moving as they are aimed, and read the result.
 
         `settle` and `share_out` do the rest.
         """
@@ -426,7 +426,7 @@ class Solver:
 
     @cython.cfunc
     def share_out(self, h: cython.double) -> cython.void:
-        """Take over how bodies move, and by what their kinetic energies have changed in the step.
+        """Take over the bodies' motion, and the changes of their kinetic energies in the step.
 
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
@@ -559,7 +559,7 @@ def free_tie(tie: Tie) -> cython.void:
 
 @cython.cfunc
 def free_things_of(body: Body) -> cython.void:
-    """Free what a body that is in no space has in the engine."""
+    """Free the engine's objects of a body that is in no space."""
     if not body.made:
         return
     body.made = False

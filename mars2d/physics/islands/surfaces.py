@@ -138,7 +138,7 @@ class Surfaces:
 
 @cython.cfunc
 def blend(rule: cython.int, p: cython.double, q: cython.double) -> cython.double:
-    """Return what a rule makes of the values of two surfaces, the same in both orders."""
+    """Return a rule's result for the values of two surfaces, the same in both orders."""
     if rule == 1:
         return min(p, q)
     if rule == 2:

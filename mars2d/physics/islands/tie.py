@@ -1,4 +1,4 @@
-"""Ties: what joints do to two bodies, or to one and the world; when they hold, and how firmly."""
+"""Ties: joints between two bodies, or one and the world; when and how firmly they hold."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ Index = NDArray[np.intp]
 
 
 class Gaps:
-    """The gaps between a scene's bodies, n robots and p crates, and what stands still.
+    """The gaps between a scene's bodies, n robots and p crates, and its fixed obstacles.
 
     A body or an obstacle is a rectangle about its pose, with a rim of some radius: a disc is a
     rectangle without size. A gap below 0 is an overlap: how far one has to be moved out. The gap of

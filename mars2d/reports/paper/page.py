@@ -43,7 +43,7 @@ $style</style>
 <body>
 <header>
 <h1>The figures of the MARS paper, regenerated</h1>
-<p class="lead">Figures 2 to 9 of <cite>$paper</cite>, run anew by MARS2D $version with seed $seed.
+<p class="lead">Figures 2 to 9 of <cite>$paper</cite>, run again by MARS2D $version with seed $seed.
 Beside each stands what the paper reports, in our own words, what theory predicts, and what was
 measured. In the pictures, robots are hollow where they start and filled where they are; violet
 is theory.</p>

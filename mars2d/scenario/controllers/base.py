@@ -70,7 +70,7 @@ class Paced(Controller):
 
 
 def standing_still(scenario: ScenarioLike, control: object = None) -> dict[int, str]:
-    """Return the robots that nothing moves, by index: what each lacks, such as "a law".
+    """Return what each robot lacks to be moved, such as "a law", by its index.
 
     control: the law of the team, or None. A law of the user's own may stand still, too.
     """

@@ -47,7 +47,7 @@ class FollowRobot(Paced):
         return steered(robot.drive, theta, angle_of(dy, dx), speed) if speed > 0 else (0.0, 0.0)
 
     def want(self, scenario: ScenarioLike, index: int) -> str:
-        """Return what a robot lacks to be moved by this law: one that it follows."""
+        """Return what a robot lacks to be moved by this law: a robot to follow."""
         others = [robot.name for i, robot in enumerate(scenario.robots) if i != index]
         if self.leader is None:
             return "" if others else "another robot"

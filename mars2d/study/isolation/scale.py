@@ -1,4 +1,4 @@
-"""How much memory a process has: what is in use, not what is reserved."""
+"""How much memory a process uses, without memory that it has only reserved."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class Document:
     def named(self, text: str) -> Path:
         """Return the path for a typed text. Raises InputError if it is no path of a file."""
         if not text.strip():
-            raise InputError("expected a name, as room.toml")
+            raise InputError("expected a name, such as room.toml")
         path = Path(text.strip()).expanduser()
         if path.suffix.lower() != toml_file.SUFFIX:
             path = path.with_name(path.name + toml_file.SUFFIX)

@@ -1,4 +1,4 @@
-"""The panel at the right of the drawing: rows of what can be read and changed."""
+"""The panel at the right of the drawing: rows of properties, most of which can be changed."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Row(NamedTuple):
 
 
 class Panel:
-    """A column of rows; what does not fit is scrolled to by the wheel."""
+    """A column of rows; the wheel scrolls to those that do not fit."""
 
     def __init__(self, painter: Painter) -> None:
         """Start with nothing drawn."""
@@ -61,7 +61,7 @@ class Panel:
         return {f"{'+' if way > 0 else '-'} {row.title}": at for row, way, at in self._signs}
 
     def click(self, pixel: tuple[int, int]) -> None:
-        """Do what the row or the button at a pixel is for."""
+        """Do the action of the row or button at a pixel."""
         for row, way, place in self._signs:
             if row.step is not None and place.collidepoint(pixel):
                 row.step(way)

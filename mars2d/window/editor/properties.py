@@ -1,4 +1,4 @@
-"""The properties of what is selected, as rows of the panel, and how each is changed."""
+"""The properties of the selection, as rows of the panel, and how each is changed."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ MAX_IDLE = 6
 
 
 class Properties:
-    """The rows about what is selected; each opens a menu, or a field to type in.
+    """The rows about the selection; each opens a menu, or a field to type in.
 
     choose: takes up a tool by its name. tie: lets a person choose what some items are tied to.
     """
@@ -79,7 +79,7 @@ class Properties:
     # -- rows -----------------------------------------------------------------------------------
 
     def rows(self) -> list[Row]:
-        """Return the rows about what is selected, or about the scenario."""
+        """Return the rows about the selection, or about the scenario."""
         if not self._desk.selection:
             return self._rows_of_scenario()
         first, *others = described(self._desk)
@@ -113,7 +113,7 @@ class Properties:
         return rows
 
     def idle(self, draft: Draft) -> dict[int, str]:
-        """Return the robots of a draft that nothing moves, by number: what each lacks."""
+        """Return what each robot of a draft lacks to be moved, by its number."""
         return standing_still(draft.sketch, self._document.control)
 
     def _rows_of_law(self, robots: tuple[Item, ...]) -> list[Row]:
@@ -258,7 +258,7 @@ class Properties:
         self._dialogs.prompt = Prompt(label, hint, {"return": answer}, text=text, field=True)
 
     def _prompted(self) -> None:
-        """Clear what was said before."""
+        """Clear the last message."""
         self._desk.say("")
 
     def _step(self, name: str, value: float, change: Callable[..., None], way: int) -> None:
@@ -329,7 +329,7 @@ class Properties:
                 )
             )
 
-        doc = "a file of Python and a function in it, as walk.py:walk"
+        doc = "a file of Python and a function in it, such as walk.py:walk"
         self._type("Law =", doc, "", "law", change)
 
     # -- drives, colours, sensors, joints -------------------------------------------------------

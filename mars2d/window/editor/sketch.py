@@ -72,7 +72,7 @@ def draw_culprits(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
 
 
 def draw_idle(draft: Draft, idle: Mapping[int, str], scene: Scene) -> None:
-    """Write below robots that nothing moves what each lacks."""
+    """Write what is missing below each robot that nothing moves."""
     for i, want in idle.items():
         (x, y), radius = draft.robots[i].rigid.bound
         words = "no law" if want == "a law" else f"lacks {want}"

@@ -31,7 +31,7 @@ class Tie(Tool):
         self._kind, self._items, self._done = kind, items, done
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """Tie the bodies to what lies at a point [m]."""
+        """Tie the bodies to the item at a point [m]."""
         desk, draft = self.desk, self.desk.draft
         other = item_at(desk, point)
         ends: dict[str, Any] = {"anchor_b": desk.snapped(point)}

@@ -108,7 +108,7 @@ def test_a_foreign_file_is_refused(suffix, content, tmp_path):
 @pytest.mark.parametrize("path", [None, 3, b"run.npz", "run\0.npz", ["run.npz"]])
 def test_what_is_no_name_of_a_file_is_refused(path):
     for call in (mars2d.load, everything().save):
-        with pytest.raises(InputError, match=r"expected the name of a file, as 'run.npz'"):
+        with pytest.raises(InputError, match=r"expected the name of a file, such as 'run.npz'"):
             call(path)
 
 

@@ -112,4 +112,4 @@ def _check_free(port: int) -> None:
             tried.bind((HOST, port))
         except (OSError, OverflowError) as error:
             why = getattr(error, "strerror", None) or "no such port"
-            raise InputError(f"--foxglove {port}: {why}; name another port, as 8766") from None
+            raise InputError(f"--foxglove {port}: {why}; name another port, such as 8766") from None

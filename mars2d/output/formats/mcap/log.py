@@ -245,7 +245,7 @@ class Log:
 
 
 class _File:
-    """A file that collects what is written to it, and hands it to the system when told to.
+    """A file that collects written data, and hands it to the system on request.
 
     What the system has is kept when the process is killed. Raises DiskError where the file can't be
     written, or where somebody has moved or deleted it; what was there before is kept. It is locked:
@@ -300,11 +300,11 @@ class _File:
             raise DiskError(f"{self._path}: it was deleted or moved while it was written")
 
     def close(self) -> None:
-        """Close the file as it is, without what was not handed over."""
+        """Close the file as it is, without the data not handed over yet."""
         self.held.close()
 
     def _drop(self) -> None:
-        """Forget what could not be written whole."""
+        """Forget data that could not be written whole."""
         self._pending = bytearray()
         os.ftruncate(self._file, self._taken)
 
