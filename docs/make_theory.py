@@ -29,13 +29,13 @@ CROWD_SEEDS = range(8)
 HEAD = """\
 # Theory and measurement
 
-What a textbook predicts, and what the simulator measures. The first table holds single facts of the
-physics, the second what the examples say of themselves. This page is written by
+This page compares textbook predictions with the simulator's measurements. The first table has single facts of the
+physics, and the second the checks of the examples. This page is written by
 
     python docs/make_theory.py
 
-which runs all of it again; so do the tests, which fail when a number leaves its tolerance.
-Tolerances are absolute, in the unit given. Where 0 is predicted, what is measured is rounding,
+which runs everything again. So do the tests, which fail if a number leaves its tolerance.
+Tolerances are absolute, in the unit given. If 0 is predicted, the measured value is a rounding error,
 which differs between processors.
 """
 

@@ -1,4 +1,4 @@
-"""Billiards: what balls do that meet straight on or obliquely, or that a robot shoots.
+"""Billiards: balls collide head-on or obliquely, or are shot by a robot.
 
 Question: a ball with the speed v meets an equal one at rest. How quickly do both go on, and where
 to? And a ball that a robot shoots?

@@ -1,4 +1,4 @@
-"""Capture the flag: guards and attackers, as many as you like; who takes whom?
+"""Capture the flag: guards and attackers in any number: which guard takes which attacker?
 
 Question: how many attackers are sure not to reach the flag? Play with laws of your own:
 mars2d run capture_the_flag --set attacker=my_law.py --set attackers=4 --seed 3

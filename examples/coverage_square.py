@@ -1,4 +1,4 @@
-"""Coverage: twenty robots in a corner share out a square, each going to the middle of its cell.
+"""Coverage: twenty robots from a corner divide a square, each moving to the centroid of its cell.
 
 Setting: centralised with full information: the add-on Voronoi divides the square by all poses.
 Question: how do robots spread so that each place has one nearby, and when do they stop?

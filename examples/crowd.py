@@ -1,4 +1,4 @@
-"""A crowd at a door: fifty robots want through it at once.
+"""A crowd at a door: fifty robots push through it at once.
 
 Question: how quickly can they come through, and is the physics still sound in such a crush?
 Prediction: discs of diameter d do not fit side by side into a doorway of width w < 2 d: one lies at

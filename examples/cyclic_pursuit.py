@@ -1,4 +1,4 @@
-"""Cyclic pursuit: each robot runs after the next one, and the last one after the first.
+"""Cyclic pursuit: each robot chases the next one, and the last one the first.
 
 Setting: distributed, partial information: own pose, and the position of one other robot.
 Question: n robots chase each other. Do they meet, part, or go round and round?

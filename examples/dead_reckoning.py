@@ -1,4 +1,4 @@
-"""Dead reckoning: robots count the turns of their wheels, and estimate that they are home again.
+"""Dead reckoning: robots count the turns of their wheels, and estimate when they are back home.
 
 Setting: distributed, sensors only: each steers by its odometry, round a rectangle and back. It is
 one run many times over: robots, drawn as points, that start together and don't feel each other.

@@ -1,4 +1,4 @@
-"""Encirclement: several pursuers round an evader that is quicker than each of them.
+"""Encirclement: several pursuers surround an evader that is faster than each of them.
 
 Question: how many does it take, and how must they stand?
 Setting: distributed, partial information: each knows its own pose and where all others are, and

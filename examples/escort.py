@@ -1,4 +1,4 @@
-"""Escort: a guard keeps its body between a hunter and its prey, which only bodies can.
+"""Escort: a guard keeps its body between a hunter and its prey: impossible without contact.
 
 Question: how slow may the guard be? Play with laws of your own, for either of the two:
 mars2d run escort --set hunter=my_law.py --set mu=0.6 --seed 3

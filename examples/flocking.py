@@ -1,4 +1,4 @@
-"""A flock: robots that see only how far the others are, and where, come to go one way.
+"""A flock: robots that see only each other's distance and direction come to move in one direction.
 
 Setting: distributed, with sensors only: range and bearing of those in view; no headings, no poses.
 Question: Reynolds' boids (1987) steer apart, together, and as their neighbours do. Can a flock do

@@ -1,4 +1,4 @@
-"""Herding: one dog brings a flock into a pen that no sheep wants to go to.
+"""Herding: one dog brings a flock into a pen that no sheep wants to enter.
 
 Setting: centralised, partial information: one law moves all, by their positions alone.
 Law of a sheep: with the dog within FEAR it goes on as before, to the middle of all, away from those

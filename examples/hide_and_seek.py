@@ -1,4 +1,4 @@
-"""Hide and seek: who is seen has lost; a pillar is between, and the seeker is the bulkier one.
+"""Hide and seek: the hider loses when it is seen; a pillar is between them, and the seeker is big.
 
 Question: how much quicker must a seeker be to see who hides behind a pillar? Try your own laws:
 mars2d run hide_and_seek --set hider=my_law.py --set mu=1.1 --seed 3

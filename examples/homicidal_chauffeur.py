@@ -1,4 +1,4 @@
-"""Homicidal chauffeur: a quick car that can't turn tightly, and a slow pedestrian that can.
+"""Homicidal chauffeur: a fast car that can't turn tightly, and a slow pedestrian that can.
 
 Question: from which width on does the car win from any start?
 Setting: distributed, partial information: each knows its own pose and that of the other. The car

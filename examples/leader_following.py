@@ -1,4 +1,4 @@
-"""Leader following: robots keep their places about one leader (follow_the_leader is a chain).
+"""Leader following: robots keep their places around one leader (follow_the_leader is a chain).
 
 Setting: distributed, sensors only: each sees range and bearing, and hears what the leader says.
 Law: l-psi control. A point D ahead of each axle, at l from the leader and the bearing psi in its

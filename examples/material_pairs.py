@@ -1,4 +1,4 @@
-"""Material pairs: what slides on what, and why it is harder to start than to go on.
+"""Material pairs: friction between materials, and why starting is harder than sliding on.
 
 Question: a robot drives at the speed v against a wall, at the angle a to it. How quickly does it
 slide along? When does it stick, and does it matter whether it slid before?

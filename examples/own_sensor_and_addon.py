@@ -1,4 +1,4 @@
-"""A sensor and an add-on of one's own: lamps that robots seek, and a count of those found.
+"""Your own sensor and add-on: lamps that robots seek, and a count of those found.
 
 Setting: distributed, sensors only. Each robot carries two eyes that feel the light of all lamps,
 I = sum of 1 / d^2, and turns towards the brighter side (Braitenberg's vehicle).

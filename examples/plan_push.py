@@ -1,4 +1,4 @@
-"""Plan a push: a robot tries out pushes in its head, and so brings a box to a goal.
+"""Plan a push: a robot simulates pushes in advance, and so brings a box to a goal.
 
 Question: can a robot push a box to a goal if nobody tells it how to push?
 Law: model predictive control by random shooting. In each control step the robot forks the world

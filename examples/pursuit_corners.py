@@ -1,4 +1,4 @@
-"""Pursuit round four corners: who heads straight for a quicker evader ends up in a cycle.
+"""Pursuit round four corners: a pursuer that heads straight for a faster evader ends up in a cycle.
 
 Setting: distributed, partial information: each knows its own pose and where the other is.
 Law: the pursuer, a unicycle, turns to the evader and drives at mu times its speed. The evader, at

@@ -1,4 +1,4 @@
-"""Pursuit by Voronoi cells: a slower pursuer takes the evader's ground, and then the evader.
+"""Pursuit by Voronoi cells: a slower pursuer takes the evader's space, and then catches it.
 
 Setting: centralised, partial information: the team's law knows all positions, and no headings.
 Law: the pursuer heads at full speed for the middle m of the edge that its Voronoi cell shares with

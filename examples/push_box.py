@@ -1,4 +1,4 @@
-"""Push a box: it goes when the drive is stronger than the floor's friction.
+"""Push a box: it moves when the drive is stronger than the floor's friction.
 
 Question: a robot of mass M drives against a box of mass m, with at most the force F and at the
 speed v. Which boxes can it push, how soon do they go at full speed, how hard does it press?

@@ -1,4 +1,4 @@
-"""Rendezvous: robots that hear each other badly meet all the same.
+"""Rendezvous: robots meet although they lose half of their messages.
 
 Setting: distributed, sensors only: each knows its own position, and what its two neighbours say.
 Question: how do robots meet that nobody leads? And what if many messages are lost?

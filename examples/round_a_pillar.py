@@ -1,4 +1,4 @@
-"""Round a pillar: the oldest way to stay free is to run round something.
+"""Round a pillar: the oldest way to stay free is to run around something.
 
 Question: which pursuer catches an evader that runs round a pillar, and when? Try your own laws:
 mars2d run round_a_pillar --set evader=my_law.py --set mu=1 --seed 3

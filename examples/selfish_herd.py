@@ -1,4 +1,4 @@
-"""The selfish herd: the risk of one falls with the number of all, and with a small place.
+"""The selfish herd: an animal is safer in a larger flock, and with a smaller domain of danger.
 
 Question: what does an animal gain from others beside it? Play with laws of your own:
 mars2d run selfish_herd --set flock=my_law.py --set number=24 --seed 3

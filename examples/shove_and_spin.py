@@ -1,4 +1,4 @@
-"""Shove and spin: a blow beside the centre of mass turns what it meets.
+"""Shove and spin: a blow off the centre of mass spins the body.
 
 Question: a ball hits a box off its centre. How much of the blow goes into turning?
 Prediction: a smooth ball (m, v) with restitution e meets a body (M, I) at the lever b with the blow

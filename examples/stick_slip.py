@@ -1,4 +1,4 @@
-"""Stick-slip: what is drawn by a spring moves in jerks if it holds better at rest.
+"""Stick-slip: a body drawn by a spring moves in jerks if its static friction is higher.
 
 Question: a robot draws a box of mass m by a spring of stiffness k, at the speed v. The floor holds
 it at rest with up to mus m g, and while it slides with mu m g (Coulomb, 1785). Does it follow

@@ -1,4 +1,4 @@
-"""Sumo: two robots, a ring, and a law each; who leaves the ring has lost.
+"""Sumo: two robots, a ring, and a law each; the one that leaves the ring loses.
 
 Question: both robots are equally heavy (m) and strong (F). Head-on their forces cancel. How can one
 win? Try laws of your own: mars2d run sumo --set red=my_law.py --seed 3

@@ -1,4 +1,4 @@
-"""Token ring: one robot at a time has its turn, though messages are lost.
+"""Token ring: one robot at a time has its turn, although messages are lost.
 
 Setting: distributed, sensors only: a robot knows what it hears, and nothing else.
 Question: how do robots take turns, never two at once, and never none for long?

@@ -1,4 +1,4 @@
-"""Two cars: both go at one speed each and turn within a bound; the quicker one hunts.
+"""Two cars: each drives at a constant speed with bounded turns; the faster one hunts.
 
 Question: is it enough to be quicker?
 Setting: distributed, partial information: each knows its own pose and that of the other, and

@@ -1,4 +1,4 @@
-"""Wall follower: a robot hears the wall on its left and keeps its distance, all round a room.
+"""Wall follower: a robot keeps its distance from the wall on its left by sonar, all around a room.
 
 Setting: distributed, sensors only: a ring of eight sonars, each of which hears the nearest surface
 in a cone. Law (PD): omega = k e + c e', with e the distance on the left less the one to keep, and

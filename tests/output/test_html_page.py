@@ -615,7 +615,7 @@ def test_space_plays_after_a_click_on_another_button(tab):
 
 def test_help_lists_the_keys_and_letters_can_be_switched_off(tab):
     tab.press("F1")
-    for words in ("play, pause", "trails on and off", "clear the choice"):
+    for words in ("play, pause", "trails on and off", "clear the selection"):
         assert words in tab.text("#helping")
     tab.page.get_by_label("Single letters are keys").uncheck()
     tab.press("Escape")

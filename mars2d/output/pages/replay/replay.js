@@ -11,9 +11,9 @@ const KEYS = [
   [["A"], "choose layers"],
   [["Shift+arrows"], "move the picture"],
   [["F"], "fit all into the view"],
-  [["L"], "follow the picked body"],
+  [["L"], "follow the selection"],
   [["D"], "dark or light"],
-  [["Esc"], "clear the choice"],
+  [["Esc"], "clear the selection"],
   [["F1", "?"], "this help"],
 ];
 
