@@ -52,7 +52,7 @@ class Addon(Stateful):
     )  # fmt: skip
     static_friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,
-        doc="holds for as long as nothing slips; None: as friction",
+        doc="friction at rest; None: as friction",
     )  # fmt: skip
     only_one: ClassVar[str] = ""
     """Why a scenario has no two of them, as "robots talk over one"; "": it may have several."""

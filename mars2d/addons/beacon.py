@@ -51,16 +51,15 @@ class Beacon(Addon):
         check=checks.optional(checks.point),
         unit="m",
         kw_only=False,
-        doc="where it stands",
+        doc="its position",
     )
-    path: Outline | None = entry(
-        default=None, check=_path, unit="m", doc="the corners of the path that it moves on"
-    )
+    path: Outline | None = entry(default=None, check=_path, unit="m", doc="the corners of its path")
     speed: float | None = number(
         default=None, above=0, high=1e3, unit="m/s", optional=True, doc="its speed along the path"
     )
     closed: bool = flag(
-        default=True, doc="whether it goes on from the path's end to its start; else it stays there"
+        default=True,
+        doc="whether it continues from the path's end to its start; else it stops at the end",
     )
     color: str = entry(default="#e8c500", check=color, doc="its colour, for pictures only")
 

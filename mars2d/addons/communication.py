@@ -34,9 +34,9 @@ class Burst(Description):
     (0.25, 3.333)
     """
 
-    to_bad: float = _probability(0.05, "probability a control step that a good link turns bad",
+    to_bad: float = _probability(0.05, "probability per control step that a good link turns bad",
                                  above=0.0)  # fmt: skip
-    to_good: float = _probability(0.25, "probability a control step that a bad link turns good",
+    to_good: float = _probability(0.25, "probability per control step that a bad link turns good",
                                   above=0.0)  # fmt: skip
     loss_good: float = _probability(0.0, "probability that a good link loses a message")
     loss_bad: float = _probability(1.0, "probability that a bad link loses a message")
@@ -94,16 +94,16 @@ class Communication(Addon):
 
     range: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,
-        doc="how far robots hear each other, from pose to pose; None: everywhere",
+        doc="the range of radio, from pose to pose; None: unbounded",
     )  # fmt: skip
     line_of_sight: bool = flag(
-        default=False, doc="whether walls, props and other robots between two are in the way"
+        default=False, doc="whether walls, props and other robots block the view"
     )
     neighbours_only: bool = flag(
         default=False, doc="whether robots hear only their neighbours, by `Scenario.neighbours`"
     )
     delay: float = number(
-        default=0.0, low=0, high=1e6, unit="s", doc="from sending to arrival, at least"
+        default=0.0, low=0, high=1e6, unit="s", doc="the least time from sending to arrival"
     )
     loss: float = number(
         default=0.0, low=0, high=1, doc="probability that a receiver never gets a message"
@@ -113,7 +113,7 @@ class Communication(Addon):
     )
     bandwidth: float | None = number(
         default=None, above=0, high=1e12, unit="bytes", optional=True,
-        doc="what a robot may send in one control step; None: anything",
+        doc="the most that a robot may send in one control step; None: no bound",
     )  # fmt: skip
 
     def _validate(self) -> None:

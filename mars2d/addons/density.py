@@ -60,9 +60,11 @@ class Density(Addon, Weight):
     image: str | None = entry(default=None, check=image_file, doc="a PNG file, dark where dense")
     bounds: Bounds | None = entry(
         default=None, check=image_bounds, unit="m",
-        doc="where the image lies: (xmin, xmax, ymin, ymax)",
+        doc="the area of the image: (xmin, xmax, ymin, ymax)",
     )  # fmt: skip
-    color: str = entry(default="#3f4a5a", check=color, doc="where it is dense, for pictures only")
+    color: str = entry(
+        default="#3f4a5a", check=color, doc="its colour where it is dense, for pictures only"
+    )
 
     def _validate(self) -> None:
         super()._validate()

@@ -55,13 +55,16 @@ class Estimate(Addon):
     """
 
     robot: str | None = text(
-        default=None, optional=True, doc="whose; None: the first one with odometry"
+        default=None, optional=True, doc="the robot; None: the first one with odometry"
     )
     probability: float = number(
-        default=0.95, above=0, high=1 - 1e-9, doc="of the robot to be within the ellipse"
+        default=0.95,
+        above=0,
+        high=1 - 1e-9,
+        doc="the probability that the robot is within the ellipse",
     )
     every: float = number(
-        default=10.0, above=0, high=1e6, unit="s", doc="from one ellipse that is kept to the next"
+        default=10.0, above=0, high=1e6, unit="s", doc="time between two ellipses that are kept"
     )
     color: str = entry(default="#d55e00", check=color, doc="its colour")
 

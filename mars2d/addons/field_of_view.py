@@ -40,7 +40,7 @@ class FieldOfView(Addon):
     """
 
     sensors: tuple[str, ...] | None = entry(
-        default=None, check=_names, doc="the sensors' names; None: all that see up to 50 m"
+        default=None, check=_names, doc="the sensors' names; None: all with a range of up to 50 m"
     )
 
     def on_start(self, world: WorldLike) -> None:

@@ -76,12 +76,12 @@ class Floor(Addon):
         default=None,
         check=image_bounds,
         unit="m",
-        doc="where the image lies: (xmin, xmax, ymin, ymax)",
+        doc="the area of the image: (xmin, xmax, ymin, ymax)",
     )
     color: str | None = entry(
         default=None,
         check=checks.optional(_opaque),
-        doc="the colour of the rest; None: what lies beneath",
+        doc="the colour of the rest; None: transparent",
     )
 
     def _validate(self) -> None:

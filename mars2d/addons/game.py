@@ -76,19 +76,19 @@ class Game(Contest):
 
     capture: str | float = entry(
         default=CONTACT, check=_capture, unit="m",
-        doc="'contact', 'sight', or how near a hunter's pose has to come to an evader's",
+        doc="'contact', 'sight', or the distance of a hunter's pose from an evader's at a capture",
     )  # fmt: skip
     goal: Outline | None = entry(
         default=None, check=_goal, unit="m",
-        doc="the polygon that the evaders have to reach; None: they have to stay free",
+        doc="the polygon that the evaders must reach; None: they must stay free",
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
         default=None, check=_hunted,
-        doc="the robots that can be caught, if not those of the second role, which help them then",
+        doc="the robots to catch, if not those of the second role, which then help them",
     )  # fmt: skip
     wanted: int | None = integer(
         default=None, low=1, high=10**6, optional=True,
-        doc="how many captures the hunters need; None: all of the hunted",
+        doc="the number of captures that the hunters need; None: all of the hunted",
     )  # fmt: skip
 
     # -- how it stands, in a world -----------------------------------------------------------------

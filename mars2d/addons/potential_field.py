@@ -34,7 +34,7 @@ class PotentialField(Addon):
     """
 
     attraction: float = number(
-        default=1.0, above=0, high=1e6, unit="1/s", doc="k_p, of the way to the waypoint"
+        default=1.0, above=0, high=1e6, unit="1/s", doc="k_p, the gain of the attraction"
     )
     far: float = number(
         default=0.5, above=0, high=1e6, unit="m", doc="d*: attraction grows up to this distance"
@@ -46,10 +46,12 @@ class PotentialField(Addon):
         default=0.6, above=0, high=1e6, unit="m", doc="rho_0: edges nearer to a robot's rim repel"
     )
     drawn: str | None = text(
-        default=None, optional=True, doc="whose field is drawn; None: that of the last route"
+        default=None,
+        optional=True,
+        doc="the robot whose field is drawn; None: that of the last route",
     )
     spacing: float = number(
-        default=1.0, low=0.1, high=1e6, unit="m", doc="of the grid on which it is drawn"
+        default=1.0, low=0.1, high=1e6, unit="m", doc="the spacing of the drawn grid"
     )
 
     def of(self, scenario: ScenarioLike) -> Potential:

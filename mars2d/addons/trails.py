@@ -46,13 +46,13 @@ class Trails(Addon):
     """
 
     duration: float = number(
-        default=10.0, above=0, high=1e6, unit="s", doc="how far back a trail goes"
+        default=10.0, above=0, high=1e6, unit="s", doc="the duration of a trail"
     )
     robots: tuple[str, ...] | None = entry(
-        default=None, check=_names, doc="the names of those that have one; None: all robots"
+        default=None, check=_names, doc="the names of robots with a trail; None: all robots"
     )
     width: float = number(
-        default=2.5, above=0, high=50, unit="points", doc="of the line, on the screen or page"
+        default=2.5, above=0, high=50, unit="points", doc="width of the line, on the screen or page"
     )
 
     def on_start(self, world: WorldLike) -> None:

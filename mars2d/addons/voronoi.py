@@ -39,7 +39,7 @@ class Voronoi(Addon):
     """
 
     density: str | None = text(
-        default=None, optional=True, doc="the name of the Density; None: the only one there is"
+        default=None, optional=True, doc="the name of the Density; None: the only one"
     )
     resolution: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,

@@ -57,10 +57,14 @@ class Waypoints(Addon):
     """
 
     routes: Sequence[Outline] = entry(
-        check=_routes, unit="m", kw_only=False, doc="for each robot the points (x, y) of its way"
+        check=_routes, unit="m", kw_only=False, doc="the points (x, y) of each robot's route"
     )
     tolerance: float = number(
-        default=0.3, above=0, high=1e6, unit="m", doc="how near to a waypoint is there"
+        default=0.3,
+        above=0,
+        high=1e6,
+        unit="m",
+        doc="distance at which a waypoint counts as reached",
     )
 
     def passed(self, path: ArrayLike) -> tuple[int, ...]:

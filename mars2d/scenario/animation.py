@@ -33,21 +33,21 @@ class Animation(Description):
     """How an experiment looks when it is drawn: the Animation fields of the paper's Table 1."""
 
     grid: bool = flag(default=True, doc="draw the grid")
-    show_initial_pose: bool = flag(default=True, doc="draw where the robots started")
+    show_initial_pose: bool = flag(default=True, doc="draw the initial poses")
     show_real_shape: bool = flag(default=True, doc="draw robots to scale, else as points")
     wake: bool = flag(default=True, doc="draw the paths behind the robots")
-    forces: bool = flag(default=False, doc="draw the forces of contacts, and which drives slip")
+    forces: bool = flag(default=False, doc="draw contact forces, and mark slipping drives")
     names: bool = flag(default=False, doc="write the names of robots and props")
     neighbours: bool = flag(default=False, doc="draw the links between neighbours")
-    ranges: bool = flag(default=False, doc="draw how far robots reach by radio")
-    theory: bool = flag(default=False, doc="draw what theory predicts, where add-ons do so")
+    ranges: bool = flag(default=False, doc="draw the range of radio")
+    theory: bool = flag(default=False, doc="draw theoretical predictions, where add-ons do so")
     wake_style: str = entry(
         default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"
     )
     playback_speed: float | str = entry(
         default=1.0,
         check=playback_speed,
-        doc="1 is real time, 0 one step a key press, 'max' as fast as it goes",
+        doc="1 is real time, 0 one step per key press, 'max' as fast as possible",
     )
     base_colors: Sequence[str] = entry(
         default=PALETTE,

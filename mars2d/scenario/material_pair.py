@@ -32,14 +32,14 @@ class MaterialPair(Description):
     """
 
     a: str = entry(check=_material, kw_only=False, doc="a material's name")
-    b: str = entry(check=_material, kw_only=False, doc="the other's, or the same")
+    b: str = entry(check=_material, kw_only=False, doc="the other material, or the same")
     friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,
         doc="coefficient of friction of the contact; None: by the rule",
     )  # fmt: skip
     static_friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,
-        doc="holds for as long as nothing slips; None: as friction",
+        doc="friction at rest; None: as friction",
     )  # fmt: skip
     restitution: float | None = number(
         default=None, low=0, high=1, optional=True,

@@ -169,7 +169,7 @@ class Within(Neighbourhood):
 class Nearest(Neighbourhood):
     """The k nearest robots, nearest first; of robots equally far, the one of lower index."""
 
-    count: int = integer(low=1, high=10_000, kw_only=False, doc="how many")
+    count: int = integer(low=1, high=10_000, kw_only=False, doc="the number of neighbours")
 
     def of(self, position: Float) -> Neighbours:
         """Return the nearest robots; all others, if they are fewer."""
@@ -361,7 +361,7 @@ class Graph(Neighbourhood):
 
     fixed = True
 
-    graph: Any = entry(check=_edges, kw_only=False, doc="who sees whom")
+    graph: Any = entry(check=_edges, kw_only=False, doc="the graph of neighbours")
 
     def of(self, position: Float) -> Neighbours:  # noqa: ARG002
         """Return those that a robot has an edge to, by their indices."""

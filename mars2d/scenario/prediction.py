@@ -66,14 +66,17 @@ class Prediction(Description):
     True
     """
 
-    name: str = entry(check=_named, kw_only=False, doc="what is predicted, in a few words")
-    predicted: float = entry(check=real, kw_only=False, doc="the number by the formula")
+    name: str = entry(check=_named, kw_only=False, doc="the predicted quantity, in a few words")
+    predicted: float = entry(check=real, kw_only=False, doc="the predicted number")
     measured: float = entry(check=_measured, kw_only=False, doc="the number found in the record")
     tolerance: float = entry(
-        check=_tolerance, kw_only=False, doc="how far apart they may be, in the same unit"
+        check=_tolerance, kw_only=False, doc="the largest allowed difference, in the same unit"
     )
     unit: str = entry(
-        default="", check=_line, kw_only=False, doc="of all three numbers, empty for counts, ratios"
+        default="",
+        check=_line,
+        kw_only=False,
+        doc="the unit of all three numbers; empty for counts and ratios",
     )
 
     @classmethod

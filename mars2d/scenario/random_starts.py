@@ -74,11 +74,15 @@ class RandomStarts(Description):
         doc="the polygon in which their poses lie; None: the workspace",
     )  # fmt: skip
     least_distance: float = number(
-        default=0.0, low=0, high=1e6, unit="m", doc="between any two of their poses, at least"
+        default=0.0,
+        low=0,
+        high=1e6,
+        unit="m",
+        doc="the least distance between any two of their poses",
     )
     heading: float | None = number(
         default=None, low=-1e6, high=1e6, unit="rad", optional=True,
-        doc="of all of them; None: each has any",
+        doc="the heading of all; None: random",
     )  # fmt: skip
 
 

@@ -44,7 +44,9 @@ class Robot(Description):
         doc="initial pose (x, y, theta)",
     )
     drive: Drive = entry(
-        check=checks.instance(Drive, "Unicycle()"), factory=Unicycle, doc="how it moves"
+        check=checks.instance(Drive, "Unicycle()"),
+        factory=Unicycle,
+        doc="the drive, which moves it",
     )
     diameter: float = number(
         default=DIAMETER,
@@ -55,7 +57,7 @@ class Robot(Description):
     )
     shape: Shape | None = entry(
         default=None, check=_shape,
-        doc="its chassis if that is no disc, about the geometric centre, x ahead",
+        doc="the chassis, if it is not a disc, around the geometric centre, x ahead",
     )  # fmt: skip
     mass: float = number(default=1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
     moment: float | None = number(
@@ -74,20 +76,20 @@ class Robot(Description):
     )  # fmt: skip
     static_friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,
-        doc="holds for as long as nothing slips; None: as friction",
+        doc="friction at rest; None: as friction",
     )  # fmt: skip
     center_offset: float = number(
         default=0.0, low=-1e3, high=1e3, unit="m",
-        doc="how far the centre of rotation lies ahead of the geometric centre",
+        doc="distance of the centre of rotation ahead of the geometric centre",
     )  # fmt: skip
     mass_offset: float = number(
         default=0.0, low=-1e3, high=1e3, unit="m",
-        doc="how far the centre of mass lies ahead of the centre of rotation",
+        doc="distance of the centre of mass ahead of the centre of rotation",
     )  # fmt: skip
     sensors: Sequence[Sensor] = entry(
         default=(),
         check=checks.listing(Sensor, "Proximity(range=0.3)"),
-        doc="what it perceives with",
+        doc="its sensors",
     )
     controller: Callable[[Any], Any] | None = entry(
         default=None,
@@ -96,8 +98,8 @@ class Robot(Description):
     )
     sees: str = choice(
         default="full", of=("full", "partial", "positions", "sensors"),
-        doc="what its law may see: all; itself and its neighbours; itself and their positions; "
-        "or only what it senses",
+        doc="its law's information: all; itself and its neighbours; itself and their positions; "
+        "or its sensors only",
     )  # fmt: skip
     name: str | None = text(default=None, optional=True, doc="its name, else robot0, robot1, ...")
     color: str | None = entry(

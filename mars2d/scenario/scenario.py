@@ -90,16 +90,18 @@ class Scenario(Description):
     numbers out of range.
     """
 
-    title: str = text(default="[Simulation]", doc="the title shown")
+    title: str = text(default="[Simulation]", doc="the title")
     robots: Sequence[Robot] = entry(
-        default=1, check=_robots, doc="the team, or how many default robots"
+        default=1, check=_robots, doc="the robots, or the number of default robots"
     )
     props: Sequence[Prop] = entry(
-        default=(), check=checks.listing(Prop, "Box(pose=(1, 0, 0))"), doc="what can be moved"
+        default=(),
+        check=checks.listing(Prop, "Box(pose=(1, 0, 0))"),
+        doc="the props: boxes, balls and others",
     )
     joints: Sequence[Joint] = entry(
         default=(), check=checks.listing(Joint, "Rope(a='robot0', b='box0')"),
-        doc="what ties robots and props together",
+        doc="the joints between robots and props",
     )  # fmt: skip
     workspace: Outline | None = entry(
         default=((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)),
@@ -108,7 +110,7 @@ class Scenario(Description):
     )  # fmt: skip
     on_exit: str = choice(
         default="stop", of=("stop", "wall", "ignore"),
-        doc="at the workspace's edge: the experiment is over, a wall stands there, or nothing",
+        doc="the workspace's edge: it ends the experiment, is a wall, or has no effect",
     )  # fmt: skip
     sampling_time: float = number(
         default=0.1, low=1e-6, high=1e4, unit="s", doc="time between commands"
@@ -125,23 +127,29 @@ class Scenario(Description):
     )
     physics: str = choice(
         default="contact", of=PHYSICS,
-        doc="when things touch: forces act, a robot stops, or nothing happens",
+        doc="the effect of contact: forces act, a robot stops, or nothing happens",
     )  # fmt: skip
     max_overlap: float = number(
-        default=1e-3, low=1e-5, high=1.0, unit="m", doc="how deep bodies may overlap for an instant"
+        default=1e-3,
+        low=1e-5,
+        high=1.0,
+        unit="m",
+        doc="the largest overlap of bodies for an instant",
     )
     friction_rule: str = choice(
-        default="product", of=RULES, doc="how the friction of a contact follows from both surfaces'"
+        default="product", of=RULES, doc="the rule that combines the friction of two surfaces"
     )
-    restitution_rule: str = choice(default="product", of=RULES, doc="how its restitution does")
+    restitution_rule: str = choice(
+        default="product", of=RULES, doc="the rule that combines the restitution of two surfaces"
+    )
     material_pairs: Sequence[MaterialPair] = entry(
         default=(),
         check=checks.listing(MaterialPair, "MaterialPair('steel', 'ice', friction=0.03)"),
-        doc="what certain materials do to each other, whatever the rule",
+        doc="coefficients of certain pairs of materials, in place of the rule",
     )
     random_starts: Sequence[RandomStarts] = entry(
         default=(), check=checks.listing(RandomStarts, "RandomStarts(least_distance=1)"),
-        doc="robots and props that start elsewhere with each seed",
+        doc="robots and props with random starts, which depend on the seed",
     )  # fmt: skip
     addons: Sequence[Addon] = entry(
         default=(), check=checks.listing(Addon, "Map([...])"), doc="maps, measures, games"
@@ -151,10 +159,12 @@ class Scenario(Description):
         doc="what the team's law may see: all, or only positions",
     )  # fmt: skip
     neighbours: Neighbourhood = entry(
-        check=neighbourhood, factory=Everyone, doc="whom `robot.neighbours` lists"
+        check=neighbourhood, factory=Everyone, doc="the rule that selects `robot.neighbours`"
     )
     animation: Animation = entry(
-        check=checks.instance(Animation, "Animation()"), factory=Animation, doc="how it is drawn"
+        check=checks.instance(Animation, "Animation()"),
+        factory=Animation,
+        doc="how the experiment is drawn",
     )
 
     def _validate(self) -> None:

@@ -262,11 +262,11 @@ class Sensor(Stateful):
     name: str | None = text(default=None, optional=True, doc="the name of the reading")
     mount: tuple[float, float, float] = entry(
         default=(0.0, 0.0, 0.0), check=checks.pose, unit="m, m, rad",
-        doc="where it sits on the robot: ahead of its pose, left of it, turned",
+        doc="its pose on the robot: ahead, left, angle",
     )  # fmt: skip
     rate: float | None = number(
         default=None, above=0, high=1e6, unit="Hz", optional=True,
-        doc="measurements a second; None: one each control step",
+        doc="measurements per second; None: one per control step",
     )  # fmt: skip
     latency: float = number(
         default=0.0, low=0, high=1e4, unit="s", doc="from a measurement to its arrival"
@@ -276,7 +276,7 @@ class Sensor(Stateful):
         doc="standard deviation of each reading, in its unit; one number, or one for each quantity",
     )  # fmt: skip
     outliers: float = number(
-        default=0.0, low=0, high=1, doc="probability that a value is quite another one"
+        default=0.0, low=0, high=1, doc="probability that a value is replaced by a random one"
     )
     dropouts: float = number(default=0.0, low=0, high=1, doc="probability that a value is lost")
     resolution: float | tuple[float, ...] = entry(
@@ -284,7 +284,8 @@ class Sensor(Stateful):
         doc="values are rounded to multiples of it; one number, or one for each quantity",
     )  # fmt: skip
     recorded: bool = flag(
-        default=True, doc="in the record at each step; else measured only when a law asks"
+        default=True,
+        doc="whether it is recorded at each step; else it is measured only when a law reads it",
     )
 
     @property

@@ -120,13 +120,11 @@ class Beacon(Scanner):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (RANGE, BEARING)
 
-    range: float = number(default=100.0, above=0, high=1e6, unit="m", doc="how far it sees")
+    range: float = number(default=100.0, above=0, high=1e6, unit="m", doc="its range")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about its heading")
-    through_walls: bool = flag(
-        default=False, doc="whether it sees beacons that something stands before"
-    )
+    through_walls: bool = flag(default=False, doc="whether it sees hidden beacons")
     names: tuple[str, ...] | None = entry(
-        default=None, check=_names, doc="the beacons that it looks for; None: all that there are"
+        default=None, check=_names, doc="the beacons that it looks for; None: all"
     )
 
     def on_start(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002

@@ -39,11 +39,11 @@ class Bumper(Sensor):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (FLAG,)
 
-    sectors: int = integer(default=4, low=1, high=10_000, doc="how many switches it has")
-    field_of_view: float = sight_angle(default=2 * pi, doc="the angle that they share")
+    sectors: int = integer(default=4, low=1, high=10_000, doc="the number of sectors")
+    field_of_view: float = sight_angle(default=2 * pi, doc="the angle that the sectors divide")
     radius: float = number(
         default=0.15, above=0, high=1e6, unit="m",
-        doc="of the chassis for which it is drawn about its mount; a picture can't know the robot",
+        doc="radius of the chassis that is drawn around its mount",
     )  # fmt: skip
 
     @cached_property

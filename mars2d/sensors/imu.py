@@ -78,7 +78,7 @@ class Imu(Sensor):
     bias_walk: tuple[float, float, float] = entry(
         default=(0.0, 0.0, 0.0), check=_three_spreads,
         unit="m/s^2/sqrt(s), m/s^2/sqrt(s), rad/s/sqrt(s)",
-        doc="standard deviation that the errors gain in one second; it grows with the root of it",
+        doc="deviation of the errors' change in one second; it grows with the root of time",
     )  # fmt: skip
 
     def on_start(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002

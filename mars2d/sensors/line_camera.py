@@ -32,8 +32,8 @@ class LineCamera(Scanner):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (COLOR,)
 
-    pixels: int = integer(default=64, low=1, high=100_000, doc="how many pixels it has")
-    range: float = number(default=10.0, above=0, high=1e6, unit="m", doc="how far it sees")
+    pixels: int = integer(default=64, low=1, high=100_000, doc="the number of pixels")
+    range: float = number(default=10.0, above=0, high=1e6, unit="m", doc="its range")
     field_of_view: float = sight_angle(default=pi / 2, doc="the angle from first to last pixel")
 
     @cached_property

@@ -68,23 +68,23 @@ class Odometry(Sensor):
 
     drift: float = number(
         default=0.0, low=0, high=1e3, unit="sqrt(m)",
-        doc="standard deviation of a wheel's travel after one metre; it grows with the root of it",
+        doc="deviation of a wheel's travel after one metre; it grows with the root of the travel",
     )  # fmt: skip
     wheel_scale: tuple[float, float] = entry(
         default=(1.0, 1.0), check=_scales,
-        doc="radius of the left and the right wheel as it is believed, over the true one",
+        doc="assumed over true radius of the left and the right wheel",
     )  # fmt: skip
     semiaxis_scale: float = number(
         default=1.0, low=1e-3, high=1e3,
-        doc="distance of the wheels as it is believed, over the true one",
+        doc="assumed over true distance of the wheels",
     )  # fmt: skip
     encoder_step: float = entry(
         default=0.0, check=_step, unit="m",
-        doc="travel of a rim from one tick of its encoder to the next; 0: no ticks are seen",
+        doc="travel of a rim between two ticks of its encoder; 0: no ticks",
     )  # fmt: skip
     origin: str = choice(
         default="start", of=("start", "world"),
-        doc="what the estimate is relative to: the pose at the start, or the world's frame",
+        doc="the frame of the estimate: the pose at the start, or the world",
     )  # fmt: skip
 
     def _validate(self) -> None:

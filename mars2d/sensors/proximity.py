@@ -29,7 +29,7 @@ class Proximity(Sensor):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (FLAG,)
 
-    range: float = number(above=0, high=1e6, unit="m", doc="how far it sees, from its mount")
+    range: float = number(above=0, high=1e6, unit="m", doc="its range, from its mount")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about the heading")
 
     def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> bool:

@@ -34,12 +34,10 @@ class RangeBearing(Scanner):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (RANGE, BEARING)
 
-    range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")
+    range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="its range")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about its heading")
-    through_walls: bool = flag(
-        default=False, doc="whether it sees robots that something stands before"
-    )
-    identity: bool = flag(default=True, doc="whether it knows which robot it sees")
+    through_walls: bool = flag(default=False, doc="whether it sees hidden robots")
+    identity: bool = flag(default=True, doc="whether readings name the robot")
 
     def read_all(
         self,

@@ -34,8 +34,8 @@ class RangeFinder(Scanner):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (DISTANCE,)
 
-    beams: int = integer(default=180, low=1, high=100_000, doc="how many beams it has")
-    range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="how far it sees")
+    beams: int = integer(default=180, low=1, high=100_000, doc="the number of beams")
+    range: float = number(default=5.0, above=0, high=1e6, unit="m", doc="its range")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle from first to last beam")
 
     @cached_property

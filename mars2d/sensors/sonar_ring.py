@@ -36,9 +36,9 @@ class SonarRing(Scanner):
 
     quantities: ClassVar[tuple[Quantity, ...]] = (DISTANCE,)
 
-    sonars: int = integer(default=8, low=1, high=10_000, doc="how many sonars it has")
-    cone: float = sight_angle(default=0.35, doc="the angle in which each one hears")
-    range: float = number(default=3.0, above=0, high=1e6, unit="m", doc="how far it hears")
+    sonars: int = integer(default=8, low=1, high=10_000, doc="the number of sonars")
+    cone: float = sight_angle(default=0.35, doc="the angle of each cone")
+    range: float = number(default=3.0, above=0, high=1e6, unit="m", doc="its range")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle from first to last axis")
 
     @cached_property

@@ -54,18 +54,18 @@ class Drive(Description):
         default=0.5, above=0, high=1e3, unit="m/s", doc="bound of the speed"
     )
     max_force: float = number(
-        default=5.0, above=0, high=1e6, unit="N", doc="what the drive can push with"
+        default=5.0, above=0, high=1e6, unit="N", doc="the largest force of the drive"
     )
     max_torque: float = number(
-        default=0.5, above=0, high=1e6, unit="N m", doc="what it can turn with"
+        default=0.5, above=0, high=1e6, unit="N m", doc="the largest torque of the drive"
     )
     force_limited: bool = flag(
         default=False,
-        doc="whether max_force and max_torque bound its acceleration where nothing touches it, too",
+        doc="whether max_force and max_torque also bound its acceleration without contact",
     )
     max_acceleration: float | None = number(
         default=None, low=1e-6, high=1e6, unit="m/s^2", optional=True,
-        doc="bound of how quickly its actuators change; None: none",
+        doc="bound of its actuators' acceleration; None: no bound",
     )  # fmt: skip
     no_load_speed: float | None = number(
         default=None, above=0, high=1e6, unit="m/s", optional=True,
@@ -73,16 +73,16 @@ class Drive(Description):
     )  # fmt: skip
     grip: float | None = number(
         default=None, above=0, high=100, optional=True,
-        doc="friction of its wheels along them: they bear grip m g; None: any force",
+        doc="friction of its wheels along their direction: they hold grip m g; None: any force",
     )  # fmt: skip
     side_grip: float | None = number(
         default=None, above=0, high=100, optional=True,
-        doc="friction of its wheels across them; None: as along",
+        doc="friction of its wheels across their direction; None: as along",
     )  # fmt: skip
     noise: float = number(
         default=0.0, low=0, high=1, unit="sqrt(s)",
-        doc="standard deviation of an actuator's way after one second, in shares of that way; "
-        "it grows with the root of the time",
+        doc="standard deviation of an actuator's path after one second, as a share of it; "
+        "it grows with the root of time",
     )  # fmt: skip
     dead_time: float = number(
         default=0.0, low=0, high=1e6, unit="s",
@@ -225,7 +225,7 @@ class Turning(Drive):
 
     max_angular_speed: float | None = number(
         default=None, low=1e-3, high=1e3, unit="rad/s", optional=True,
-        doc="bound of how quickly it turns, left and right; None: none of its own",
+        doc="bound of its angular speed, left and right; None: no bound of its own",
     )  # fmt: skip
 
     def turning_radius(self, speed: float) -> float:

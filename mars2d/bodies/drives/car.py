@@ -33,7 +33,7 @@ class Car(Turning):
     )
     max_steering_rate: float | None = number(
         default=None, low=1e-6, high=1e6, unit="rad/s", optional=True,
-        doc="bound of how quickly the steering angle changes; None: none",
+        doc="bound of the rate of the steering angle; None: no bound",
     )  # fmt: skip
 
     @property

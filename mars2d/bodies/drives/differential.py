@@ -24,7 +24,7 @@ class Differential(Wheeled):
 
     command: str = choice(
         default="wheels", of=("wheels", "twist"),
-        doc="what a command is: the speeds of the left and the right wheel [rad/s], "
+        doc="the kind of command: the speeds of the left and the right wheel [rad/s], "
         "or v [m/s] and omega [rad/s]",
     )  # fmt: skip
     wheel_radius: float = number(

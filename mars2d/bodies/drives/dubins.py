@@ -28,7 +28,7 @@ class Dubins(Turning):
 
     max_angular_speed: float | None = number(
         default=1.0, low=1e-3, high=1e3, unit="rad/s",
-        doc="bound of how quickly it turns, left and right",
+        doc="bound of its angular speed, left and right",
     )  # fmt: skip
 
     def _validate(self) -> None:

@@ -46,11 +46,14 @@ class Joint(Description):
     a: str = text(doc="the name of a robot or prop")
     b: str | None = text(default=None, optional=True, doc="the name of another; None: the world")
     anchor_a: Point = entry(
-        default=(0.0, 0.0), check=checks.point, unit="m", doc="where it holds a, in a's frame"
+        default=(0.0, 0.0),
+        check=checks.point,
+        unit="m",
+        doc="its attachment point on a, in a's frame",
     )
     anchor_b: Point = entry(
         default=(0.0, 0.0), check=checks.point, unit="m",
-        doc="where it holds b, in b's frame; without b, the point of the world",
+        doc="its attachment point on b, in b's frame; without b, in the world",
     )  # fmt: skip
 
     def constraints(self, apart: float) -> tuple[Constraint, ...]:

@@ -35,15 +35,24 @@ class Hinge(Joint):
     """
 
     limits: tuple[float, float] | None = entry(
-        default=None, check=turning_limits, unit="rad", doc="how far b, or without b a, may turn"
+        default=None,
+        check=turning_limits,
+        unit="rad",
+        doc="the range of rotation of b, or without b of a",
     )
     limit_restitution: float = number(
         default=0.0, low=0, high=1, doc="at the limits: 0 stops, 1 turns back as fast"
     )
     stiffness: float = number(
-        default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that turns it back"
+        default=0.0,
+        low=0,
+        high=1e6,
+        unit="N m/rad",
+        doc="stiffness of the spring that turns it back",
     )
-    damping: float = number(default=0.0, low=0, high=1e6, unit="N m s/rad", doc="of its turning")
+    damping: float = number(
+        default=0.0, low=0, high=1e6, unit="N m s/rad", doc="damping of its rotation"
+    )
 
     def constraints(self, apart: float) -> tuple[Constraint, ...]:  # noqa: ARG002
         """Return a pin, and the limits and the spring of its angle."""

@@ -14,7 +14,7 @@ class Rod(Joint):
 
     length: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,
-        doc="how long it is; None: as far as its ends are apart at the start",
+        doc="its length; None: the distance of its ends at the start",
     )  # fmt: skip
 
     def constraints(self, apart: float) -> tuple[Constraint, ...]:

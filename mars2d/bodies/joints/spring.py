@@ -21,7 +21,7 @@ class Spring(Joint):
 
     rest_length: float | None = number(
         default=None, low=0, high=1e6, unit="m", optional=True,
-        doc="at which it neither pulls nor pushes; None: as at the start",
+        doc="its length without force; None: as at the start",
     )  # fmt: skip
     stiffness: float = number(default=20.0, above=0, high=1e6, unit="N/m", doc="k")
     damping: float = number(default=0.0, low=0, high=1e6, unit="N s/m", doc="c")

@@ -14,8 +14,8 @@ __all__ = ["Bar"]
 class Bar(Prop):
     """A long, thin rectangle along its heading."""
 
-    length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="how long it is")
-    thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="how thick it is")
+    length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="its length")
+    thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="its thickness")
 
     @cached_property
     def shape(self) -> Shape:

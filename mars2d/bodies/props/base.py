@@ -63,7 +63,7 @@ class Prop(Description):
         doc="initial velocity (vx, vy, omega)",
     )  # fmt: skip
     material: str | None = entry(
-        default=None, check=material, doc="what it is made of: gives what is None below"
+        default=None, check=material, doc="its material, which gives the values that are None below"
     )
     mass: float | None = number(
         default=None, low=1e-6, high=1e6, unit="kg", optional=True,
@@ -74,7 +74,7 @@ class Prop(Description):
         doc="moment of inertia; None: that of a plate",
     )  # fmt: skip
     height: float = number(
-        default=0.1, above=0, high=1e3, unit="m", doc="how high it is, for the mass by material"
+        default=0.1, above=0, high=1e3, unit="m", doc="its height, for the mass by material"
     )
     friction: float | None = entry(
         default=None, check=checks.optional(surface_friction),
@@ -86,14 +86,14 @@ class Prop(Description):
     )  # fmt: skip
     static_friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,
-        doc="holds for as long as nothing slips; None: as friction",
+        doc="friction at rest; None: as friction",
     )  # fmt: skip
     ground_friction: float = number(
         default=0.5, low=0, high=100, doc="coefficient of friction between it and the floor"
     )
     static_ground_friction: float | None = number(
         default=None, low=0, high=100, optional=True,
-        doc="the same for as long as it rests; None: as ground_friction",
+        doc="friction on the floor at rest; None: as ground_friction",
     )  # fmt: skip
     name: str | None = text(default=None, optional=True, doc="its name, else box0, ball1, ...")
     color: str | None = entry(default=None, check=optional_color, doc="its colour")

@@ -21,20 +21,22 @@ class Gate(Prop):
     The pose is that of its middle. Without stiffness it stays where it was left.
     """
 
-    length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="how long it is")
-    thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="how thick it is")
+    length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="its length")
+    thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="its thickness")
     ground_friction = 0.0
     limits: tuple[float, float] | None = entry(
         default=(-pi / 2, pi / 2), check=turning_limits, unit="rad",
-        doc="how far it turns from its start (least, largest); None: all round",
+        doc="its range of rotation from the start (least, largest); None: unbounded",
     )  # fmt: skip
     limit_restitution: float = number(
         default=0.0, low=0, high=1, doc="at the limits: 0 stops, 1 turns back as fast"
     )
     stiffness: float = number(
-        default=0.0, low=0, high=1e6, unit="N m/rad", doc="of the spring that shuts it"
+        default=0.0, low=0, high=1e6, unit="N m/rad", doc="stiffness of the spring that shuts it"
     )
-    damping: float = number(default=0.05, low=0, high=1e6, unit="N m s/rad", doc="of its turning")
+    damping: float = number(
+        default=0.05, low=0, high=1e6, unit="N m s/rad", doc="damping of its rotation"
+    )
 
     @cached_property
     def shape(self) -> Shape:

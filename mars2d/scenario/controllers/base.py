@@ -65,7 +65,7 @@ class Paced(Controller):
     """The base of laws with a speed."""
 
     speed: float = number(
-        default=0.3, above=0, high=1e3, unit="m/s", doc="how fast it goes, if its drive can"
+        default=0.3, above=0, high=1e3, unit="m/s", doc="its speed, within the drive's bounds"
     )
 
 

@@ -26,10 +26,14 @@ class FollowRobot(Paced):
         default=None, optional=True, doc="the name of the other robot; None: its nearest neighbour"
     )
     distance: float = number(
-        default=0.6, above=0, high=1e3, unit="m", doc="how far from its centre it stops"
+        default=0.6,
+        above=0,
+        high=1e3,
+        unit="m",
+        doc="distance from the other's centre at which it stops",
     )
     gain: float = number(
-        default=2.0, above=0, high=100, unit="1/s", doc="speed for each metre that it is farther"
+        default=2.0, above=0, high=100, unit="1/s", doc="speed per metre beyond the distance"
     )
 
     def __call__(self, robot: Any) -> Command:

@@ -38,9 +38,9 @@ class FollowWall(Paced):
     distance: float = number(
         default=0.5, above=0, high=1e3, unit="m", doc="from the sensor to the wall"
     )
-    side: str = choice(default="left", of=("left", "right"), doc="where the wall is")
+    side: str = choice(default="left", of=("left", "right"), doc="the side of the wall")
     gain: float = number(
-        default=3.0, above=0, high=100, unit="1/m", doc="how steeply it heads back to its distance"
+        default=3.0, above=0, high=100, unit="1/m", doc="how steeply it returns to its distance"
     )
     sensor: str = text(
         default="range_finder", doc="the name of its sensor, a RangeFinder or a SonarRing"

@@ -22,7 +22,7 @@ class FollowWaypoints(Paced):
     title: ClassVar[str] = "along its waypoints"
 
     gain: float = number(
-        default=1.0, above=0, high=100, unit="1/s", doc="speed for each metre to the last waypoint"
+        default=1.0, above=0, high=100, unit="1/s", doc="speed per metre to the last waypoint"
     )
 
     def __call__(self, robot: Any) -> Command:

@@ -31,9 +31,7 @@ class Wander(Paced):
 
     needs: ClassVar[tuple[Sensor, ...]] = (Proximity(range=0.4, field_of_view=2.0),)
 
-    turn: float = number(
-        default=1.5, above=0, high=1e3, unit="s", doc="how long it backs off, in the mean"
-    )
+    turn: float = number(default=1.5, above=0, high=1e3, unit="s", doc="mean time of backing off")
     sensor: str = text(default="proximity", doc="the name of its sensor, a Proximity or a Bumper")
 
     @property
