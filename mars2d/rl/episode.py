@@ -54,9 +54,11 @@ class Episode:
         """
         self._source, self._options = source, dict(options or {})
         opened = open_experiment(source, self._options, seed=0)
-        scenario = opened.scenario
         self.experiment = str(source) if isinstance(source, (str, Path)) else ""
         self._draws = "seed" not in self._options and _takes_seed(opened.function)
+        if not self._draws:  # without a seed its `random_starts` are not drawn yet: each reset does
+            opened = open_experiment(source, self._options)
+        scenario = opened.scenario
         self.learners = (
             tuple(range(len(scenario.robots)))
             if learners is None

@@ -136,11 +136,11 @@ class Observation:
         self(view)
 
     def _bounded(self, row: list[float]) -> Row:
-        values = np.array(row)
         if not isfinite(sum(row)):
+            values = np.array(row)
             values = np.where(np.isnan(values), 0.0, values)
-            values = np.where(np.isposinf(values), self._missing, values)
-        bounded = values.astype(np.float32)
+            row = np.where(np.isposinf(values), self._missing, values).tolist()
+        bounded = np.array(row, np.float32)
         np.maximum(bounded, self._least, out=bounded)
         return np.minimum(bounded, self._most, out=bounded)
 
@@ -226,9 +226,10 @@ class _Look:
         self.world, self.me = view._world, view._index
         self.xs, self.ys, self.thetas = self.world.pose.tolist()
         self.x, self.y = self.xs[self.me], self.ys[self.me]
-        self.heading = self.thetas[self.me]
-        self.turn = 0.0 if view.drive.frame == "world" else self.heading
-        self.c, self.s = cosine_sine(self.turn)
+        heading = self.thetas[self.me]
+        self.ahead = cosine_sine(heading)
+        turned = view.drive.frame != "world"
+        self.turn, (self.c, self.s) = (heading, self.ahead) if turned else (0.0, (1.0, 0.0))
 
     def place(self, x: float, y: float) -> tuple[float, float]:
         """Return a point in the frame of the commands, m."""
@@ -250,7 +251,7 @@ def _read_sensor(view: Any, key: Any, look: Any) -> list[float]:  # noqa: ARG001
 
 
 def _read_pose(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
-    return [look.x, look.y, *cosine_sine(look.heading)]
+    return [look.x, look.y, *look.ahead]
 
 
 def _read_positions(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
