@@ -33,7 +33,8 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
     ['red', 'blue']
 
     robots: who learns: names, indices, or roles, of which all robots learn; None: all. The agents'
-    names are the robots'. All go on until the experiment is over. The other arguments, spaces and
+    names are the robots'. One that is caught, shoved out or safe is terminated in that step and
+    leaves `agents`, while the others go on. The other arguments, spaces and
     ends are those of `mars2d.rl.Environment`.
     """
 
@@ -100,7 +101,8 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         self._episode.start(int(self._random.integers(SEEDS)) if seed is None else seed)
         self.agents = [*self.possible_agents]
         self._screen.follow(self.world)
-        return self._observed(), {agent: {} for agent in self.agents}
+        seen = {name: self._episode.observed(k) for k, name in enumerate(self.agents)}
+        return seen, {agent: {} for agent in self.agents}
 
     def step(
         self, actions: Mapping[str, Any]
@@ -117,36 +119,27 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         InputError for an action that is missing, of another shape or not finite, and for an agent
         that is not there.
         """
-        episode, agents = self._episode, self.possible_agents
-        for agent in actions:
-            self._place(agent)
-        missing = [agent for agent in self.agents if agent not in actions]
+        episode, agents = self._episode, self.agents
+        acting = {self._place(agent): action for agent, action in actions.items()}
+        here = {self._place(agent): agent for agent in agents}
+        for k in acting:
+            if k not in here and not episode.world.over:
+                raise InputError(f"step(actions): {episode.names[k]} is out of the game already")
+        missing = [agent for k, agent in here.items() if k not in acting]
         if missing:
             raise InputError(f"step(actions): there is no action of {missing[0]}")
-        episode.step(
-            {
-                episode.learners[k]: episode.command(k, actions[agent])
-                for k, agent in enumerate(agents)
-                if agent in actions
-            }
-        )
-        rewards = {agent: episode.reward(k) for k, agent in enumerate(agents)}
-        world = episode.world
-        info = {"over": world.over_message} if world.over else {}
-        self._screen.follow(self.world)
-        results = (
-            self._observed(),
+        episode.step({episode.learners[k]: episode.command(k, a) for k, a in acting.items()})
+        rewards = {agent: episode.reward(k) for k, agent in here.items()}
+        self._screen.follow(episode.world)
+        ended = {agent: episode.ended(k) for k, agent in here.items()}
+        self.agents = [agent for agent in agents if not any(ended[agent])]
+        return (
+            {agent: episode.observed(k) for k, agent in here.items()},
             rewards,
-            dict.fromkeys(agents, episode.terminated),
-            dict.fromkeys(agents, episode.time_is_over),
-            {agent: dict(info) for agent in agents},
+            {agent: terminated for agent, (terminated, _) in ended.items()},
+            {agent: truncated for agent, (_, truncated) in ended.items()},
+            {agent: episode.over for agent in agents},
         )
-        if world.over:
-            self.agents = []
-        return results
-
-    def _observed(self) -> dict[str, Row]:
-        return {name: self._episode.observed(k) for k, name in enumerate(self.possible_agents)}
 
     def render(self) -> Any:
         """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
