@@ -43,18 +43,18 @@ class Environment(gymnasium.Env[Row, Row]):
 
     experiment: a file, the name of an example, or a Scenario. robot: who learns: a name, an index,
     or a game's role, of which the first robot learns. reward: called after each step with the world
-    and the robot; by default 1 when the robot's role has won or the robot is safe, and -1 when its role has
-    lost or the robot is out. It may end
-    the episode by ``world.stop(why)``. laws: of others, by name or role, in place of their own:
-    functions or files. options: of the experiment, as in `mars2d.run`. render_mode: "human" shows a
-    window, "rgb_array" lets `render` return a picture. size: of both, pixels. record: whether to
-    keep a record, which `record` then returns.
+    and the robot; by default 1 when the robot's role has won and -1 when it has lost; a robot that
+    is out of a game before its end gets -1, and 1 if it is safe. It may end the episode by
+    ``world.stop(why)``. laws: of others, by name or role, in place of their own: functions or
+    files. options: of the experiment, as in `mars2d.run`. render_mode: "human" shows a window,
+    "rgb_array" lets `render` return a picture. size: of both, pixels. record: whether to keep a
+    record, which `record` then returns.
 
     An observation is what the robot's law may see, see `mars2d.scenario.observation.Observation`;
     an action is a command in shares of the drive's bounds, `Drive.bounds`, from -1 to 1. An episode
     is terminated when something ends the experiment, such as a capture, or puts the robot out of a
-    game that goes on, and truncated at its stop time. The seed of `reset` is that of all random streams, and of the starts where the experiment
-    draws them.
+    game that goes on. It is truncated at its stop time. The seed of `reset` is that of all random
+    streams, and of the starts where the experiment draws them.
 
     Raises InputError for anything else.
     """

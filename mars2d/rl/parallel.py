@@ -34,8 +34,8 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
 
     robots: who learns: names, indices, or roles, of which all robots learn; None: all. The agents'
     names are the robots'. One that is caught, shoved out or safe is terminated in that step and
-    leaves `agents`, while the others go on. The other arguments, spaces and
-    ends are those of `mars2d.rl.Environment`.
+    leaves `agents`, while the others go on. The other arguments, spaces and ends are those of
+    `mars2d.rl.Environment`.
     """
 
     metadata: dict[str, Any] = {"name": "mars2d", "render_modes": MODES, "is_parallelizable": True}
@@ -138,7 +138,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
             rewards,
             {agent: terminated for agent, (terminated, _) in ended.items()},
             {agent: truncated for agent, (_, truncated) in ended.items()},
-            {agent: episode.over for agent in agents},
+            {agent: dict(episode.over) for agent in agents},
         )
 
     def render(self) -> Any:

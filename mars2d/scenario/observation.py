@@ -114,7 +114,9 @@ class Observation:
         for read, name, size in self._readers:
             values = read(view, name, look)
             if len(values) != size:
-                raise InputError(f"{name} of {view.name} has {len(values)} numbers, expected {size}")
+                raise InputError(
+                    f"{name} of {view.name} has {len(values)} numbers, expected {size}"
+                )
             row += values
         return self._bounded(row)
 
@@ -223,8 +225,8 @@ class _Look:
         self.xs, self.ys, self.thetas = xs, ys, thetas = world.pose.tolist()
         self.x, self.y, heading = xs[me], ys[me], thetas[me]
         self.ahead = cosine_sine(heading)
-        turned = world.scenario.robots[me].drive.frame != "world"
-        self.turn, (self.c, self.s) = (heading, self.ahead) if turned else (0.0, (1.0, 0.0))
+        self.turn = 0.0 if world.scenario.robots[me].drive.frame == "world" else heading
+        self.c, self.s = self.ahead if self.turn else (1.0, 0.0)
 
     def place(self, x: float, y: float) -> tuple[float, float]:
         """Return a point in the frame of the commands, m."""
