@@ -1,6 +1,8 @@
 """Laws that were learned: loaded from ONNX files, checked, played in a tournament, refused."""
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import onnx
@@ -182,3 +184,16 @@ def test_numbers_that_are_none_are_refused(spaces, tmp_path):
     path = save(tmp_path / "hunter.onnx", {"mars2d": spaces}, action=(np.nan, 0.0))
     with pytest.raises(LawError, match=r"hunter\.onnx returned \(nan, 0\.0\)"):
         mars2d.run("corner_game", stop_time=1, options={"pursuer": str(path)})
+
+
+@pytest.mark.slow
+def test_the_training_script_writes_a_law_and_its_curve(tmp_path):
+    from mars2d.scenario.experiment import examples
+
+    pytest.importorskip("stable_baselines3")
+    script = examples()["corner_game"].parent / "learning" / "train.py"
+    law = tmp_path / "law.onnx"
+    command = [sys.executable, str(script), "mars2d/Push-v0", "--steps", "8192", "--out", str(law)]
+    subprocess.run(command, check=True, timeout=300)
+    assert callable(load_law(law))
+    assert law.with_suffix(".png").stat().st_size > 1000
