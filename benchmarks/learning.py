@@ -2,7 +2,8 @@
 
     python benchmarks/learning.py [--json OUT.json] [--rounds N]
 
-All are timed in turns, a hundred steps each, so that what other programs do befalls all. The game
+All are timed in turns, a hundred steps each, so that what other programs do befalls all; only the
+processor's time counts. The game
 is one pursuer and one evader; both are commanded, and in `Environment` the evader has a law.
 `World.step` keeps no record, as in an environment, and calls `observe` after each step, as whoever
 wants to know of a capture has to. mpe2 and VMAS, with one environment, are timed where they are
@@ -109,10 +110,10 @@ def measure(rounds: int) -> dict[str, Any]:
     times: dict[str, list[float]] = {name: [] for name in steps}
     for _ in range(rounds):
         for name, step in steps.items():
-            began = time.perf_counter()
+            began = time.process_time()
             for _ in range(TURN):
                 step()
-            times[name].append((time.perf_counter() - began) / TURN)
+            times[name].append((time.process_time() - began) / TURN)
     measured = {}
     for name, each in times.items():
         bare = times["World.step, a law" if name == "Environment" else "World.step"]

@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, nearest, shown
+from mars2d.core.errors import InputError, shown
 from mars2d.core.quantity import UNKNOWN
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import load_law, open_experiment
@@ -251,10 +251,3 @@ def _laws_of(
                     f"laws[{who!r}] = {shown(law)}: expected a function of the robot, or a file"
                 )
     return found
-
-
-def index_of(names: Sequence[str], name: object, field: str) -> int:
-    """Return the place of a name. Raises InputError, with the nearest one, if it is not there."""
-    if name not in names:
-        raise InputError(f"{field}: there is no learner {shown(name)}{nearest(str(name), names)}")
-    return names.index(str(name))

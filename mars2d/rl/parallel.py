@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.extras import extra
 from mars2d.record.record import Record
 from mars2d.rl.environment import SEEDS, observation_space
-from mars2d.rl.episode import Episode, Law, Reward, Source, index_of
+from mars2d.rl.episode import Episode, Law, Reward, Source
 from mars2d.rl.screen import MODES, Screen
 from mars2d.world.world import World
 
@@ -56,6 +56,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         self.render_mode = render_mode
         self._episode = episode = Episode(experiment, robots, laws, reward, options, record)
         self.possible_agents = [*episode.names]
+        self._places = {name: k for k, name in enumerate(episode.names)}
         self.agents: list[str] = []
         self.metadata = {
             **self.metadata, "render_fps": 1 / episode.scenario.sampling_time,
@@ -74,7 +75,10 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         return self.action_spaces[self.possible_agents[self._place(agent)]]
 
     def _place(self, agent: str) -> int:
-        return index_of(self.possible_agents, agent, "ParallelEnvironment")
+        if agent not in self._places:
+            hint = nearest(str(agent), self.possible_agents)
+            raise InputError(f"ParallelEnvironment: there is no learner {shown(agent)}{hint}")
+        return self._places[agent]
 
     @property
     def world(self) -> World:
@@ -121,7 +125,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         """
         episode, agents = self._episode, self.agents
         acting = {self._place(agent): action for agent, action in actions.items()}
-        here = {self._place(agent): agent for agent in agents}
+        here = {self._places[agent]: agent for agent in agents}
         for k in acting:
             if k not in here and not episode.world.over:
                 raise InputError(f"step(actions): {episode.names[k]} is out of the game already")
