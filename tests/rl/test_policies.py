@@ -92,6 +92,12 @@ def test_the_trained_pursuer_catches_and_forfeits_nothing_in_the_default_game(ca
     assert "red catches blue" in record.over_message
 
 
+def test_the_trained_wrestler_wins_bouts_of_the_example():
+    options = {"red": "learning/sumo.onnx"}
+    ends = [mars2d.run("sumo", seed=seed, options=options).over_message for seed in range(4)]
+    assert any("red wins" in end for end in ends)
+
+
 def test_a_folder_of_laws_in_a_tournament_has_policies_too(policy):
     from mars2d.study.tournament.schedule import law_files
 
