@@ -19,6 +19,10 @@ from onnx import TensorProto, helper, numpy_helper
 from stable_baselines3 import PPO
 from stable_baselines3.common.env_util import make_vec_env
 
+import mars2d.rl
+
+gymnasium.register_envs(mars2d.rl)  # the import registers them; this line does no more than say so
+
 
 def rescaled(environment):
     return RescaleObservation(environment, np.float32(-1), np.float32(1))

@@ -111,6 +111,14 @@ class Contest(Addon):
         """What decides, in a few sentences for people; by default the docstring of its class."""
         return inspect.cleandoc(type(self).__doc__ or "").partition("\n\n")[0].replace("\n", " ")
 
+    @property
+    def results(self) -> dict[int, float]:
+        """What the contest was worth to robots that are out of it by now, by index.
+
+        It is -1 for one that has been caught or shoved out, and 1 for one that is safe.
+        """
+        return {}
+
     def teams(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the first role's robots in a scenario, and of the second role's.
 

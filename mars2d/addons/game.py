@@ -146,6 +146,11 @@ class Game(Contest):
         return tuple(evader for evader in self._teams[1] if evader not in out)
 
     @property
+    def results(self) -> dict[int, float]:
+        """The results of robots that are out of the game: -1 if caught, 1 if safe."""
+        return dict.fromkeys(self.caught, -1.0) | dict.fromkeys(self.safe, 1.0)
+
+    @property
     def score(self) -> dict[str, int]:
         """The number of captures, and the number of evaders that are not caught, by role."""
         return self._outcome(self._teams, self._events, self._time_is_over).score

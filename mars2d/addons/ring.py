@@ -70,6 +70,11 @@ class Ring(Contest):
         return tuple(self._left)
 
     @property
+    def results(self) -> dict[int, float]:
+        """The results of robots that have left the ring: -1."""
+        return dict.fromkeys(self.out, -1.0)
+
+    @property
     def score(self) -> dict[str, int]:
         """The number of robots in the ring, by role."""
         return self._outcome(self._teams, self._left).score

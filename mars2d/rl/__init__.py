@@ -1,8 +1,9 @@
 """Environments for learners: gymnasium for one robot, PettingZoo for several.
 
+The name says which module gymnasium has to import first; importing it registers all environments.
+
 >>> import gymnasium
->>> import mars2d.rl  # which makes its environments known to gymnasium
->>> environment = gymnasium.make("mars2d/Pursuit-v0")
+>>> environment = gymnasium.make("mars2d.rl:mars2d/Pursuit-v0")
 """
 
 from mars2d.rl.environment import Environment

@@ -43,17 +43,18 @@ class Environment(gymnasium.Env[Row, Row]):
 
     experiment: a file, the name of an example, or a Scenario. robot: who learns: a name, an index,
     or a game's role, of which the first robot learns. reward: called after each step with the world
-    and the robot; by default 1 when the robot's role has won and -1 when it has lost. It may end
-    the episode by ``world.stop(why)``. laws: of others, by name or role, in place of their own:
-    functions or files. options: of the experiment, as in `mars2d.run`. render_mode: "human" shows a
-    window, "rgb_array" lets `render` return a picture. size: of both, pixels. record: whether to
-    keep a record, which `record` then returns.
+    and the robot; by default 1 when the robot's role has won and -1 when it has lost; a robot that
+    is out of a game before its end gets -1, and 1 if it is safe. It may end the episode by
+    ``world.stop(why)``. laws: of others, by name or role, in place of their own: functions or
+    files. options: of the experiment, as in `mars2d.run`. render_mode: "human" shows a window,
+    "rgb_array" lets `render` return a picture. size: of both, pixels. record: whether to keep a
+    record, which `record` then returns.
 
     An observation is what the robot's law may see, see `mars2d.scenario.observation.Observation`;
     an action is a command in shares of the drive's bounds, `Drive.bounds`, from -1 to 1. An episode
-    is terminated when something ends the experiment, such as a capture, and truncated at its stop
-    time. The seed of `reset` is that of all random streams, and of the starts where the experiment
-    draws them.
+    is terminated when something ends the experiment, such as a capture, or puts the robot out of a
+    game that goes on. It is truncated at its stop time. The seed of `reset` is that of all random
+    streams, and of the starts where the experiment draws them.
 
     Raises InputError for anything else.
     """
@@ -122,10 +123,8 @@ class Environment(gymnasium.Env[Row, Row]):
         episode = self._episode
         episode.step({self._learner: episode.command(0, action)})
         reward = episode.reward(0)
-        world = episode.world
-        info = {"over": world.over_message} if world.over else {}
-        self._screen.follow(self.world)
-        return episode.observed(0), reward, episode.terminated, episode.time_is_over, info
+        self._screen.follow(episode.world)
+        return episode.observed(0), reward, *episode.ended(0), episode.over
 
     def render(self) -> Any:
         """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from math import isfinite, nan
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NoReturn
@@ -11,7 +12,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, nearest, shown
+from mars2d.core.errors import InputError, shown
 from mars2d.core.quantity import UNKNOWN
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import load_law, open_experiment
@@ -54,9 +55,11 @@ class Episode:
         """
         self._source, self._options = source, dict(options or {})
         opened = open_experiment(source, self._options, seed=0)
-        scenario = opened.scenario
         self.experiment = str(source) if isinstance(source, (str, Path)) else ""
         self._draws = "seed" not in self._options and _takes_seed(opened.function)
+        if not self._draws:  # without a seed its `random_starts` are not drawn yet: each reset does
+            opened = open_experiment(source, self._options)
+        scenario = opened.scenario
         self.learners = (
             tuple(range(len(scenario.robots)))
             if learners is None
@@ -132,6 +135,9 @@ class Episode:
         every = len(commands) == len(world.robots)
         world.step(np.array([commands[i] for i in range(len(commands))]).T if every else commands)
         world.observe()
+        held = world.operator.held
+        if held and not world.over and all(robot in held for robot in self.learners):
+            world.stop(f"{', '.join(self.names)}: out of the game after {world.time:g} s")
         gone = self._room is not None and self._room.left(world.pose[:2])
         if not world.over and (gone or self.time_is_over):
             world.step({})  # the last row of the record, in which nothing moves any more
@@ -141,10 +147,16 @@ class Episode:
         """Whether the stop time is reached."""
         return self.world.iteration >= self.world.scenario.last_iteration
 
+    def ended(self, k: int) -> tuple[bool, bool]:
+        """Return whether learner k has come to an end before its time, and whether time is over."""
+        if not self.world.over:
+            return self.learners[k] in self.world.operator.held, False
+        return not self.time_is_over, self.time_is_over
+
     @property
-    def terminated(self) -> bool:
-        """Whether something has ended it before its time."""
-        return self.world.over and not self.time_is_over
+    def over(self) -> dict[str, Any]:
+        """Why it is over, as ``over``; empty before."""
+        return {"over": self.world.over_message} if self.world.over else {}
 
     def observed(self, k: int) -> NDArray[np.float32]:
         """Return what learner k sees."""
@@ -156,8 +168,8 @@ class Episode:
         try:
             worth = float(value)
         except (TypeError, ValueError):
-            worth = np.nan
-        if not np.isfinite(worth):
+            worth = nan
+        if not isfinite(worth):
             raise InputError(f"reward returned {shown(value)}: expected a finite number")
         return worth
 
@@ -188,14 +200,19 @@ class Episode:
 
 
 def won_or_lost(world: World, robot: RobotView) -> float:
-    """Return 1 when a robot's role has won, -1 when another has; 0 before, and for a draw."""
-    if not world.over:
+    """Return 1 when a robot's role has won, -1 when another has; 0 before, and for a draw.
+
+    A robot that is out of the contest before gets its own result.
+    """
+    if not (world.over or robot.index in world.operator.held):
         return 0.0
     mine = role_of(world.scenario, robot.index)
     for contest in contests_of(world.scenario):
-        winner = getattr(world.addons, contest.key).winner
-        if winner is not None and mine:
-            return 1.0 if winner == mine else -1.0
+        live = getattr(world.addons, contest.key)
+        if live.winner is not None and mine:
+            return 1.0 if live.winner == mine else -1.0
+        if robot.index in live.results:
+            return float(live.results[robot.index])
     return 0.0
 
 
@@ -234,10 +251,3 @@ def _laws_of(
                     f"laws[{who!r}] = {shown(law)}: expected a function of the robot, or a file"
                 )
     return found
-
-
-def index_of(names: Sequence[str], name: object, field: str) -> int:
-    """Return the place of a name. Raises InputError, with the nearest one, if it is not there."""
-    if name not in names:
-        raise InputError(f"{field}: there is no learner {shown(name)}{nearest(str(name), names)}")
-    return names.index(str(name))

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.extras import extra
 from mars2d.record.record import Record
 from mars2d.rl.environment import SEEDS, observation_space
-from mars2d.rl.episode import Episode, Law, Reward, Source, index_of
+from mars2d.rl.episode import Episode, Law, Reward, Source
 from mars2d.rl.screen import MODES, Screen
 from mars2d.world.world import World
 
@@ -33,8 +33,9 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
     ['red', 'blue']
 
     robots: who learns: names, indices, or roles, of which all robots learn; None: all. The agents'
-    names are the robots'. All go on until the experiment is over. The other arguments, spaces and
-    ends are those of `mars2d.rl.Environment`.
+    names are the robots'. One that is caught, shoved out or safe is terminated in that step and
+    leaves `agents`, while the others go on. The other arguments, spaces and ends are those of
+    `mars2d.rl.Environment`.
     """
 
     metadata: dict[str, Any] = {"name": "mars2d", "render_modes": MODES, "is_parallelizable": True}
@@ -55,6 +56,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         self.render_mode = render_mode
         self._episode = episode = Episode(experiment, robots, laws, reward, options, record)
         self.possible_agents = [*episode.names]
+        self._places = {name: k for k, name in enumerate(episode.names)}
         self.agents: list[str] = []
         self.metadata = {
             **self.metadata, "render_fps": 1 / episode.scenario.sampling_time,
@@ -73,7 +75,10 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         return self.action_spaces[self.possible_agents[self._place(agent)]]
 
     def _place(self, agent: str) -> int:
-        return index_of(self.possible_agents, agent, "ParallelEnvironment")
+        if agent not in self._places:
+            hint = nearest(str(agent), self.possible_agents)
+            raise InputError(f"ParallelEnvironment: there is no learner {shown(agent)}{hint}")
+        return self._places[agent]
 
     @property
     def world(self) -> World:
@@ -100,7 +105,8 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         self._episode.start(int(self._random.integers(SEEDS)) if seed is None else seed)
         self.agents = [*self.possible_agents]
         self._screen.follow(self.world)
-        return self._observed(), {agent: {} for agent in self.agents}
+        seen = {name: self._episode.observed(k) for k, name in enumerate(self.agents)}
+        return seen, {agent: {} for agent in self.agents}
 
     def step(
         self, actions: Mapping[str, Any]
@@ -117,36 +123,27 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         InputError for an action that is missing, of another shape or not finite, and for an agent
         that is not there.
         """
-        episode, agents = self._episode, self.possible_agents
-        for agent in actions:
-            self._place(agent)
-        missing = [agent for agent in self.agents if agent not in actions]
+        episode, agents = self._episode, self.agents
+        acting = {self._place(agent): action for agent, action in actions.items()}
+        here = {self._places[agent]: agent for agent in agents}
+        for k in acting:
+            if k not in here and not episode.world.over:
+                raise InputError(f"step(actions): {episode.names[k]} is out of the game already")
+        missing = [agent for k, agent in here.items() if k not in acting]
         if missing:
             raise InputError(f"step(actions): there is no action of {missing[0]}")
-        episode.step(
-            {
-                episode.learners[k]: episode.command(k, actions[agent])
-                for k, agent in enumerate(agents)
-                if agent in actions
-            }
-        )
-        rewards = {agent: episode.reward(k) for k, agent in enumerate(agents)}
-        world = episode.world
-        info = {"over": world.over_message} if world.over else {}
-        self._screen.follow(self.world)
-        results = (
-            self._observed(),
+        episode.step({episode.learners[k]: episode.command(k, a) for k, a in acting.items()})
+        rewards = {agent: episode.reward(k) for k, agent in here.items()}
+        self._screen.follow(episode.world)
+        ended = {agent: episode.ended(k) for k, agent in here.items()}
+        self.agents = [agent for agent in agents if not any(ended[agent])]
+        return (
+            {agent: episode.observed(k) for k, agent in here.items()},
             rewards,
-            dict.fromkeys(agents, episode.terminated),
-            dict.fromkeys(agents, episode.time_is_over),
-            {agent: dict(info) for agent in agents},
+            {agent: terminated for agent, (terminated, _) in ended.items()},
+            {agent: truncated for agent, (_, truncated) in ended.items()},
+            {agent: dict(episode.over) for agent in agents},
         )
-        if world.over:
-            self.agents = []
-        return results
-
-    def _observed(self) -> dict[str, Row]:
-        return {name: self._episode.observed(k) for k, name in enumerate(self.possible_agents)}
 
     def render(self) -> Any:
         """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""

@@ -8,17 +8,21 @@ from __future__ import annotations
 from math import hypot
 from typing import Any
 
-import numpy as np
-
 from mars2d.addons import Voronoi
 from mars2d.bodies import Box, Holonomic
+from mars2d.core.plane import Outline
 from mars2d.rl.environment import Environment
+from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.views import RobotView
 from mars2d.world.world import World
 
 __all__ = ["coverage", "pursuit", "push", "sumo"]
+
+
+def _rectangle(left: float, right: float, low: float, high: float) -> Outline:
+    return ((left, low), (right, low), (right, high), (left, high))
 
 
 def _gain(robot: RobotView, now: float) -> float:
@@ -40,7 +44,9 @@ def pursuit(**given: Any) -> Environment:
     Observation (6,), action (vx, vy), 60 s. Reward: the metres that it comes nearer, 10 for the
     capture.
     """
-    options = {"stop_time": 60.0, "mu": 1.2, **given.pop("options", {})}
+    apart = RandomStarts(area=_rectangle(-4, 4, -4, 4), least_distance=4, heading=0)
+    drawn = {"seed": 0, "random_starts": [apart]}  # quicker than by the example's function
+    options = {"stop_time": 60.0, "mu": 1.2, **drawn, **given.pop("options", {})}
     return Environment("corner_game", "pursuer", **{"reward": _nearer, "options": options, **given})
 
 
@@ -61,16 +67,21 @@ def _to_the_goal(world: World, robot: RobotView) -> float:
 
 
 def push(**given: Any) -> Environment:
-    """Return an environment in which a robot pushes a box 1.5 m to the right, within 30 s.
+    """Return an environment in which a robot pushes a box to a goal on its right, within 30 s.
 
-    Observation (8,), action (vx, vy). Reward: the metres that the box comes nearer to its goal, a
-    tenth of those that the robot comes nearer to the box, 10 at the goal.
+    Both start at random places, the robot on the left. Observation (8,), action (vx, vy). Reward:
+    the metres that the box comes nearer to its goal, a tenth of those that the robot comes nearer
+    to the box, 10 at the goal.
     """
     scenario = Scenario(
         title="Push",
-        robots=[Robot(pose=(-1.5, 0.4, 0), diameter=0.3, drive=Holonomic())],
-        props=[Box(length=0.4, width=0.4, mass=0.5)],
-        workspace=[(-2, -2), (2, -2), (2, 2), (-2, 2)],
+        robots=[Robot(name="pusher", diameter=0.3, drive=Holonomic())],
+        props=[Box(name="box", length=0.4, width=0.4, mass=0.5)],
+        random_starts=[
+            RandomStarts(["pusher"], area=_rectangle(-1.8, -1, -1, 1), heading=0),
+            RandomStarts(["box"], area=_rectangle(-0.5, 0.5, -0.5, 0.5), heading=0),
+        ],
+        workspace=_rectangle(-2, 2, -2, 2),
         on_exit="wall",
         stop_time=30.0,
     )
@@ -78,26 +89,25 @@ def push(**given: Any) -> Environment:
 
 
 def _shoving(world: World, robot: RobotView) -> float:
-    """Return the metres that the other was shoved outwards; 10 for a win, -10 for a defeat."""
-    ring = world.addons.ring
-    x, y = world.pose[:2, 1].tolist()
-    result = {"red": 10.0, "blue": -10.0}.get(ring.winner or "", 0.0)
-    return _gain(robot, -hypot(x, y)) + result
+    """Return the metres that blue went outwards, half of those that red came nearer to it.
+
+    It is 10 more if red has won, and 2 less if blue has.
+    """
+    (x, u), (y, v) = world.pose[:2].tolist()
+    result = {"red": 10.0, "blue": -2.0}.get(world.addons.ring.winner or "", 0.0)
+    return _gain(robot, 0.5 * hypot(u - x, v - y) - hypot(u, v)) + result
 
 
 def sumo(**given: Any) -> Environment:
     """Return the example `sumo`, in which red learns against the law `dodger`, for 20 s.
 
-    Observation (8,), action (v, omega). Reward: the metres that blue is shoved outwards, 10 for a
-    win and -10 for a defeat.
+    Both start at random places, and decide every 0.1 s. Observation (8,), action (v, omega).
+    Reward: the metres that blue goes outwards, half of those that red comes nearer to it, 10 for a
+    win and -2 for a defeat.
     """
-    return Environment("sumo", "red", **{"reward": _shoving, **given})
-
-
-def _centroid(robot: RobotView) -> tuple[float, float]:
-    """Lloyd's law: go to the centroid of the robot's Voronoi cell."""
-    x, y = robot.world.addons.voronoi.centroids[:, robot.index] - robot.position
-    return x, y
+    inside = RandomStarts(area=_rectangle(-0.9, 0.9, -0.9, 0.9), least_distance=0.8)
+    options = {"sampling_time": 0.1, "random_starts": [inside], **given.pop("options", {})}
+    return Environment("sumo", "red", **{"reward": _shoving, "options": options, **given})
 
 
 def _covering(world: World, robot: RobotView) -> float:
@@ -106,20 +116,20 @@ def _covering(world: World, robot: RobotView) -> float:
 
 
 def coverage(**given: Any) -> Environment:
-    """Return an environment in which one of five robots learns to cover a square, for 40 s.
+    """Return an environment in which a robot joins four that stand in a square, for 20 s.
 
-    The others go to the centroids of their Voronoi cells. Observation (20,), action (vx, vy).
-    Reward: by how much the cost H of coverage falls, m^4.
+    All starts are random. Observation (12,), action (vx, vy). Reward: by how much the cost H of
+    coverage falls, m^4.
     """
-    robot = Robot(diameter=0.15, drive=Holonomic(), controller=_centroid)
-    x, y = np.array([[0.4, 0.8, 1.2, 0.4, 0.8], [0.4, 0.5, 0.4, 0.8, 0.9]])
+    robot = Robot(diameter=0.15, drive=Holonomic(), sees="positions")
     scenario = Scenario(
         title="Coverage",
-        robots=[*map(robot.at, x, y)],
-        workspace=[(0, 0), (4, 0), (4, 4), (0, 4)],
+        robots=[robot] * 5,
+        random_starts=[RandomStarts(least_distance=0.5, heading=0)],
+        workspace=_rectangle(0, 4, 0, 4),
         on_exit="wall",
         sampling_time=0.2,
-        stop_time=40.0,
+        stop_time=20.0,
         addons=[Voronoi()],
     )
-    return Environment(scenario, 4, **{"reward": _covering, **given})
+    return Environment(scenario, 0, **{"reward": _covering, **given})

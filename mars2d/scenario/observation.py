@@ -56,11 +56,9 @@ class Observation:
         self.low: Float = np.array([x for part in parts for x in part.low])
         self.high: Float = np.array([x for part in parts for x in part.high])
         self._readers = [
-            (_read_sensor, name[len(SENSED):]) if name.startswith(SENSED)
-            else (READERS[name], len(low))
+            (_read_sensor if name.startswith(SENSED) else READERS[name], name, len(low))
             for name, low, _ in parts
-        ]  # fmt: skip
-        self._sizes = [len(low) for _, low, _ in parts]
+        ]
         self._posed = any(not part.name.startswith(SENSED) for part in parts)
         self._least, self._most = self.low.astype(np.float32), self.high.astype(np.float32)
         self._missing: Float = np.where(np.isfinite(self.high), self.high, 0.0)
@@ -113,11 +111,11 @@ class Observation:
         """
         look = _Look(view) if self._posed else None
         row: list[float] = []
-        for (read, key), size, part in zip(self._readers, self._sizes, self.parts, strict=True):
-            values = read(view, key, look)
+        for read, name, size in self._readers:
+            values = read(view, name, look)
             if len(values) != size:
                 raise InputError(
-                    f"{part.name} of {view.name} has {len(values)} numbers, expected {size}"
+                    f"{name} of {view.name} has {len(values)} numbers, expected {size}"
                 )
             row += values
         return self._bounded(row)
@@ -136,11 +134,11 @@ class Observation:
         self(view)
 
     def _bounded(self, row: list[float]) -> Row:
-        values = np.array(row)
         if not isfinite(sum(row)):
+            values = np.array(row)
             values = np.where(np.isnan(values), 0.0, values)
-            values = np.where(np.isposinf(values), self._missing, values)
-        bounded = values.astype(np.float32)
+            row = np.where(np.isposinf(values), self._missing, values).tolist()
+        bounded = np.array(row, np.float32)
         np.maximum(bounded, self._least, out=bounded)
         return np.minimum(bounded, self._most, out=bounded)
 
@@ -223,12 +221,12 @@ class _Look:
     """What the parts of one observation share: all poses, and the axes of the robot's commands."""
 
     def __init__(self, view: Any) -> None:
-        self.world, self.me = view._world, view._index
-        self.xs, self.ys, self.thetas = self.world.pose.tolist()
-        self.x, self.y = self.xs[self.me], self.ys[self.me]
-        self.heading = self.thetas[self.me]
-        self.turn = 0.0 if view.drive.frame == "world" else self.heading
-        self.c, self.s = cosine_sine(self.turn)
+        self.world, self.me = world, me = view._world, view._index
+        self.xs, self.ys, self.thetas = xs, ys, thetas = world.pose.tolist()
+        self.x, self.y, heading = xs[me], ys[me], thetas[me]
+        self.ahead = cosine_sine(heading)
+        self.turn = 0.0 if world.scenario.robots[me].drive.frame == "world" else heading
+        self.c, self.s = self.ahead if self.turn else (1.0, 0.0)
 
     def place(self, x: float, y: float) -> tuple[float, float]:
         """Return a point in the frame of the commands, m."""
@@ -240,7 +238,8 @@ class _Look:
         return [0.0] * (each * (len(self.xs) - 1))
 
 
-def _read_sensor(view: Any, key: Any, look: Any) -> list[float]:  # noqa: ARG001
+def _read_sensor(view: Any, name: str, look: Any) -> list[float]:  # noqa: ARG001
+    key = name[len(SENSED) :]
     reading = getattr(view.sense, key)
     if isinstance(reading, np.ndarray):
         return reading.ravel().tolist()
@@ -249,19 +248,19 @@ def _read_sensor(view: Any, key: Any, look: Any) -> list[float]:  # noqa: ARG001
     return _numbers_of(reading, f"{view.name}: sensor {key!r}").tolist()  # type: ignore[no-any-return]
 
 
-def _read_pose(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
-    return [look.x, look.y, *cosine_sine(look.heading)]
+def _read_pose(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
+    return [look.x, look.y, *look.ahead]
 
 
-def _read_positions(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+def _read_positions(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
     row, me = look.others(2), look.me
     for j in look.world.neighbour_indices(me):
         at = 2 * (j - (j > me))
-        row[at : at + 2] = look.place(look.xs[j], look.ys[j])
+        row[at], row[at + 1] = look.place(look.xs[j], look.ys[j])
     return row
 
 
-def _read_poses(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+def _read_poses(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
     row, me = look.others(4), look.me
     for j in look.world.neighbour_indices(me):
         at, turned = 4 * (j - (j > me)), look.thetas[j] - look.turn
@@ -269,14 +268,14 @@ def _read_poses(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG0
     return row
 
 
-def _read_props(view: Any, size: Any, look: _Look) -> list[float]:  # noqa: ARG001
+def _read_props(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
     row: list[float] = []
     for x, y, theta in look.world.prop_pose.T.tolist():
         row += *look.place(x, y), *cosine_sine(theta - look.turn)
     return row
 
 
-READERS: Mapping[str, Callable[[Any, Any, Any], list[float]]] = {
+READERS: Mapping[str, Callable[[Any, str, Any], list[float]]] = {
     "pose": _read_pose,
     "positions": _read_positions,
     "poses": _read_poses,

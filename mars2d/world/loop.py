@@ -19,7 +19,7 @@ from mars2d.world.world import Watcher, World
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
-__all__ = ["Interrupted", "open_world", "simulate", "watch_by"]
+__all__ = ["Interrupted", "RealTime", "open_world", "simulate", "watch_by"]
 
 
 class Interrupted(KeyboardInterrupt):
@@ -30,7 +30,7 @@ class Interrupted(KeyboardInterrupt):
         self.record = record
 
 
-class _RealTime:
+class RealTime:
     """Waits until the wall clock has gone on by the simulated time / factor."""
 
     def __init__(self, factor: float) -> None:
@@ -65,7 +65,7 @@ def simulate(
     """
     every: list[Watcher] = [*watchers]
     if speed != "max":
-        every.append(_RealTime(float(speed)))
+        every.append(RealTime(float(speed)))
     world: World | None = None
     watchdog = Watchdog(lambda: None if world is None else world.simulation.calls)
     try:

@@ -1,6 +1,10 @@
 """Environments of gymnasium and PettingZoo: spaces, rewards, ends, seeds, records, errors."""
 
+import os
+import subprocess
+import sys
 import warnings
+from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -9,7 +13,7 @@ from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 import mars2d.rl
-from mars2d import Holonomic, InputError, Robot, Scenario
+from mars2d import Holonomic, InputError, RandomStarts, Robot, Scenario
 from mars2d.addons import Game
 from mars2d.rl import Environment, ParallelEnvironment
 from mars2d.rl.registration import IDS
@@ -17,6 +21,8 @@ from mars2d.scenario.observation import Observation
 from mars2d.sensors import Bumper, Imu, LineCamera, RangeBearing, RangeFinder
 from mars2d.world.verify import rerun
 from mars2d.world.world import World
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def chase(apart=3.0, stop_time=5.0, **fields):
@@ -27,6 +33,17 @@ def chase(apart=3.0, stop_time=5.0, **fields):
         stop_time=stop_time,
         addons=[Game({"pursuer": ["red"], "evader": ["blue"]})],
         **fields,
+    )
+
+
+def herd(apart=1.0):
+    """A pursuer, and two evaders that are caught in turn if it goes straight on."""
+    robot = Robot(drive=Holonomic(), sees="positions")
+    names = {"red": 0, "blue": apart, "green": 2 * apart}
+    return Scenario(
+        robots=[robot.at(x, 0.6 * (x > 0)).replace(name=name) for name, x in names.items()],
+        stop_time=20,
+        addons=[Game({"pursuer": ["red"], "evader": ["blue", "green"]}, capture=0.7)],
     )
 
 
@@ -52,12 +69,87 @@ def test_what_is_registered_passes_the_check_of_gymnasium_without_a_warning(name
     environment.close()
 
 
-def test_a_name_with_the_module_needs_no_import_and_vectors_work():
-    vector = gymnasium.make_vec("mars2d.rl:mars2d/Push-v0", num_envs=2, vectorization_mode="sync")
+IN_PROCESSES = """
+import gymnasium
+
+if __name__ == "__main__":
+    assert not [name for name in gymnasium.registry if name.startswith("mars2d")]
+    alone = gymnasium.make("mars2d.rl:mars2d/Push-v0")
+    assert alone.reset(seed=1)[0].shape == (8,)
+    vector = gymnasium.make_vec(
+        "mars2d.rl:mars2d/Push-v0", num_envs=2, vectorization_mode="async",
+        vector_kwargs={"context": "spawn"},
+    )
     seen, _ = vector.reset(seed=1)
-    assert seen.shape == (2, 8)
+    assert seen.shape == (2, 8) and (seen[0] == alone.reset(seed=1)[0]).all()
+    assert (seen[0] != seen[1]).any()
     assert vector.step(vector.action_space.sample())[1].shape == (2,)
     vector.close()
+"""
+
+
+def test_one_line_makes_an_environment_also_in_processes_without_another_import(tmp_path):
+    (tmp_path / "vector.py").write_text(IN_PROCESSES)
+    command = [sys.executable, "-W", "error", "-P", str(tmp_path / "vector.py")]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    subprocess.run(command, check=True, timeout=100, env=environment)
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_what_is_registered_starts_at_random_and_again_from_the_same_seed(name):
+    environment = gymnasium.make(name)
+    first, other, again = (environment.reset(seed=seed)[0] for seed in (1, 2, 1))
+    assert np.array_equal(first, again)
+    assert not np.array_equal(first, other)
+    assert environment.unwrapped.world.scenario.random_starts == ()  # these are drawn
+
+
+def test_random_starts_of_an_experiment_are_drawn_at_each_reset():
+    starts = [RandomStarts(least_distance=1)]
+    environment = Environment(chase(random_starts=starts), "pursuer")
+    seen = [environment.reset(seed=seed)[0] for seed in (1, 2)]
+    assert not np.array_equal(*seen)
+    run = mars2d.run(chase(random_starts=starts), 0, seed=2)
+    assert seen[1][:2] == pytest.approx(run.pose[0, :2, 0])
+
+
+def test_who_is_out_of_a_game_ends_alone_while_the_others_go_on():
+    environment = ParallelEnvironment(herd(), record=True)
+    environment.reset(seed=1)
+    chasing = {"red": [1, 0], "blue": [0, 0], "green": [0, 0]}
+    while len(environment.agents) == 3:
+        seen, rewards, terminated, truncated, infos = environment.step(
+            {agent: chasing[agent] for agent in environment.agents}
+        )
+    assert environment.agents == ["red", "green"]
+    assert terminated == {"red": False, "blue": True, "green": False}
+    assert rewards == {"red": 0, "blue": -1, "green": 0}
+    assert truncated == dict.fromkeys(chasing, False)
+    assert not any(infos.values())
+    with pytest.raises(InputError, match="blue is out of the game already"):
+        environment.step(chasing)
+    while environment.agents:
+        seen, rewards, terminated, *_ = environment.step({"red": [1, 0], "green": [0, 0]})
+    assert set(seen) == set(rewards) == set(terminated) == {"red", "green"}
+    assert rewards == {"red": 1, "green": -1}
+    assert terminated == {"red": True, "green": True}
+    assert rerun(environment.record) is None
+
+
+def test_the_episode_ends_with_the_last_learner_that_is_out():
+    environment = Environment(herd(), "blue", laws={"red": lambda robot: (0.5, 0)}, record=True)
+    *_, last = steps(environment, [0, 0])
+    assert last[1:4] == (-1.0, True, False)
+    assert last[4]["over"].startswith("blue: out of the game after")
+    assert environment.record.finished
+    assert rerun(environment.record) is None
+
+
+def test_games_with_captures_pass_the_tests_of_pettingzoo_without_a_warning():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        parallel_api_test(ParallelEnvironment(herd(apart=0.7)), num_cycles=300)
+        parallel_seed_test(lambda: ParallelEnvironment(herd(apart=0.7)), num_cycles=50)
 
 
 def test_the_parallel_environment_passes_the_tests_of_pettingzoo_without_a_warning():

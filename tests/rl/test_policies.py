@@ -1,6 +1,8 @@
 """Laws that were learned: loaded from ONNX files, checked, played in a tournament, refused."""
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import onnx
@@ -88,6 +90,12 @@ def test_the_trained_pursuer_catches_and_forfeits_nothing_in_the_default_game(ca
     options = {"pursuer": str(file), "mu": 1.2}
     record = mars2d.run("corner_game", stop_time=60, seed=1, options=options)
     assert "red catches blue" in record.over_message
+
+
+def test_the_trained_wrestler_wins_bouts_of_the_example():
+    options = {"red": "learning/sumo.onnx"}
+    ends = [mars2d.run("sumo", seed=seed, options=options).over_message for seed in range(4)]
+    assert any("red wins" in end for end in ends)
 
 
 def test_a_folder_of_laws_in_a_tournament_has_policies_too(policy):
@@ -182,3 +190,16 @@ def test_numbers_that_are_none_are_refused(spaces, tmp_path):
     path = save(tmp_path / "hunter.onnx", {"mars2d": spaces}, action=(np.nan, 0.0))
     with pytest.raises(LawError, match=r"hunter\.onnx returned \(nan, 0\.0\)"):
         mars2d.run("corner_game", stop_time=1, options={"pursuer": str(path)})
+
+
+@pytest.mark.slow
+def test_the_training_script_writes_a_law_and_its_curve(tmp_path):
+    from mars2d.scenario.experiment import examples
+
+    pytest.importorskip("stable_baselines3")
+    script = examples()["corner_game"].parent / "learning" / "train.py"
+    law = tmp_path / "law.onnx"
+    command = [sys.executable, str(script), "mars2d/Push-v0", "--steps", "8192", "--out", str(law)]
+    subprocess.run(command, check=True, timeout=300)
+    assert callable(load_law(law))
+    assert law.with_suffix(".png").stat().st_size > 1000

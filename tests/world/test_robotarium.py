@@ -12,6 +12,7 @@ from mars2d import InputError
 from mars2d.cli import command_line as cli
 from mars2d.world.robotarium import barriers, controllers, graphs, mappings, placement
 from mars2d.world.robotarium.arena import Robotarium
+from mars2d.world.robotarium.script import run_script
 
 SWAP = """
 import rps.robotarium as robotarium
@@ -131,6 +132,39 @@ def test_robots_that_would_meet_stay_apart_by_barriers():
         right = max(right, float(x[0, 2]))
     assert 0.17 < least < 0.3
     assert right < 1.6
+
+
+def test_where_nothing_is_safe_the_script_is_told_once_who_is_too_near():
+    x, there = np.array([[0.3, 0.3, -0.5], [0.2, 0.2, 0.0]]), np.full((2, 3), 0.1)
+    safe = barriers.create_single_integrator_barrier_certificate()
+    said = r"no velocities are safe.* robots 0 and 1 are 0 m apart, less than 0.17 m"
+    with pytest.warns(UserWarning, match=said) as caught:
+        found = [safe(there, x) for _ in range(2)]
+    assert np.array_equal(found, [there, there])
+    assert len(caught) == 1
+    assert caught[0].filename == __file__
+    poses = np.vstack([x, np.zeros(3)])
+    unicycles = barriers.create_unicycle_barrier_certificate()
+    with pytest.warns(UserWarning, match="0 and 1 are 0 m apart, less than 0.22 m") as caught:
+        unicycles(there, poses)
+    assert caught[0].filename == __file__
+
+
+def test_the_backend_of_pyplot_is_the_same_after_a_script(tmp_path):
+    import matplotlib as mpl
+
+    path = tmp_path / "draws.py"
+    path.write_text(
+        "from rps.robotarium import Robotarium\nfrom rps.utilities.misc import *\n"
+        "import matplotlib\nassert matplotlib.get_backend().lower() == 'agg'\nRobotarium(2)\n"
+    )
+    before = mpl.get_backend()
+    mpl.use("svg")
+    try:
+        run_script(path)
+        assert mpl.get_backend() == "svg"
+    finally:
+        mpl.use(before)
 
 
 def test_controllers_arrive():

@@ -1,6 +1,9 @@
 """Messages to ROS have the fields and types of its definitions, as another library reads them."""
 
 import dataclasses
+import sys
+import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +12,7 @@ from mars2d import Car, InputError, Robot, Scenario, World
 from mars2d.cli import command_line as cli
 from mars2d.sensors import RangeFinder
 from mars2d.world.ros import messages
-from mars2d.world.ros.bridge import check_drives
+from mars2d.world.ros.bridge import Bridge, check_drives
 
 rosbags = pytest.importorskip("rosbags.typesys")
 
@@ -103,6 +106,63 @@ def test_without_ros_one_line_says_what_to_install(capsys):
         assert "needs ROS 2 with its Python library rclpy" in said
         assert "source /opt/ros/" in said
     assert cli.main(["ros", "random_walk", "--speed", "0"]) == cli.BAD_INPUT
+
+
+class Message:
+    """A message of any kind: a field that is read first is a message, too."""
+
+    def __init__(self, **fields):
+        vars(self).update(fields)
+
+    def __getattr__(self, name):
+        return vars(self).setdefault(name, Message())
+
+
+class Node:
+    """Stands for a node of rclpy: keeps what is published, and how commands are taken."""
+
+    def __init__(self):
+        self.published, self.takers = {}, {}
+
+    def create_publisher(self, kind, topic, depth):
+        return SimpleNamespace(publish=self.published.setdefault(topic, []).append)
+
+    def create_subscription(self, kind, topic, taker, depth):
+        self.takers[topic] = taker
+
+    def destroy_node(self):
+        self.published["/gone"] = []
+
+
+@pytest.fixture
+def node(monkeypatch):
+    """The node of a stand-in for rclpy, which can't be installed from a package index."""
+    node = Node()
+    command = Message(twist=Message(linear=Message(x=0.2), angular=Message(z=0.0)))
+    rclpy = SimpleNamespace(
+        init=lambda: None, create_node=lambda name: node, ok=lambda: True,
+        spin_once=lambda node, timeout_sec: node.takers["/red/cmd_vel"](command),
+        try_shutdown=lambda: None,
+    )  # fmt: skip
+    monkeypatch.setitem(sys.modules, "rclpy", rclpy)
+    kinds = "Clock", "TFMessage", "TransformStamped", "TwistStamped", "Odometry", "LaserScan"
+    every = SimpleNamespace(**dict.fromkeys(kinds, Message))
+    for package in ("rosgraph_msgs", "tf2_msgs", "geometry_msgs", "nav_msgs", "sensor_msgs"):
+        monkeypatch.setitem(sys.modules, f"{package}.msg", every)
+    return node
+
+
+def test_a_bridge_publishes_at_the_pace_of_its_speed_and_follows_commands(node):
+    world = World(Scenario(robots=[Robot(name="red", pose=(0, 0, 0))], stop_time=2.0))
+    began = time.monotonic()
+    Bridge(world, speed=5.0).run()
+    assert 0.39 < time.monotonic() - began < 2.0
+    assert world.finished
+    clocks = [m.clock.sec + 1e-9 * m.clock.nanosec for m in node.published["/clock"]]
+    assert clocks == pytest.approx(np.arange(len(clocks)) * 0.1)
+    assert len(node.published["/red/odom"]) == len(node.published["/tf"]) == len(clocks) == 21
+    assert world.pose[0, 0] == pytest.approx(0.4, abs=0.03)
+    assert "/gone" in node.published
 
 
 def test_a_drive_that_takes_no_twist_is_named():

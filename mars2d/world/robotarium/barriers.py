@@ -7,11 +7,13 @@ certificates for collisions-free multirobot systems, IEEE Transactions on Roboti
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mars2d.core.arithmetic import norm
 from mars2d.world.robotarium.arena import HEIGHT, WIDTH
 from mars2d.world.robotarium.mappings import (
     create_si_to_uni_mapping,
@@ -35,11 +37,11 @@ BOUNDARY = (-WIDTH / 2, WIDTH / 2, -HEIGHT / 2, HEIGHT / 2)
 """The arena: xmin, xmax, ymin, ymax, metres."""
 
 
-def nearest_within(wanted: Float, rows: Float, limits: Float) -> Float:
-    """Return the point (k,) nearest to `wanted` with rows @ point <= limits.
+def nearest_within(wanted: Float, rows: Float, limits: Float) -> Float | None:
+    """Return the point (k,) nearest to `wanted` with rows @ point <= limits; None if there is none.
 
     It is a least-distance problem, solved by non-negative least squares (Lawson and Hanson,
-    Solving Least Squares Problems, 1974, chapter 23). Where no point fulfils all, `wanted` stays.
+    Solving Least Squares Problems, 1974, chapter 23).
     """
     from scipy.optimize import nnls
 
@@ -51,7 +53,7 @@ def nearest_within(wanted: Float, rows: Float, limits: Float) -> Float:
     target[-1] = 1.0
     weights, _ = nnls(tall, target)
     rest = tall @ weights - target
-    return wanted if abs(rest[-1]) < 1e-12 else wanted - rest[:-1] / rest[-1]
+    return None if abs(rest[-1]) < 1e-12 else wanted - rest[:-1] / rest[-1]
 
 
 def create_single_integrator_barrier_certificate(
@@ -135,7 +137,7 @@ def _of_unicycles(
     commands, points = create_si_to_uni_mapping(ahead)
 
     def certified(dxu: Float, poses: Float) -> Float:
-        return commands(safe(velocities(dxu, poses), points(poses)), poses)
+        return commands(safe(velocities(dxu, poses), points(poses), 3), poses)
 
     return certified
 
@@ -146,15 +148,22 @@ def _certificate(
     limit: float,
     edges: ArrayLike | None,
     unsafe: float | None = None,
-) -> Certificate:
-    """Return a certificate. unsafe: the gain of pairs with h < 0, by default the same."""
+) -> Callable[..., Float]:
+    """Return a certificate. unsafe: the gain of pairs with h < 0, by default the same.
 
-    def certified(dxi: Float, x: Float) -> Float:
+    Where no velocities are safe it returns the wanted ones, and warns the first time; its third
+    argument is how many calls above it the script is.
+    """
+    warned = False
+
+    def certified(dxi: Float, x: Float, depth: int = 2) -> Float:
+        nonlocal warned
         wanted = slowed(np.array(dxi, dtype=float), limit)
         points = np.asarray(x, dtype=float)[:2]
         count = points.shape[1]
         rows: list[Float] = []
         limits: list[float] = []
+        about: list[tuple[str, float, float]] = []  # whom a row is about, the gap, the least one
         for i in range(count):
             for j in range(i + 1, count):
                 apart = points[:, i] - points[:, j]
@@ -163,6 +172,7 @@ def _certificate(
                 rows.append(row.ravel())
                 h = apart @ apart - radius**2
                 limits.append((gain if h >= 0 or unsafe is None else unsafe) * h**3)
+                about.append((f"robots {i} and {j} are", norm(*apart), radius))
         for i in range(count) if edges is not None else ():
             xmin, xmax, ymin, ymax = np.asarray(edges, dtype=float)
             x_i, y_i = points[:, i]
@@ -172,9 +182,20 @@ def _certificate(
                 row[axis, i] = sign
                 rows.append(row.ravel())
                 limits.append(gain * (gap - radius / 2) ** 3)
+                about.append((f"robot {i} and the edge are", gap, radius / 2))
         if not rows:
             return wanted
         safe = nearest_within(wanted.ravel(), np.array(rows), np.array(limits))
-        return np.asarray(safe.reshape(2, count))
+        if safe is not None:
+            return np.asarray(safe.reshape(2, count))
+        if not warned:
+            warned = True
+            who, gap, least = about[int(np.argmin(limits))]
+            warnings.warn(
+                f"barrier certificate: no velocities are safe, so the wanted ones are used; {who} "
+                f"{gap:.3g} m apart, less than {least:.3g} m (this is said once)",
+                stacklevel=depth,
+            )
+        return wanted
 
     return certified

@@ -77,10 +77,12 @@ def _importable(arenas: list[Robotarium]) -> Iterator[None]:
     """Let scripts import `rps`; the arenas that they make are added to a list.
 
     With the utilities come numpy as `np`, and pyplot as `plt`, which draws where nobody sees it:
-    scripts that import all names of `rps.utilities` rely on that.
+    scripts that import all names of `rps.utilities` rely on that. The backend that pyplot had
+    before, if one was chosen, it has again afterwards.
     """
     import matplotlib as mpl
 
+    backend = mpl.get_backend(auto_select=False)
     mpl.use("Agg")
     from matplotlib import pyplot as plt
 
@@ -111,3 +113,5 @@ def _importable(arenas: list[Robotarium]) -> Iterator[None]:
             sys.modules.pop(name)
             if held is not None:
                 sys.modules[name] = held
+        if backend is not None:
+            mpl.use(backend)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from importlib import import_module
 from typing import Any
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from mars2d.core.errors import InputError
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.loop import RealTime
 from mars2d.world.ros.messages import WORLD, clock, fill, odometry, scan, transform
 from mars2d.world.world import World
 
@@ -90,16 +90,16 @@ class Bridge:
 
     def run(self) -> None:
         """Run to the end, in real time times the speed."""
-        world, start = self._world, time.monotonic()
+        world, wait = self._world, RealTime(self._speed)
         try:
             while not world.over and self._rclpy.ok():
+                wait(world)
                 self._rclpy.spin_once(self._node, timeout_sec=0.0)
                 world.observe()
                 self._publish()
                 since = world.time - PATIENCE
                 recent = {k: u for k, (then, u) in self._commands.items() if then >= since}
                 world.step(recent)
-                time.sleep(max(0.0, start + world.time / self._speed - time.monotonic()))
         finally:
             self._node.destroy_node()
             self._rclpy.try_shutdown()
