@@ -824,7 +824,7 @@ def test_between_two_frames_are_the_messages_of_the_second():
         (lambda: Communication(range=0), "Communication.range = 0: expected a number > 0"),
         (lambda: Communication(delay=-1), "Communication.delay = -1"),
         (lambda: Communication(bandwidth=0), "Communication.bandwidth = 0"),
-        (lambda: Communication(burst=0.1), "burst = 0.1: expected a Burst, as Burst("),
+        (lambda: Communication(burst=0.1), "burst = 0.1: expected a Burst, such as Burst("),
         (lambda: Communication(burst=Burst), "write Burst(...)"),
         (lambda: Communication(burst=Burst(), loss=0.1), "leave one of both out"),
         (lambda: Communication(los=0.1), "did you mean 'loss'?"),

@@ -350,7 +350,7 @@ def test_a_pursuit_page_has_a_formula_bodies_exercises_and_their_answer(page):
     assert f"{name}.png" in pictures(page)
     assert {f"{name}_bodies.png", f"{name}_physics.png"} & {*pictures(page)}
     assert "**The referee counts" in text
-    assert re.search(r"\b(1[6-9]|20)\d\d\b|Our own geometry", text), "whose formula?"
+    assert re.search(r"\b(1[6-9]|20)\d\d\b|geometry is our own", text), "whose formula?"
     assert f"(../../examples/solutions/{name}.py)" in text
     assert open_experiment(ROOT / "examples" / "solutions" / f"{name}.py").checks is not None
     assert f"({page.name})" in (page.parent / "index.md").read_text(encoding="utf-8")

@@ -69,7 +69,7 @@ SCENARIOS = [
     ("seed=3", "mars2d.run(scenario, seed=3)"),
     ("gravity=9.81", "ground_friction"),
     ("robots=Robot()", "write [Robot()]"),
-    ("robots=[(0, 0, 0)]", "expected a Robot, as Robot(pose=(0, 0, 0))"),
+    ("robots=[(0, 0, 0)]", "expected a Robot, such as Robot(pose=(0, 0, 0))"),
     ("robots=[Robot(), Robot(pose=(0.1, 0, 0))]", "they start 0.2 m inside each other"),
     ("props=[Ball(position=(1, 2))]", "write pose=(x, y, theta)"),
     ("props=[Puck(r=1)]", "diameter=... or radius=..."),

@@ -239,7 +239,7 @@ def test_parts_of_ones_own_are_drawn_and_replayed(towed, tmp_path):
 @pytest.mark.parametrize(
     ("made", "message"),
     [
-        (lambda apart: None, r"Cord.constraints\(\) = None: expected a list, as"),
+        (lambda apart: None, r"Cord.constraints\(\) = None: expected a list, such as"),
         (lambda apart: (1.0,), r"Cord.constraints\(\)\[0\] = 1.0: expected a Constraint"),
         (lambda apart: 1 / 0, r"Cord.constraints\(\) raised ZeroDivisionError"),
         (lambda apart: (MaxDistance(float("nan")),), "MaxDistance.length = nan"),

@@ -358,7 +358,7 @@ def test_progress_counts_up_to_the_frames_of_the_cut(record, tmp_path):
         ("a.gif", {"size": (4000, 64)}, "64 x 64 to 3840 x 2160"),
         ("a.gif", {"size": (64.5, 64)}, "size = (64.5, 64)"),
         ("a.gif", {"size": 64}, "size = 64: expected (width, height)"),
-        ("a.mp4", {"size": (641, 360)}, "expected even numbers of pixels for .mp4, as 642 x 360"),
+        ("a.mp4", {"size": (641, 360)}, "expected even numbers of pixels for .mp4, such as 642"),
         ("a.avi", {}, "a.avi: expected a film's name to end in .gif or .mp4"),
     ],
 )

@@ -317,7 +317,7 @@ def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, ch
         (("file.txt",), "file.txt: this is a file; expected a folder"),
         (("missing/out",), "missing/out: there is no folder missing"),
         (("file.txt/out",), "file.txt/out: there is no folder file.txt"),
-        (("out", "--only", "1"), "expected numbers of figures from 2 to 9, as 4,7"),
+        (("out", "--only", "1"), "expected numbers of figures from 2 to 9, such as 4,7"),
         (("out", "--only", "two"), "'two': expected numbers"),
         (("out", "--only", ""), "'': expected numbers"),
         (("out", "--seed", "-1"), "seed"),

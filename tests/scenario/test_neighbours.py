@@ -608,7 +608,7 @@ def test_a_rule_can_not_move_robots():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Scenario(neighbours="all"), "= 'all': expected a rule, as Within(2.0), Nearest"),
+        (lambda: Scenario(neighbours="all"), "= 'all': expected a rule, such as Within(2.0)"),
         (lambda: Scenario(neighbours=Within), "= Within: expected an object; write Within(2.0)"),
         (lambda: Scenario(neighbours="delaunay"), "expected an object; write Delaunay()"),
         (lambda: Scenario(neighbours="Within(2)"), "--set can't make one"),

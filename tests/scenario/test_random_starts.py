@@ -256,5 +256,5 @@ def test_what_a_joint_ties_and_what_has_no_area_is_refused():
         crowd(joints=[Rope(a="crate", b="bar")], random_starts=[RandomStarts(["crate"])])
     with pytest.raises(InputError, match=r"\[0\]: expected an area, since the scenario has no"):
         Scenario(workspace=None, random_starts=[RandomStarts()])
-    with pytest.raises(InputError, match=r"RandomStarts.bodies = 'red': expected a list of names"):
+    with pytest.raises(InputError, match=r"RandomStarts.bodies = 'red': expected names"):
         RandomStarts("red")

@@ -449,7 +449,7 @@ def test_shipped_laws_are_found_beside_their_example(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["random_walk", "--players", "evaders"], "random_walk: a game needs one add-on that says who has won, as Game({'pursuer': ['red'], 'evader': ['blue']}); this experiment has none"),  # noqa: E501
+        (["random_walk", "--players", "evaders"], "random_walk: a game needs one add-on that says who has won, such as Game({'pursuer': ['red'], 'evader': ['blue']}); this experiment has none"),  # noqa: E501
         (["chase.py", "--role", "pursuer"], "--role pursuer: expected ROLE=FILES, such as --role pursuer=laws/*.py"),  # noqa: E501
         (["chase.py", "--role", "hunter=pursuers"], "there is no role 'hunter'; known: evader, pursuer"),  # noqa: E501
         (["chase.py", "--role", "pursuer=pursuers"], "no laws for the role 'evader': name them by --role evader=FILES, or by --players FILES those that play every role"),  # noqa: E501
