@@ -54,7 +54,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
-    """Lead links to files beside docs/ to the repository."""
+    """Lead links to files beside docs/ to the repository, and thumbnails to those of the site."""
     folder = (DOCS / page.file.src_uri).parent
 
     def led(match: re.Match[str]) -> str:
@@ -66,6 +66,8 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
         target = f"{REPOSITORY}/{kind}/main/{goal.relative_to(ROOT)}"
         return f"{match[1]}{target}{'#' if anchor else ''}{anchor})"
 
+    up = "../" * page.url.count("/")
+    markdown = re.sub(r'src="[./]*examples/(thumbnails/[^"]+)"', rf'src="{up}\1"', markdown)
     return re.sub(r"(\]\()([^)\s]+)\)", led, markdown)
 
 

@@ -43,6 +43,15 @@ def test_the_readme_is_short_and_has_six_doors():
     assert len(re.findall(r"^- \*\*", text.partition("## Six doors")[2], flags=re.M)) == 6
 
 
+def missing_pictures(site, pages):
+    """Yield the pages with a picture that is not there, and its address."""
+    for page in pages:
+        for address in re.findall(r'<img[^>]* src="([^"]+)"', page.read_text("utf-8")):
+            at = page.parent if not address.startswith("/") else site
+            if not address.startswith("data:") and not (at / address.lstrip("/")).is_file():
+                yield page.relative_to(site), address
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
@@ -68,6 +77,7 @@ def test_the_site_is_built_and_has_all_of_it(site, browser):
     assert len([*(site / "try").glob("mars2d-*-none-any.whl")]) == 1
     pages = list(site.rglob("*.html"))
     assert len(pages) > 200
+    assert [*missing_pictures(site, pages)] == []
 
     with served(site) as here:
         page, asked = browser.new_page(), []
