@@ -29,7 +29,7 @@ def rescaled(environment):
 
 
 def layers_of(policy, space):
-    """Return weights and biases of the network, which takes what the robot sees, not rescaled."""
+    """Return weights and biases of the network, which takes the observation without scaling."""
     network = [*policy.mlp_extractor.policy_net, policy.action_net]
     linear = [layer for layer in network if isinstance(layer, torch.nn.Linear)]
     layers = [

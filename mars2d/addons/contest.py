@@ -113,7 +113,7 @@ class Contest(Addon):
 
     @property
     def results(self) -> dict[int, float]:
-        """What the contest was worth to robots that are out of it by now, by index.
+        """The results of robots that have left the contest, by index.
 
         It is -1 for one that has been caught or shoved out, and 1 for one that is safe.
         """

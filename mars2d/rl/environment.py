@@ -27,7 +27,7 @@ SEEDS = 2**31
 
 
 def observation_space(episode: Episode, k: int) -> Box:
-    """Return the space of what learner k sees."""
+    """Return the space of learner k's observations."""
     seen = episode.observations[k]
     return Box(seen.low.astype(np.float32), seen.high.astype(np.float32), dtype=np.float32)
 
@@ -104,7 +104,7 @@ class Environment(gymnasium.Env[Row, Row]):
         seed: int | None = None,
         options: dict[str, Any] | None = None,  # noqa: ARG002
     ) -> tuple[Row, dict[str, Any]]:
-        """Begin an episode; return what the robot sees, and an empty dict.
+        """Begin an episode; return the first observation, and an empty dict.
 
         seed: of all that is random; None: a new one from the generator that was seeded last.
         """

@@ -29,11 +29,11 @@ __all__ = ["Episode", "Law", "Reward", "Source"]
 Source = str | Path | ModuleType | Scenario
 Law = Callable[[Any], Any] | str | Path
 Reward = Callable[[World, RobotView], float]
-"""Called with the world and a learner after each step; returns what that step was worth."""
+"""Called with the world and a learner after each step; returns the reward of that step."""
 
 
 class Episode:
-    """A world that begins anew with each `start`, and the robots in it that learn.
+    """A world that starts again with each `start`, and the robots in it that learn.
 
     learners: their indices. observations, actions: what each
     of them sees and does. world: the live one.
@@ -48,7 +48,7 @@ class Episode:
         options: Mapping[str, Any] | None,
         record: bool,
     ) -> None:
-        """Take an experiment, and who learns: names, indices or roles; None: all robots.
+        """Take an experiment and the learners: names, indices or roles; None: all robots.
 
         Raises InputError for an experiment that can't be opened, and a robot or role that is not
         there.
@@ -98,7 +98,7 @@ class Episode:
         return self.world.record
 
     def metadata_of(self, k: int) -> str:
-        """Return what a policy's file says of learner k: its spaces, and where it learned."""
+        """Return the metadata of a policy's file for learner k: its spaces and its experiment."""
         drive = self.scenario.robots[self.learners[k]].drive
         return describe(
             self.observations[k], self.actions[k], type(drive).__name__, self.experiment,
@@ -116,7 +116,7 @@ class Episode:
         return scenario.replace(robots=robots)
 
     def start(self, seed: int) -> None:
-        """Begin anew: what is drawn at random, starts too, is drawn from the seed."""
+        """Start again: all random numbers, also those of starts, are drawn from the seed."""
         scenario = None
         if self._draws:
             scenario = self._cast(open_experiment(self._source, self._options, seed=seed).scenario)
@@ -159,11 +159,11 @@ class Episode:
         return {"over": self.world.over_message} if self.world.over else {}
 
     def observed(self, k: int) -> NDArray[np.float32]:
-        """Return what learner k sees."""
+        """Return learner k's observation."""
         return self.observations[k](self.world.robots[self.learners[k]])
 
     def reward(self, k: int) -> float:
-        """Return what the last step was worth to learner k."""
+        """Return learner k's reward for the last step."""
         value = self._reward(self.world, self.world.robots[self.learners[k]])
         try:
             worth = float(value)

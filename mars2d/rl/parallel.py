@@ -32,8 +32,8 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
     >>> environment.possible_agents
     ['red', 'blue']
 
-    robots: who learns: names, indices, or roles, of which all robots learn; None: all. The agents'
-    names are the robots'. One that is caught, shoved out or safe is terminated in that step and
+    robots: the learners: names, indices, or roles, of which all robots learn; None: all. Agents
+    have the robots' names. One that is caught, shoved out or safe is terminated in that step and
     leaves `agents`, while the others go on. The other arguments, spaces and ends are those of
     `mars2d.rl.Environment`.
     """
@@ -67,7 +67,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         self._random = np.random.default_rng()
 
     def observation_space(self, agent: str) -> Box:
-        """Return the space of what an agent sees; always the same object."""
+        """Return the space of an agent's observations; always the same object."""
         return self.observation_spaces[self.possible_agents[self._place(agent)]]
 
     def action_space(self, agent: str) -> Box:
@@ -99,7 +99,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         seed: int | None = None,
         options: dict[str, Any] | None = None,  # noqa: ARG002
     ) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
-        """Begin an episode; return what each agent sees, and empty dicts."""
+        """Begin an episode; return each agent's observation, and empty dicts."""
         if seed is not None:
             self._random = np.random.default_rng(seed)
         self._episode.start(int(self._random.integers(SEEDS)) if seed is None else seed)

@@ -75,8 +75,8 @@ class Experiment:
 
     filename: the file's name, or empty. checks: the function of the record that compares a run with
     theory, or None. summary: the first line of the file's docstring, or empty. path: of the file,
-    or None. options: those that it was opened with. opened: opens it anew with other options, or
-    None. alone: whether its laws then share nothing with these, since its file is run anew.
+    or None. options: those that it was opened with. opened: opens it again with other options, or
+    None. alone: whether its laws then share nothing with these, since its file is run again.
     function: that has made the scenario, or None. seed: that it was opened with, or None. plain:
     the experiment without those options that set fields and laws, if there are any. files: all
     files read for it; written: when these were written, ns. functions: the public functions that
@@ -102,14 +102,14 @@ class Experiment:
     scopes: tuple[str | Callable[[Any], Any], ...] = ()
 
     def reopened(self) -> Experiment:
-        """Return the experiment opened anew, or itself if it does not come from a file.
+        """Return the experiment opened again, or itself if it does not come from a file.
 
         Raises InputError, as `open_experiment` does, if the file has an error by now.
         """
         return self if self.opened is None or not self.alone else self.opened(self.options)
 
     def with_options(self, options: Mapping[str, Any]) -> Experiment:
-        """Return the experiment opened anew with these options, which replace those of before.
+        """Return the experiment opened again with these options, which replace those of before.
 
         Raises InputError, as `open_experiment` does.
         """
@@ -374,7 +374,7 @@ def load_law(
     path: a relative path is looked for beside the file that calls this, then in the current folder.
     An ``.onnx`` file is a law that was learned, see `mars2d.rl`; it has neither name nor arguments.
     arguments, values: of the function, before the robot and by name, as for functools.partial. Each
-    call runs the file anew, so that robots with the same law share nothing. Raises InputError,
+    call runs the file again, so that robots with the same law share nothing. Raises InputError,
     which points at file and line.
     """
     if not isinstance(path, (str, Path)):
@@ -392,7 +392,7 @@ def law_in(
     subject: str = "the robot",
     given: tuple[Sequence[Any], Mapping[str, Any]] = ((), {}),
 ) -> Callable[[Any], Any]:
-    """Return the law called `name` in a file, which is run anew.
+    """Return the law called `name` in a file, which is run again.
 
     subject: the robot or world. given: the arguments of the function that are given.
     """

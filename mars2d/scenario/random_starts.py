@@ -37,7 +37,7 @@ BATCH = 64
 """How many places are tried at once."""
 
 BATCHES, ROUNDS = 16, 20
-"""Batches for each body, and how often all bodies are placed anew, before there is no place."""
+"""Batches for each body, and how often all bodies are placed again, before there is no place."""
 
 MARGIN = 1e-9
 """How far bodies start from each other and from walls at least, metres: rounding is less."""

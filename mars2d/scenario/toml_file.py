@@ -208,7 +208,7 @@ def read(path: str | Path) -> tuple[Scenario, Law | None]:
     """Return the scenario in a file, and the law of its team or None.
 
     Laws and images that it names lie beside it or in the current folder. Each robot gets its law
-    loaded anew, as by `load_law`. Raises InputError, which says what is wrong, in which line, and
+    loaded again, as by `load_law`. Raises InputError, which says what is wrong, in which line, and
     what was expected.
     """
     path = Path(path)

@@ -340,8 +340,8 @@ def test_a_contact_that_begins_or_ends_is_seen_at_once():
         return pygame.surfarray.array3d(surface)
 
     for contacts in (touch[:0], touch, touch[:0]):
-        anew = picture(Inspector(Painter(), 0), contacts)
-        assert np.array_equal(picture(kept, contacts), anew)
+        again = picture(Inspector(Painter(), 0), contacts)
+        assert np.array_equal(picture(kept, contacts), again)
 
 
 def test_it_takes_little_time(world):

@@ -74,7 +74,7 @@ class Neighbours:
 
     @cython.cfunc
     def refresh(self) -> cython.bint:
-        """List pairs anew if a body may move farther than the skin; return whether that was so."""
+        """List pairs again if a body may move farther than the skin; return whether that was so."""
         if self.skin >= 1e300:
             return False
         body: Body
@@ -138,7 +138,7 @@ class Neighbours:
 
     @cython.cfunc
     def list_pairs(self) -> cython.void:
-        """List the pairs anew, with a skin that lasts for several control steps."""
+        """List the pairs again, with a skin that lasts for several control steps."""
         furthest: cython.double = 0.0
         body: Body
         for body in self.bodies:

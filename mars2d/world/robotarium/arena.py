@@ -72,7 +72,7 @@ class Robotarium:
 
     @cached_property
     def figure(self) -> Any:
-        """A figure for what a script draws; nobody sees it."""
+        """A figure for a script's drawings, which is not shown."""
         from matplotlib.figure import Figure
 
         return Figure()
