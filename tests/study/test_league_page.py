@@ -365,7 +365,8 @@ def test_keys_and_buttons_go_to_other_matches_and_back(tab):
 
 def test_escape_closes_what_is_open_in_the_replay_first(tab):
     frame = watch(tab, 13)
-    press_inside(tab, "n", frame.locator("#panel").is_visible)
+    frame.locator("#bodies").select_option(index=1)
+    frame.locator("#panel").wait_for()
     press_out(frame, "Escape")
     frame.locator("#panel").wait_for(state="hidden")
     press_inside(tab, "F1", frame.locator("#helping").is_visible)
