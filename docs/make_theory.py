@@ -30,13 +30,10 @@ HEAD = """\
 # Theory and measurement
 
 This page compares textbook predictions with the simulator's measurements. The first table has
-single facts of the physics, and the second the checks of the examples. It is written by
-
-    python docs/make_theory.py
-
-which runs everything again. So do the tests, which fail if a number leaves its tolerance.
-Tolerances are absolute, in the unit given. If 0 is predicted, the measured value is a rounding
-error, which differs between processors.
+single facts of the physics, and the second the checks of the examples. The page is written by
+`docs/make_theory.py`, which runs everything again. So do the tests, which fail if a number leaves
+its tolerance. Tolerances are absolute, in the unit given. If 0 is predicted, the measured value is
+a rounding error, which differs between processors.
 """
 
 
