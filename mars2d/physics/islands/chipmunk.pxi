@@ -78,6 +78,7 @@ cdef extern from *:
         Vector (*cpArbiterTotalImpulse)(void *);
         Vector (*cpArbiterGetNormal)(void *);
         int (*cpArbiterGetCount)(void *);
+        double (*cpArbiterGetDepth)(void *, int);
         Vector (*cpArbiterGetPointA)(void *, int);
         Vector (*cpArbiterGetPointB)(void *, int);
         void (*cpArbiterSetFriction)(void *, double);
@@ -373,6 +374,7 @@ cdef extern from *:
         Vector (*cpArbiterTotalImpulse)(void *) noexcept
         Vector (*cpArbiterGetNormal)(void *) noexcept
         int (*cpArbiterGetCount)(void *) noexcept
+        double (*cpArbiterGetDepth)(void *, int) noexcept
         Vector (*cpArbiterGetPointA)(void *, int) noexcept
         Vector (*cpArbiterGetPointB)(void *, int) noexcept
         void (*cpArbiterSetFriction)(void *, double) noexcept
@@ -716,6 +718,9 @@ cdef inline Vector arm_of(Handle arbiter, int k, bint second) noexcept:
 
 cdef inline double push_of(Handle arbiter, int k) noexcept:
     return contact_at(arbiter, k).normal_impulse
+
+cdef inline double depth_of(Handle arbiter, int k) noexcept:
+    return engine.cpArbiterGetDepth(arbiter, k)
 
 cdef inline double rub_of(Handle arbiter, int k) noexcept:
     return contact_at(arbiter, k).tangent_impulse

@@ -18,7 +18,7 @@ from mars2d.physics.islands.arithmetic import cosine_sine, exponential
 __all__ = [
     "DAMPED_SPRING", "GEAR", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
     "Arbiters", "Handle", "Seams", "Vector", "add_body", "add_joint", "add_shape", "aim",
-    "angle_of", "arm_of", "bounce_of", "check_signals", "count_of", "drag_of", "first_of",
+    "angle_of", "arm_of", "bounce_of", "check_signals", "count_of", "depth_of", "drag_of", "first_of",
     "free_body", "free_joint", "free_shape", "free_space", "ground_of", "impulse_of", "is_void",
     "make_joint", "new_body", "new_control", "new_disc", "new_ground", "new_polygon",
     "new_segment", "new_space", "normal_of", "point_of", "position_of", "push", "push_of", "put",
@@ -490,6 +490,7 @@ def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
 
 
 count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse
+depth_of = lib.cpArbiterGetDepth
 normal_of = lib.cpArbiterGetNormal
 
 

@@ -39,8 +39,8 @@ class Row:
     @cython.cfunc
     def add_speed(self, body: Body, sign: cython.double) -> cython.void:
         """Add the velocity of the point as one of a body, or subtract it."""
-        self.vx += sign * (body.aim_x - body.aim_spin * (self.y - body.y))
-        self.vy += sign * (body.aim_y + body.aim_spin * (self.x - body.x))
+        self.vx += sign * (body.before_x - body.before_spin * (self.y - body.y))
+        self.vy += sign * (body.before_y + body.before_spin * (self.x - body.x))
 
     @cython.cfunc
     def push_apart(self) -> cython.void:

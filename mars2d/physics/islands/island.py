@@ -118,7 +118,7 @@ class Island:
     tries: cython.int  # substeps in a row in which the solver had more iterations than these
     deepest: cython.double  # m, the overlap
     limit: cython.double  # m, how far a body may go
-    any_slips: cython.bint
+    any_solved: cython.bint
     any_touch: cython.bint
     impact: Impact
 
@@ -136,7 +136,7 @@ class Island:
         self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
         self.thrust = Thrust()
         self.bodies, self.pairs, self.ties = [], [], []
-        self.solved = self.any_slips = self.any_touch = False
+        self.solved = self.any_solved = self.any_touch = False
         self.contact_step = self.push_step = 1e300
         self.strain = self.least_strain = self.most_strain = 1.0
         self.iterations, self.tries = accuracy.iterations, 0
@@ -149,7 +149,7 @@ class Island:
         del self.bodies[:]
         del self.pairs[:]
         del self.ties[:]
-        self.solved = self.any_slips = self.any_touch = False
+        self.solved = self.any_solved = self.any_touch = False
 
     # -- before the first substep -------------------------------------------------------------
 
@@ -298,8 +298,8 @@ class Island:
         self.set_accuracy()
         for body in self.bodies:
             body.gone = 0.0
-            self.any_slips = self.any_slips or body.slips
-        if self.any_slips:
+            self.any_solved = self.any_solved or body.solver is not None
+        if self.any_solved:
             self.land()
         self.measure()
         while elapsed < duration:
@@ -317,12 +317,13 @@ class Island:
                 if body.gone > self.limit:
                     return False
             self.aim(h)
-            if self.any_slips or not self.glide_on(h):
+            if self.any_solved or not self.glide_on(h):
                 if not self.solved:
                     self.land()
                 self.solver.go(h, self.accuracy.growth)
                 settle(self.solver, self.numbers, self.impact, h)
-                self.solver.share_out(h)
+                for body in self.bodies:
+                    self.take(body, h)
                 self.measure()
                 self.weigh()
             elapsed = duration if h == left else elapsed + h
@@ -420,15 +421,17 @@ class Island:
         accuracy: Accuracy = self.accuracy
         body: Body
         h: cython.double = left
-        self.any_slips = False
+        self.any_solved = False
         for body in self.bodies:
-            if body.pulled:
-                body.touches = True
-            if body.touches:
-                body.slips = True
-            if body.slips:
-                self.any_slips = True
-        if not self.any_slips:
+            body.touches = body.touches or body.pulled
+            body.slips = body.slips or body.touches
+            # Where others touch, a robot that has just lost touch stays with them for a while.
+            lately: cython.bint = self.any_touch and body.since <= accuracy.linger
+            body.solved = body.touches or (
+                body.is_robot and body.slips and (body.lead != 0.0 or lately)
+            )
+            self.any_solved = self.any_solved or body.solved
+        if not self.any_solved:
             return h
         self.set_contact_step()
         h = min(h, self.contact_step)
@@ -438,16 +441,13 @@ class Island:
             # A solver that knows no impulses yet does not settle a file that begins to push.
             h = min(h, self.contact_step / (self.most_strain * self.most_strain))
         for body in self.bodies:
-            if body.slips and body.limited and not body.touches:
+            if body.solved and body.limited and not body.touches:
                 h = min(h, accuracy.swaying)
-            if body.is_robot and body.slips and body.since > 0:
-                h = min(h, body.time_to_brake(accuracy.turned))
-        self.any_slips = False
+        self.any_solved = False
         for body in self.bodies:
-            if body.slips and not body.touches:
-                body.slips = body.is_slow() and body.out_of_reach(h)
-            if body.slips:
-                self.any_slips = True
+            if body.solved and not body.touches:
+                body.solved = body.slips = body.out_of_reach(h)
+            self.any_solved = self.any_solved or body.solved
         return h
 
     @cython.cfunc
@@ -461,18 +461,23 @@ class Island:
         brief: cython.bint = h <= self.contact_step
         body: Body
         for body in self.bodies:
-            if body.slips:
-                body.aim_x, body.aim_y, body.aim_spin = body.vx, body.vy, body.spin
+            body.remember()
+            if body.solved:
                 body.since, body.holds = 0, True
-            elif body.limited:
-                self.thrust.over(body, h)
-                body.since, body.holds = min(body.since + 1, 1 << 20), False
-            elif body.is_robot:
-                body.follow(body.angle, h)
-                body.since = min(body.since + 1, 1 << 20)
-                body.holds = brief and body.since <= self.accuracy.linger
-            else:
-                self.glide.over(body, h)
+                continue
+            body.since = min(body.since + 1, 1 << 20)
+            body.holds = body.follows() and brief and body.since <= self.accuracy.linger
+            self.foresee(body, h)
+
+    @cython.cfunc
+    def foresee(self, body: Body, h: cython.double) -> cython.void:
+        """Aim a body at where it will be after h s if nothing touches it, in closed form."""
+        if not body.is_robot:
+            self.glide.over(body, h)
+        elif body.follows():
+            body.go_along(h)
+        else:
+            self.thrust.over(body, h)
 
     @cython.cfunc
     def glide_on(self, h: cython.double) -> cython.bint:
@@ -482,23 +487,41 @@ class Island:
         """
         body: Body
         for body in self.bodies:
-            body.back_x, body.back_y, body.back_angle = body.x, body.y, body.angle
             body.advance(h)
         self.measure()
         if self.any_touch:
             for body in self.bodies:
-                body.x, body.y, body.angle = body.back_x, body.back_y, body.back_angle
+                body.go_back()
             return False
         for body in self.bodies:
-            body.placed = True
-            if body.is_robot and not body.limited:
-                body.vx, body.vy, body.spin = body.aim_x, body.aim_y, body.aim_spin
-            else:
-                body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
-            body.account_now()
+            self.arrive(body)
         if self.solved:
             self.solver.stale = True
         return True
+
+    @cython.cfunc
+    def arrive(self, body: Body) -> cython.void:
+        """Note that a body has moved in closed form."""
+        body.slips = body.slips and body.is_robot and not body.limited and body.gathers
+        body.account_now()
+
+    @cython.cfunc
+    def take(self, body: Body, h: cython.double) -> cython.void:
+        """Take over how a body has moved in the solver's step of h s.
+
+        What was not pushed by anything has moved in closed form, whatever it touches.
+        """
+        if body.is_pushed() or (body.solved and body.lead != 0.0):
+            self.solver.share_out(body, h, body.shift)
+            body.slips = True
+            return
+        if body.solved:
+            body.go_back()
+            self.foresee(body, h)
+        else:
+            body.x, body.y, body.angle = body.back_x, body.back_y, body.back_angle
+        body.advance(h)
+        self.arrive(body)
 
     # -- without forces -----------------------------------------------------------------------
 
@@ -554,16 +577,12 @@ class Island:
                     body.by_push -= body.energy
                     body.energy = body.vx = body.vy = body.spin = 0.0
                 body.stopped = False
-                body.look()
+                body.obey()
 
     @cython.cfunc
     def drift(self, body: Body, h: cython.double) -> cython.void:
         """Move a body for h s as nothing but its command or the floor says."""
-        if body.is_robot:
-            body.follow(body.angle, h)
-        else:
-            self.glide.over(body, h)
-            body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
+        self.foresee(body, h)
         body.advance(h)
 
     @cython.cfunc
@@ -575,8 +594,7 @@ class Island:
         touch: Touch
         if self.any_touch:
             for body in self.bodies:
-                body.look()
-                body.aim_x, body.aim_y, body.aim_spin = body.now_x, body.now_y, body.now_spin
+                body.before_x, body.before_y, body.before_spin = body.vx, body.vy, body.spin
         for pair in self.pairs:
             if pair.gap > 0:
                 continue
