@@ -151,7 +151,8 @@ class Body:
     # what the next substep is worked out from
     touches: cython.bint
     stopped: cython.bint
-    bend: cython.double  # m/s^2, how fast that may change
+    bend: cython.double  # m/s^2, how fast its velocity may change
+    gains: cython.double  # m/s^2, how fast its drive may do that in the solver
     aim_x: cython.double  # the velocity that it is told
     aim_y: cython.double
     aim_spin: cython.double
@@ -278,7 +279,7 @@ class Body:
         self.rest_grip = self.rest_twist_grip = 0.0
         self.allowed = self.twist_allowed = self.held = self.twist_held = 0.0
         self.pull_x = self.pull_y = self.pull_torque = 0.0
-        self.bend = 0.0
+        self.bend = self.gains = 0.0
         self.aim_x = self.aim_y = self.aim_spin = 0.0
         self.end_x = self.end_y = self.end_spin = self.lead_x = self.lead_y = 0.0
         self.back_x = self.back_y = self.back_angle = self.gone = 0.0
@@ -444,6 +445,15 @@ class Body:
         else:
             self.obey()
             self.bend = self.pull_on_arc(self.turning) / self.mass
+
+    @cython.cfunc
+    def lack(self, h: cython.double) -> cython.double:
+        """Return how far its velocity may be from its command within h s, m/s."""
+        self.follow(self.angle, 0.0)
+        turned: cython.double = h * max(abs(self.spin), abs(self.turning))
+        off: cython.double = length(self.aim_x - self.vx, self.aim_y - self.vy)
+        off += turned * length(self.forward, self.left)
+        return off + abs(self.turning - self.spin) * self.reach
 
     @cython.cfunc
     def top_speed(self) -> cython.double:

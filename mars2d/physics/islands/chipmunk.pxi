@@ -720,7 +720,7 @@ cdef inline double push_of(Handle arbiter, int k) noexcept:
     return contact_at(arbiter, k).normal_impulse
 
 cdef inline double depth_of(Handle arbiter, int k) noexcept:
-    return engine.cpArbiterGetDepth(arbiter, k)
+    return -engine.cpArbiterGetDepth(arbiter, k)
 
 cdef inline double rub_of(Handle arbiter, int k) noexcept:
     return contact_at(arbiter, k).tangent_impulse

@@ -490,7 +490,6 @@ def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
 
 
 count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse
-depth_of = lib.cpArbiterGetDepth
 normal_of = lib.cpArbiterGetNormal
 
 
@@ -503,6 +502,11 @@ def arm_of(arbiter: Handle, k: int, second: bool) -> Vector:
     """Return the way to one of its points from the centre of mass of its first or second body."""
     contact = arbiter.contacts[k]
     return contact.r2 if second else contact.r1
+
+
+def depth_of(arbiter: Handle, k: int) -> float:
+    """Return how deep bodies are in each other in one of its points, metres."""
+    return -float(lib.cpArbiterGetDepth(arbiter, k))
 
 
 def push_of(arbiter: Handle, k: int) -> float:

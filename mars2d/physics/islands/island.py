@@ -401,6 +401,9 @@ class Island:
         h: cython.double = self.contact_limit(left)
         for body in self.bodies:
             body.look()
+            body.gains = 0.0
+            if body.solved and body.is_robot and body.lack(h) * h > accuracy.entry / 8:
+                body.gains = body.strength / body.mass
         pair: Pair
         for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
