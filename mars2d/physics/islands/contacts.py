@@ -150,9 +150,7 @@ class Touch:
         self.steepest = max(self.steepest, abs(rub) / push)
 
     @cython.cfunc
-    def close(
-        self, time: cython.double, h: cython.double, passes_on: cython.bint
-    ) -> cython.void:
+    def close(self, time: cython.double, h: cython.double, passes_on: cython.bint) -> cython.void:
         """End a substep of h seconds at `time`.
 
         passes_on: whether the pair touches by another normal alone: this one lasted until then.
@@ -243,20 +241,16 @@ def note_row(a: Body, b: cython.int, row: Row) -> cython.void:
 def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.void:
     """End a substep of h seconds at `time`."""
     touch: Touch
+    other: Touch
+    passes_on: cython.bint
     for touch in body.contacts:
-        touch.close(time, h, touch.now is None and touch.goes_on and still_touch(body, touch.b))
+        passes_on = False
+        if touch.goes_on and touch.now is None:
+            for other in body.contacts:
+                passes_on = passes_on or (other.b == touch.b and other.now is not None)
+        touch.close(time, h, passes_on)
     for touch in body.contacts:
         touch.now = None
-
-
-@cython.cfunc
-def still_touch(body: Body, b: cython.int) -> cython.bint:
-    """Return whether a body touches another or an obstacle in this substep, by any normal."""
-    touch: Touch
-    for touch in body.contacts:
-        if touch.b == b and touch.now is not None:
-            return True
-    return False
 
 
 @cython.cfunc
@@ -279,11 +273,11 @@ def keep_touches(body: Body) -> cython.void:
 def begin_touches_again(body: Body) -> cython.void:
     """Go back to the contacts that were kept, and drop those that are new."""
     touch: Touch
-    left: list[Any] = []
-    for touch in body.contacts:
+    touches: list[Any] = body.contacts
+    body.contacts = []
+    for touch in touches:
         if touch.kept is not None:
-            left.append(touch.kept)
-    body.contacts = left
+            body.contacts.append(touch.kept)
     keep_touches(body)
 
 
