@@ -105,12 +105,12 @@ def rows_of(contacts: NDArray[np.void], time: Float, sampling_time: float) -> ND
 
 
 def _touching(contacts: NDArray[np.void]) -> tuple[NDArray[np.intp], NDArray[np.bool_], Float]:
-    """Return the order of rows by pair and time, and of rows in it which begin an episode.
+    """Return an order of rows by their pairs, and of rows in it which begin an episode.
 
     The third array says until when each row's pair had touched by then, s.
     """
     key = (contacts["a"].astype(np.int64) << 32) + contacts["b"]
-    order = np.lexsort((contacts["time"], key))
+    order = np.argsort(key, kind="stable")
     key, time, began = key[order], contacts["time"][order], contacts["began"][order]
     begins = np.diff(key, prepend=key[:1] - 1) != 0
     # the largest end of a pair's rows so far: a running maximum that no other pair's ends exceed
