@@ -98,7 +98,7 @@ def blows(frame: Frame) -> NDArray[np.void]:
     newest = np.zeros(len(found))
     np.maximum.at(newest, pair.ravel(), found["time"])
     found = found[found["time"] == newest[pair.ravel()]]
-    return found[np.argsort(found["impulse"], kind="stable")][-MAX_BLOWS:]
+    return np.asarray(found[np.argsort(found["impulse"], kind="stable")][-MAX_BLOWS:])
 
 
 def impulses(frame: Frame) -> Scene:

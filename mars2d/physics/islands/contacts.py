@@ -87,12 +87,10 @@ class Touch:
     first: Row
     impulse_x: cython.double
     impulse_y: cython.double
-    push: cython.double  # of all normal impulses, whatever their directions
-    mean_x: cython.double  # of normals, times the push
-    mean_y: cython.double
-    normal_x: cython.double  # the first that pushed
-    normal_y: cython.double
-    turns: cython.bint  # whether others were different
+    push: cython.double  # the sum of normal impulses, whatever their directions
+    base: Row | None  # the first that has pushed
+    turn_x: cython.double  # by how much others' normals are off, times their pushes
+    turn_y: cython.double
     steepest: cython.double  # the largest ratio of friction to push
     kept: Any  # itself as it was when the control step began
 
@@ -105,9 +103,9 @@ class Touch:
     @cython.cfunc
     def begin(self) -> cython.void:
         """Start again, after contacts were taken."""
-        self.was_on, self.any, self.turns = self.goes_on, False, False
+        self.was_on, self.any, self.base = self.goes_on, False, None
         self.held = self.impulse_x = self.impulse_y = self.push = self.steepest = 0.0
-        self.mean_x = self.mean_y = self.normal_x = self.normal_y = 0.0
+        self.turn_x = self.turn_y = 0.0
 
     @cython.cfunc
     def keep(self) -> cython.void:
@@ -116,8 +114,8 @@ class Touch:
         copy.goes_on, copy.was_on, copy.any = self.goes_on, self.was_on, self.any
         copy.time, copy.held, copy.first = self.time, self.held, self.first
         copy.impulse_x, copy.impulse_y, copy.push = self.impulse_x, self.impulse_y, self.push
-        copy.mean_x, copy.mean_y, copy.steepest = self.mean_x, self.mean_y, self.steepest
-        copy.normal_x, copy.normal_y, copy.turns = self.normal_x, self.normal_y, self.turns
+        copy.base, copy.turn_x, copy.turn_y = self.base, self.turn_x, self.turn_y
+        copy.steepest = self.steepest
         self.kept = copy
 
     @cython.cfunc
@@ -140,13 +138,11 @@ class Touch:
         rub: cython.double = row.impulse_y * row.normal_x - row.impulse_x * row.normal_y
         if push <= 0.0:
             return
-        if self.push == 0.0:
-            self.normal_x, self.normal_y = row.normal_x, row.normal_y
-        elif row.normal_x != self.normal_x or row.normal_y != self.normal_y:
-            self.turns = True
+        if self.base is None:
+            self.base = row
         self.push += push
-        self.mean_x += push * row.normal_x
-        self.mean_y += push * row.normal_y
+        self.turn_x += push * (row.normal_x - self.base.normal_x)
+        self.turn_y += push * (row.normal_y - self.base.normal_y)
         self.steepest = max(self.steepest, abs(rub) / push)
 
     @cython.cfunc
@@ -183,23 +179,24 @@ class Touch:
     @cython.cfunc
     def write(self, numbers: cython.Doubles, k: cython.int) -> cython.void:
         """Write the fields of `mars2d.record.contact.CONTACT` from the k-th number on."""
-        row: Row = self.first
+        row: Row = self.first if self.base is None else self.base
         x: cython.double = row.normal_x
         y: cython.double = row.normal_y
-        if self.push > 0.0:
-            x, y = self.normal_x, self.normal_y
-        far: cython.double = length(self.mean_x, self.mean_y)
-        if self.turns and far > 0.0:
-            x, y = self.mean_x / far, self.mean_y / far
+        turns: cython.bint = self.turn_x != 0.0 or self.turn_y != 0.0
+        if turns:
+            x, y = self.push * x + self.turn_x, self.push * y + self.turn_y
+            far: cython.double = length(x, y)
+            x, y = x / far, y / far
         whole: cython.double = length(self.impulse_x, self.impulse_y)
         along: cython.double = min(self.impulse_x * x + self.impulse_y * y, whole)
         across: cython.double = self.impulse_y * x - self.impulse_x * y
-        if self.turns and abs(across) > self.steepest * along:
+        if turns and abs(across) > self.steepest * along:
             # The sum leaves the cone of the mean normal: turn that until it is on its edge.
             along = whole / sqrt(1.0 + self.steepest * self.steepest)
             across = self.steepest * along if across > 0.0 else -self.steepest * along
             x = (self.impulse_x * along + self.impulse_y * across) / (whole * whole)
             y = (self.impulse_y * along - self.impulse_x * across) / (whole * whole)
+        row = self.first
         numbers[k] = self.time
         numbers[k + 1] = self.held
         numbers[k + 2] = self.a
