@@ -344,27 +344,41 @@ def room(robots: list, props: list, time: float, size: float = 2.0, **fields) ->
     return World(Scenario(robots=robots, props=props, **fields))
 
 
-@pytest.mark.parametrize("time", [1.0, 0.1, 0.005])
-@pytest.mark.parametrize("friction", [0.0, 0.6])
-def test_rows_add_up_to_the_momentum_that_contacts_give_in_each_control_step(time, friction):
-    """In corners, on turns, in crowds, and where two meet several times in a control step."""
-    faults = []
-    bouncing = gliding(Puck, 0.3, 0.1, (3, 1.3, 5), friction, diameter=0.2, restitution=0.9)
-    still = Robot(pose=(0, 0.8, 0), diameter=0.1, friction=friction, drive=SLACK)
-    faults += faults_of(room([still], [bouncing], time, 1.0), [[0], [0]], friction, 3)
+def scenes(friction: float) -> list[tuple]:
+    """Robots, props, an obstacle and a command, with corners, turns and hasty bodies."""
+    still = Robot(pose=(1.7, 1.7, 0), diameter=0.1, friction=friction, drive=SLACK)
+    strong = {"friction": friction, "drive": Unicycle(max_force=9.0)}
+    pair = [Robot(pose=(-0.6, 0.05, 0), **strong), Robot(pose=(0.6, -0.05, pi), **strong)]
     spinning = [
         gliding(Box, x, y, (-2 * x, -1.5 * y, 9), friction, width=0.3, length=0.5)
         for x, y in ((1.4, 0.2), (-1.4, 0.3), (0.2, 1.4), (-0.3, -1.4))
     ]
-    aside = Robot(pose=(1.7, 1.7, 0), diameter=0.1, friction=friction, drive=SLACK)
-    faults += faults_of(room([aside], spinning, time, addons=[Map([STAR], friction=friction)]),
-                        [[0], [0]], friction, 3)  # fmt: skip
+    bouncing = gliding(Puck, 0.3, 0.1, (9, 4, 5), friction, diameter=0.2, restitution=0.9)
     pushed = [
         gliding(Box, 0.7, 0.65, (0, 0, 0), friction),
         gliding(Puck, 1.3, 1.4, (0, 0, 0), friction, diameter=0.4),
     ]
-    pusher = Robot(pose=(0, 0, pi / 4), friction=friction, drive=Unicycle(max_force=20.0))
-    faults += faults_of(room([pusher], pushed, time), [[0.4], [0.05]], friction, 6)
+    rolled = gliding(Puck, -0.15, -0.1, (0, 0, 0), friction, diameter=0.4)
+    edge, forward = [(0.1, 0), (0.1, -1), (1, -1), (1, 0)], [[0.3, 0.3], [0.2, 0.2]]
+    return [
+        ([still], [bouncing], None, [[0], [0]]),
+        ([still], spinning, STAR, [[0], [0]]),
+        ([Robot(pose=(0, 0, pi / 4), **strong)], pushed, None, [[0.4], [0.05]]),
+        (pair, [gliding(Puck, 0, 0, (0, 0, 0), friction)], None, forward),  # it is turned
+        (pair, [gliding(Box, 0, 0, (0, 0, 0), friction)], None, forward),
+        ([Robot(pose=(-0.45, -0.45, 0.9), **strong)], [rolled], edge, [[0.3], [-0.1]]),
+    ]
+
+
+@pytest.mark.parametrize("time", [1.0, 0.5, 0.1, 0.005])
+@pytest.mark.parametrize("friction", [0.0, 0.6])
+def test_rows_add_up_to_the_momentum_that_contacts_give_in_each_control_step(time, friction):
+    """In corners, on turns, in crowds, and where two meet several times in a control step."""
+    faults = []
+    for robots, props, outline, command in scenes(friction):
+        addons = [] if outline is None else [Map([outline], friction=friction)]
+        world = room(robots, props, time, addons=addons)
+        faults += faults_of(world, command, friction, 4 if time > 0.01 else 2)
     assert faults == []
 
 
