@@ -26,7 +26,7 @@ from mars2d.physics.islands.chipmunk import (
     second_of,
     set_iterations,
 )
-from mars2d.physics.islands.contacts import Row, Touch, touch_between
+from mars2d.physics.islands.contacts import Row, close_touches, note_row
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
 from mars2d.physics.islands.pair import Pair
@@ -326,8 +326,9 @@ class Island:
                     self.take(body, h)
                 self.measure()
                 self.weigh()
+                self.note()
             elapsed = duration if h == left else elapsed + h
-            self.note(time + elapsed, h)
+            self.close(time + elapsed, h)
         for body in self.bodies:
             body.strain = self.strain
         return True
@@ -594,7 +595,6 @@ class Island:
         row: Row
         pair: Pair
         body: Body
-        touch: Touch
         if self.any_touch:
             for body in self.bodies:
                 body.before_x, body.before_y, body.before_spin = body.vx, body.vy, body.spin
@@ -605,53 +605,48 @@ class Island:
             other: cython.int = pair.other
             if pair.is_wall:
                 other = pair.wall.owner(pair.point_x, pair.point_y)
-            touch = touch_between(pair.a, other)
-            row = touch.fresh()
-            row.impulse_x = row.impulse_y = row.vx = row.vy = 0.0
+            row = Row()
             row.x, row.y = pair.point_x, pair.point_y
             row.normal_x, row.normal_y = pair.normal_x, pair.normal_y
             if not pair.is_wall:
                 row.add_speed(pair.b, 1.0)
             row.add_speed(pair.a, -1.0)
+            note_row(pair.a, other, row)
         self.close(time, h)
 
     # -- contacts -----------------------------------------------------------------------------
 
     @cython.cfunc
-    def note(self, time: cython.double, h: cython.double) -> cython.void:
-        """Note who touches whom after a substep of h seconds, which ends at `time`."""
-        if self.any_touch:
-            solver: Solver = self.solver
-            k: cython.int
-            for k in range(solver.arbiters.count()):
-                self.note_one(solver.arbiters.at(k))
-        self.close(time, h)
+    def note(self) -> cython.void:
+        """Note who touches whom after a step of the solver."""
+        solver: Solver = self.solver
+        k: cython.int
+        for k in range(solver.arbiters.count()):
+            self.note_one(solver.arbiters.at(k))
 
     @cython.cfunc
     def close(self, time: cython.double, h: cython.double) -> cython.void:
-        """Add up the notes of a substep."""
+        """Add up the notes of a substep of h seconds, which ends at `time`."""
         body: Body
-        touch: Touch
         for body in self.bodies:
-            for touch in body.contacts:
-                touch.close(time, h)
+            if body.contacts:
+                close_touches(body, time, h)
 
     @cython.cfunc
     def note_one(self, arbiter: Handle) -> cython.void:
-        """Note the solver's data of one contact, if it still touches."""
+        """Note the solver's data of one contact, if it has pushed or still touches."""
         first: cython.int = first_of(arbiter)
         second: cython.int = second_of(arbiter)
         swap: cython.bint = first < 0 or (second >= 0 and second < first)
         a: Body = self.numbers[second if swap else first]
         b: cython.int = first if swap else second
-        found: Pair | None = touching(a, b)
-        if found is None or is_void(arbiter):
-            return
-        touch: Touch = touch_between(a, owner_of(found, arbiter, not swap))
-        row: Row = touch.fresh()
-        row.x = row.y = row.vx = row.vy = 0.0
         impulse: Vector = impulse_of(arbiter)
         normal: Vector = normal_of(arbiter)
+        if is_void(arbiter):
+            return
+        if impulse.x == 0.0 and impulse.y == 0.0 and touching(a, b) is None:
+            return
+        row: Row = Row()
         row.impulse_x, row.impulse_y = impulse.x, impulse.y
         row.normal_x, row.normal_y = normal.x, normal.y
         count: cython.int = count_of(arbiter)
@@ -659,11 +654,14 @@ class Island:
         self.stand(row, arbiter, count, not swap)
         if b >= 0:
             row.add_speed(self.numbers[b], 1.0)
+        else:
+            b = owner_of(a, b, row.x, row.y)
         self.stand(row, arbiter, count, swap)
         row.add_speed(a, -1.0)
         if swap:
             row.normal_x, row.normal_y = -row.normal_x, -row.normal_y
         row.push_apart()
+        note_row(a, b, row)
 
     @cython.cfunc
     def stand(
@@ -693,25 +691,16 @@ def touching(a: Body, b: cython.int) -> Pair | None:
 
 
 @cython.cfunc
-def owner_of(pair: Pair, arbiter: Handle, second: cython.bint) -> cython.int:
-    """Return the number of the body or obstacle that the first body of a pair touches.
+def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cython.int:
+    """Return the number of the obstacle that a body touches where, of a wall by its number.
 
-    second: whether it is also the second in the solver's contact. A wall may be of several
-    obstacles: it is that in the middle of the contact's points which counts.
+    A wall may be of several obstacles.
     """
-    if not pair.is_wall:
-        return pair.other
-    count: cython.int = count_of(arbiter)
-    x: cython.double = pair.a.x
-    y: cython.double = pair.a.y
-    point: Vector
-    if count > 0:
-        point = point_of(arbiter, 0, second)
-        x, y = point.x, point.y
-    if count > 1:
-        point = point_of(arbiter, 1, second)
-        x, y = (x + point.x) / 2, (y + point.y) / 2
-    return pair.wall.owner(x, y)
+    pair: Pair
+    for pair in a.wall_pairs:
+        if pair.other == b:
+            return pair.wall.owner(x, y)
+    return b
 
 
 @cython.cfunc
