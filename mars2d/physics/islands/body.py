@@ -152,7 +152,6 @@ class Body:
     touches: cython.bint
     stopped: cython.bint
     bend: cython.double  # m/s^2, how fast its velocity may change
-    gains: cython.double  # m/s^2, how fast its drive may do that in the solver
     aim_x: cython.double  # the velocity that it is told
     aim_y: cython.double
     aim_spin: cython.double
@@ -167,6 +166,10 @@ class Body:
     back_vx: cython.double
     back_vy: cython.double
     back_spin: cython.double
+    moved_x: cython.double  # where the engine has moved it
+    moved_y: cython.double
+    moved_angle: cython.double
+    ahead: cython.bint  # whether it is elsewhere, by forces that acted meanwhile
     gone: cython.double  # m, its way in this control step
     # within a control step
     near: cython.bint  # whether it may touch something
@@ -279,7 +282,9 @@ class Body:
         self.rest_grip = self.rest_twist_grip = 0.0
         self.allowed = self.twist_allowed = self.held = self.twist_held = 0.0
         self.pull_x = self.pull_y = self.pull_torque = 0.0
-        self.bend = self.gains = 0.0
+        self.bend = 0.0
+        self.moved_x = self.moved_y = self.moved_angle = 0.0
+        self.ahead = False
         self.aim_x = self.aim_y = self.aim_spin = 0.0
         self.end_x = self.end_y = self.end_spin = self.lead_x = self.lead_y = 0.0
         self.back_x = self.back_y = self.back_angle = self.gone = 0.0
@@ -447,13 +452,11 @@ class Body:
             self.bend = self.pull_on_arc(self.turning) / self.mass
 
     @cython.cfunc
-    def lack(self, h: cython.double) -> cython.double:
-        """Return how far its velocity may be from its command within h s, m/s."""
-        self.follow(self.angle, 0.0)
-        turned: cython.double = h * max(abs(self.spin), abs(self.turning))
-        off: cython.double = length(self.aim_x - self.vx, self.aim_y - self.vy)
-        off += turned * length(self.forward, self.left)
-        return off + abs(self.turning - self.spin) * self.reach
+    def fall_back(self) -> cython.void:
+        """Go back to where the engine moved it."""
+        if self.ahead:
+            self.x, self.y, self.angle = self.moved_x, self.moved_y, self.moved_angle
+            self.ahead, self.placed = False, True
 
     @cython.cfunc
     def top_speed(self) -> cython.double:

@@ -325,6 +325,7 @@ class Island:
                 for body in self.bodies:
                     self.take(body, h)
                 self.measure()
+                self.hold_back()
                 self.weigh()
                 self.note()
             elapsed = duration if h == left else elapsed + h
@@ -348,6 +349,24 @@ class Island:
                 self.deepest = max(self.deepest, -pair.gap)
                 self.any_touch = pair.a.touches = pair.b.touches = True
                 pair.next_touch, pair.a.first_touch = pair.a.first_touch, pair
+
+    @cython.cfunc
+    def hold_back(self) -> cython.void:
+        """Leave bodies where the engine moved them that else would be too deep in each other.
+
+        It moved them by the velocities that they had, for which gaps are known to be wide enough.
+        """
+        pair: Pair
+        any_back: cython.bint = self.deepest > self.accuracy.entry
+        while any_back:
+            any_back = False
+            for pair in self.pairs:
+                if pair.gap < -self.accuracy.entry and (pair.a.ahead or pair.b.ahead):
+                    pair.a.fall_back()
+                    pair.b.fall_back()
+                    any_back = True
+            if any_back:
+                self.measure()
 
     @cython.cfunc
     def press(self) -> cython.void:
@@ -402,9 +421,6 @@ class Island:
         h: cython.double = self.contact_limit(left)
         for body in self.bodies:
             body.look()
-            body.gains = 0.0
-            if body.solved and body.is_robot and body.lack(h) * h > accuracy.entry / 8:
-                body.gains = body.strength / body.mass
         pair: Pair
         for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
@@ -515,6 +531,7 @@ class Island:
 
         What was not pushed by anything has moved in closed form, whatever it touches.
         """
+        body.ahead = body.is_pushed() or body.solved
         if body.is_pushed() or (body.solved and body.lead != 0.0):
             self.solver.share_out(body, h, body.shift)
             body.slips = True

@@ -144,21 +144,6 @@ class Pair:
         return length(x, y) - self.radii
 
     @cython.cfunc
-    def bends(self) -> cython.double:
-        """Return how fast the velocity of one as seen from the other may change, m/s^2.
-
-        What their drives do while they touch is the solver's.
-        """
-        bend: cython.double = self.a.bend
-        if self.gap > 0.0:
-            bend = bend + self.a.gains
-        if not self.is_wall:
-            bend = bend + self.b.bend
-            if self.gap > 0.0:
-                bend = bend + self.b.gains
-        return bend
-
-    @cython.cfunc
     def hidden(self) -> cython.bint:
         """Return whether another wall keeps the body from this one in the control step."""
         body: Body = self.a
@@ -222,10 +207,11 @@ def disc_time(pair: Pair, h: cython.double, depth: cython.double) -> cython.doub
     """
     x: cython.double = pair.a.vx
     y: cython.double = pair.a.vy
-    turn: cython.double = pair.bends()
+    turn: cython.double = pair.a.bend
     if not pair.is_wall:
         x = x - pair.b.vx
         y = y - pair.b.vy
+        turn = turn + pair.b.bend
     closing: cython.double = max(x * pair.normal_x + y * pair.normal_y, 0.0)
     room: cython.double = max(pair.gap + depth, depth / 64)
     if closing * h + 0.5 * turn * h * h <= room:
@@ -421,12 +407,13 @@ class PiecePair(Pair):
         spin: cython.double = 0.0 if still else body.spin
         vx: cython.double = 0.0 if still else -body.vx
         vy: cython.double = 0.0 if still else -body.vy
-        bends: cython.double = self.bends()
+        bends: cython.double = 0.0 if still else body.bend
         own: cython.double = 0.0
         if not stands:
             own = other.spin
             vx = vx + other.vx
             vy = vy + other.vy
+            bends = bends + other.bend
         nx: cython.double = self.edge_x
         ny: cython.double = self.edge_y
         corner: Corner
@@ -461,7 +448,6 @@ class PiecePair(Pair):
         b: Body = self.b
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
-        bends: cython.double = self.bends()
         corner: Corner
         other: Corner
         for corner in self.p.corners:
@@ -469,7 +455,7 @@ class PiecePair(Pair):
             speed: cython.double = (
                 nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
             )
-            turn: cython.double = bends + a.spin * a.spin * corner.lever
+            turn: cython.double = a.bend + a.spin * a.spin * corner.lever
             for other in self.q.corners:
                 room: cython.double = nx * other.x + ny * other.y - place + base + depth
                 closing: cython.double = speed
@@ -478,7 +464,7 @@ class PiecePair(Pair):
                     closing = closing - (
                         nx * b.vx + ny * b.vy + b.spin * (ny * other.x - nx * other.y)
                     )
-                    turns = turns + b.spin * b.spin * other.lever
+                    turns = turns + b.bend + b.spin * b.spin * other.lever
                 room = max(room, floor)
                 if closing * h + 0.5 * turns * h * h > room:
                     h = min(h, time_to_close(room, closing, turns))
@@ -504,7 +490,6 @@ class PiecePair(Pair):
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
         half: cython.double = 0.5 * h * h
-        bends: cython.double = self.bends()
         front: cython.double = -1e300
         back: cython.double = 1e300
         corner: Corner
@@ -512,13 +497,13 @@ class PiecePair(Pair):
             speed: cython.double = (
                 nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
             )
-            turn: cython.double = bends + a.spin * a.spin * corner.lever
+            turn: cython.double = a.bend + a.spin * a.spin * corner.lever
             front = max(front, nx * corner.x + ny * corner.y + speed * h + turn * half)
         for corner in self.q.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             if not self.is_wall:
                 speed = nx * b.vx + ny * b.vy + b.spin * (ny * corner.x - nx * corner.y)
-                turn = b.spin * b.spin * corner.lever
+                turn = b.bend + b.spin * b.spin * corner.lever
                 place = place + speed * h - turn * half
             back = min(back, place)
         return back - front + room >= 0.0

@@ -419,6 +419,7 @@ class Solver:
             where: Vector = position_of(body.handle)
             fast: Vector = velocity_of(body.handle)
             body.x, body.y, body.angle = where.x, where.y, angle_of(body.handle)
+            body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, spin_of(body.handle)
             if not body.is_robot and body.engaged:
                 body.held = used_of(body.pivot) / h
