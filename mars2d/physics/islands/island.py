@@ -536,12 +536,13 @@ class Island:
             self.solver.share_out(body, h, body.shift)
             body.slips = True
             return
-        if body.solved:
-            body.go_back()
+        solved: cython.bint = body.solved
+        body.go_back()
+        if solved:
             self.foresee(body, h)
-        else:
-            body.x, body.y, body.angle = body.back_x, body.back_y, body.back_angle
         body.advance(h)
+        if solved:
+            body.part(h)
         self.arrive(body)
 
     # -- without forces -----------------------------------------------------------------------

@@ -323,13 +323,16 @@ class Solver:
         The engine turns back what is beyond a limit, at a bounded speed, and at none does nothing.
         """
         speed: cython.double = max(tie.rebound * abs(tie.turning), 1e-9)
-        beyond: cython.double = 2 * speed * h
+        beyond: cython.double = (2 * speed + abs(tie.turning)) * h
         least: cython.double = tie.least
         largest: cython.double = tie.largest
+        tie.hits = True
         if tie.angle + tie.turning * h >= largest:
             largest -= beyond
         elif tie.angle + tie.turning * h <= least:
             least += beyond
+        else:
+            tie.hits = False
         k: cython.int
         part: Held
         for k in range(len(tie.parts)):
@@ -409,6 +412,7 @@ class Solver:
         for tie in self.ties:
             if tie.is_rope:
                 self.draw_in(tie, tie.turn * h)
+            tie.hits = tie.is_rope and tie.slack > 0.0
             if tie.largest < 1e300:
                 self.rebound(tie, h)
         for body in self.bodies:
@@ -419,6 +423,8 @@ class Solver:
             where: Vector = position_of(body.handle)
             fast: Vector = velocity_of(body.handle)
             body.x, body.y, body.angle = where.x, where.y, angle_of(body.handle)
+            if self.ties:
+                body.advance_half(h)
             body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, spin_of(body.handle)
             if not body.is_robot and body.engaged:
@@ -507,15 +513,12 @@ class Solver:
             self.brake(body, h)
         body.pull_turn = body.pull_torque
         if body.lead != 0.0:  # the engine's velocities and forces are those at the centre of mass
-            body.lean(body.angle)
-            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
             if not body.solved:
                 body.lean(body.angle + h * body.aim_spin)
             vx, vy = vx - spin * body.lead_y, vy + spin * body.lead_x
-        if not body.solved:
-            self.set_off(body, vx, vy, spin, h)
-        elif body.placed:
-            put(body.handle, body.x, body.y, body.angle)
+            body.lean(body.angle)
+            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
+        self.set_off(body, vx, vy, spin, h)
         body.placed = False
         if body.pulled:
             push(body.handle, body.pull_x, body.pull_y, body.pull_turn)
@@ -532,15 +535,23 @@ class Solver:
         spin: cython.double,
         h: cython.double,
     ) -> cython.void:
-        """Put a body that moves in closed form where it gets to its place in h s at its end's velocity.
+        """Put a body where the engine begins with it, which then moves it at a velocity for h s.
 
-        So what it hits meets it as fast as it is then. vx, vy: of its centre of mass.
+        One that moves in closed form gets to its place at the velocity that it has there, so what
+        it hits meets it as fast as it is then. In the solver with joints each begins half a step
+        behind, since these are to act on it in the middle. vx, vy: of its centre of mass.
         """
-        if not body.placed and body.aim_x == vx and body.aim_y == vy and body.aim_spin == spin:
+        goes: cython.bint = vx != 0.0 or vy != 0.0 or spin != 0.0
+        x: cython.double = body.x + body.lead_x
+        y: cython.double = body.y + body.lead_y
+        angle: cython.double = body.angle
+        if not body.solved and (body.aim_x != vx or body.aim_y != vy or body.aim_spin != spin):
+            x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
+            angle += h * (body.aim_spin - spin)
+        elif not body.placed and not (goes and self.ties):
             return
-        x: cython.double = body.x + h * body.aim_x + body.lead_x - h * vx
-        y: cython.double = body.y + h * body.aim_y + body.lead_y - h * vy
-        angle: cython.double = body.angle + h * body.aim_spin - h * spin
+        if self.ties:
+            x, y, angle = x - h / 2 * vx, y - h / 2 * vy, angle - h / 2 * spin
         if body.lead != 0.0:
             body.lean(angle)
             x, y = x - body.lead_x, y - body.lead_y
