@@ -446,8 +446,10 @@ class Island:
         for body in self.bodies:
             body.touches = body.touches or body.pulled
             body.slips = body.slips or body.touches
-            # Where others touch, a robot that has just lost touch stays with them for a while.
+            # Where others touch, a robot that has just lost touch stays with them for a while, and
+            # so does one at a rope that has just gone slack.
             lately: cython.bint = self.any_touch and body.since <= accuracy.linger
+            lately = lately or len(self.ties) > 0
             body.solved = body.touches or (
                 body.is_robot and body.slips and (body.lead != 0.0 or lately)
             )
@@ -464,7 +466,7 @@ class Island:
         for body in self.bodies:
             if body.solved and body.limited and not body.touches:
                 h = min(h, accuracy.swaying)
-            if body.is_robot and body.solved and body.since > 0:
+            if body.is_robot and body.solved and body.since > accuracy.linger:
                 h = min(h, body.time_to_brake(accuracy.turned))
             if body.touches and body.slows > 0.0 and self.push_step >= 1e300:
                 # Where no drive pushes it on the floor stops it: there the substep ends.
