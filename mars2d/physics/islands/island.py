@@ -297,12 +297,13 @@ class Island:
         count: cython.int = 0
         body: Body
         self.set_accuracy()
+        self.measure()
         for body in self.bodies:
             body.gone = 0.0
-            self.any_solved = self.any_solved or body.solver is not None
+            if body.solver is not None and (self.any_touch or self.ties or body.pulled):
+                self.any_solved = True
         if self.any_solved:
             self.land()
-        self.measure()
         while elapsed < duration:
             if self.any_touch:
                 self.press()
@@ -543,7 +544,7 @@ class Island:
         """
         body.ahead = body.is_pushed() or body.solved
         if body.is_pushed() or (body.solved and body.lead != 0.0):
-            self.solver.share_out(body, h, body.shift)
+            self.solver.share_out(body, h, body.shift, body.lasting)
             body.slips = True
             if not body.solved and body.shift > 0.0 and not body.tied:
                 # From the blow on its drive, or the floor, has acted: as in the open.
