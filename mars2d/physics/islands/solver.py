@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.arithmetic import decay_base, length
+from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, length
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.chipmunk import (
     GEAR,
+    GROOVE,
     NOTHING,
     PIVOT,
     ROTARY_LIMIT,
@@ -158,7 +159,14 @@ class Solver:
     @cython.cfunc
     def hold_by(self, body: Body, holder: Handle) -> cython.void:
         """Make the joints of a body start again: they make it move as its holder does."""
-        body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
+        if body.wheeled:  # grooves are free along
+            body.pivot = make_joint(GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
+            body.side = make_joint(GROOVE, body.side, holder, body.handle, ENDS, 1.0, 0.0, 0.0)
+            set_joint(body.side, 0.0, True)
+            set_max_bias(body.side, 0.0)
+            body.tread_ahead = body.tread_across = 0.0
+        else:
+            body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
         body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
         set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
         set_joint(body.gear, 0.0, True)
@@ -179,6 +187,8 @@ class Solver:
     def engage(self, body: Body) -> cython.void:
         """Let its joints act."""
         add_joint(self.space, body.pivot)
+        if body.wheeled:
+            add_joint(self.space, body.side)
         add_joint(self.space, body.gear)
         body.engaged = True
 
@@ -186,6 +196,8 @@ class Solver:
     def disengage(self, body: Body) -> cython.void:
         """Take its joints out."""
         remove_joint(self.space, body.pivot)
+        if body.wheeled:
+            remove_joint(self.space, body.side)
         remove_joint(self.space, body.gear)
         body.engaged = False
 
@@ -424,8 +436,10 @@ class Solver:
             if not body.is_robot and body.engaged:
                 body.held = used_of(body.pivot) / h
                 body.twist_held = used_of(body.gear) / h
+            if body.is_robot and body.engaged and body.grip_across < 1e300:
+                self.feel(body, h)
             if body.is_robot and body.solved:
-                share: cython.double = used_of(body.pivot) / max(body.bound * h, 1e-300)
+                share: cython.double = self.used_by(body) / max(body.bound * h, 1e-300)
                 body.effort = max(body.effort, share)
                 share = used_of(body.gear) / (body.torque * h)
                 body.effort = max(body.effort, share)
@@ -433,11 +447,33 @@ class Solver:
     @cython.cfunc
     def take_drag(self, body: Body) -> cython.void:
         """Find the impulse on a body of its drive, or of the floor under it."""
-        drag: Vector = drag_of(body.pivot)
+        drag: Vector = drag_of(body.pivot, GROOVE if body.wheeled else PIVOT)
+        body.drag_x, body.drag_y = drag.x, drag.y
+        if body.wheeled:
+            drag = drag_of(body.side, GROOVE)
+            body.drag_x, body.drag_y = body.drag_x + drag.x, body.drag_y + drag.y
         if body.lead != 0.0:
             body.lean(body.angle)
-        body.drag_x, body.drag_y = drag.x, drag.y
-        body.drag_turn = twist_of(body.gear) - body.lead_x * drag.y + body.lead_y * drag.x
+        body.drag_turn = twist_of(body.gear) - body.lead_x * body.drag_y + body.lead_y * body.drag_x
+
+    @cython.cfunc
+    def used_by(self, body: Body) -> cython.double:
+        """Return how large the impulse on a body of its drive, or of the floor, was, N s."""
+        if body.wheeled:
+            return length(used_of(body.pivot), used_of(body.side))
+        return used_of(body.pivot)
+
+    @cython.cfunc
+    def feel(self, body: Body, h: cython.double) -> cython.void:
+        """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
+        c: cython.double
+        s: cython.double
+        angle: cython.double = body.back_angle + h * body.back_spin
+        c, s = cosine_sine(angle)
+        self.take_drag(body)
+        body.tread_ahead = (c * body.drag_x + s * body.drag_y) / h
+        body.tread_across = (c * body.drag_y - s * body.drag_x) / h
+        body.bear(body.drag_x, body.drag_y, angle, body.vx, body.vy)
 
     @cython.cfunc
     def share_out(self, body: Body, h: cython.double, shift: cython.double) -> cython.void:
@@ -500,7 +536,9 @@ class Solver:
             turning: cython.double = body.aim_spin
             body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
             aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
-            if body.grips:
+            if body.wheeled:
+                self.tread(body, vx, vy, x, y, h)
+            elif body.grips:
                 self.grasp(body, h)
             body.aim_x, body.aim_y, body.aim_spin = x, y, turning
         if not body.is_robot and body.rest_grip > 0.0:
@@ -552,7 +590,7 @@ class Solver:
 
         That is where it has pushed in the step before, or where its command is.
         """
-        drag: Vector = drag_of(body.pivot)
+        drag: Vector = drag_of(body.pivot, PIVOT)
         if length(drag.x, drag.y) > 1e-9 * body.strength * h:
             body.bear(drag.x, drag.y, body.angle, body.vx, body.vy)
         else:
@@ -560,6 +598,40 @@ class Solver:
             y: cython.double = body.aim_y - body.vy
             body.bear(x, y, body.angle, body.vx, body.vy)
         set_max_force(body.pivot, body.bound)
+
+    @cython.cfunc
+    def tread(
+        self,
+        body: Body,
+        vx: cython.double,
+        vy: cython.double,
+        x: cython.double,
+        y: cython.double,
+        h: cython.double,
+    ) -> cython.void:
+        """Put the joints of a robot's wheels where it will be, and bound their forces.
+
+        vx, vy: its velocity; x, y: that in closed form. What it takes to move as commanded is what
+        the wheels bore in the step before, and what was lacking then.
+        """
+        c: cython.double
+        s: cython.double
+        angle: cython.double = body.angle + h * (body.spin if body.solved else body.turning)
+        c, s = cosine_sine(angle)
+        if body.solved:
+            x, y = vx, vy
+        x, y = body.x + h * x, body.y + h * y
+        if body.solved and body.lead != 0.0:  # it goes round its centre of mass
+            body.lean(body.angle)
+            x += body.lead_x - h * body.spin * body.lead_y - body.lead * c
+            y += body.lead_y + h * body.spin * body.lead_x - body.lead * s
+        put(body.control, x, y, angle)
+        x, y = body.aim_x - vx, body.aim_y - vy
+        rate: cython.double = body.mass / h
+        ahead: cython.double = body.tread_ahead + rate * (c * x + s * y)
+        body.divide(ahead, body.tread_across + rate * (c * y - s * x), c * vx + s * vy)
+        set_max_force(body.pivot, body.bound_ahead)
+        set_max_force(body.side, body.bound_across)
 
     @cython.cfunc
     def brake(self, body: Body, h: cython.double) -> cython.void:
@@ -606,6 +678,8 @@ def free_things_of(body: Body) -> cython.void:
     body.shapes = []
     if body.is_robot or body.rest_grip > 0.0:
         free_joint(body.pivot)
+        if body.wheeled:
+            free_joint(body.side)
         free_joint(body.gear)
     if body.is_robot:
         free_body(body.control)
