@@ -127,6 +127,7 @@ class Body:
     bound: cython.double  # N, and in the direction and at the speed of now
     bound_ahead: cython.double  # N, that of its motors on its wheels now
     bound_across: cython.double  # N, and of what the wheels hold
+    skid: cython.double  # how much more they would have to bear than they can, a factor
     tread_ahead: cython.double  # N, what they have borne in the last substep
     tread_across: cython.double
     limited: cython.bint  # whether its force and torque bound its acceleration in the open, too
@@ -284,6 +285,7 @@ class Body:
         self.grip_ahead = self.grip_across = 1e300
         self.strength = self.bound = self.bound_ahead = self.bound_across = 0.0
         self.wheeled, self.tread_ahead, self.tread_across = False, 0.0, 0.0
+        self.skid = 1.0
         self.since, self.effort = 1 << 20, 0.0
         self.grip = self.twist_grip = self.lever = self.slows = self.stops = 0.0
         self.rest_grip = self.rest_twist_grip = 0.0
@@ -573,6 +575,7 @@ class Body:
         a: cython.double = abs(ahead) / self.grip_ahead
         b: cython.double = abs(across) / self.grip_across
         off: cython.double = max(length(a, b), 1.0)
+        self.skid = off
         a, b = min(a / off, motors / self.grip_ahead), b / off
         self.bound_across = self.grip_across * sqrt(max(1.0 - a * a, 0.0))
         self.bound_ahead = min(motors, self.grip_ahead * sqrt(max(1.0 - b * b, 0.0)))

@@ -197,12 +197,17 @@ class Thrust:
         lack: cython.double = c * x + s * y
         hold: cython.double = c * y - s * x
         body.divide(rate * lack, rate * hold, speed)
-        push: cython.double = min(max(lack, -body.bound_ahead / rate), body.bound_ahead / rate)
-        body.divide(rate * lack, rate * hold, speed + push / 2)
-        push = min(max(lack, -body.bound_ahead / rate), body.bound_ahead / rate)
+        push: cython.double = within(lack, body.bound_ahead / rate)
+        slip_x: cython.double = lack
+        slip_y: cython.double = hold
+        if body.skid > 2.0:  # slip changes by little: its mean gives the direction
+            slip_x = 2 * (lack + aside * body.left) - push
+            slip_y = 2 * (hold - aside * body.forward) - within(hold, body.bound_across / rate)
+        body.divide(rate * slip_x, rate * slip_y, speed + push / 2)
+        push = within(lack, body.bound_ahead / rate)
         hold -= (lack - push) * aside / max(near, 0.1)
         most: cython.double = body.bound_across / rate
-        hold = min(max(hold, -most), most)
+        hold = within(hold, most)
         share: cython.double = 0.5
         if not self.bent and most > 0.0:  # it stops to skid within the part
             share = 1.0 - 0.5 * abs(hold) / most
@@ -210,3 +215,9 @@ class Thrust:
         self.way_y += part * (self.vy + s * push / 2 + c * hold * share)
         self.vx += c * push - s * hold
         self.vy += s * push + c * hold
+
+
+@cython.cfunc
+def within(x: cython.double, most: cython.double) -> cython.double:
+    """Return the number nearest to x that is no larger than a bound."""
+    return min(max(x, -most), most)
