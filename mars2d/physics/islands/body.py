@@ -276,16 +276,15 @@ class Body:
         self.mass = self.moment = self.lead = 0.0
         self.is_disc = self.slips = self.solved = self.in_robot_frame = self.holds = self.engaged = False
         self.pulled = self.touches = self.near = self.done = self.placed = self.made = False
-        self.stopped = self.limited = self.gathers = False
+        self.stopped = self.limited = self.gathers = self.ahead = False
         self.radius = self.offset_x = self.offset_y = self.offset = self.reach = 0.0
         self.x = self.y = self.angle = self.vx = self.vy = self.spin = 0.0
         self.center_x = self.center_y = 0.0
         self.forward = self.left = self.turning = self.force = self.torque = self.rim = 0.0
-        self.grips, self.no_load_speed = False, 1e300
+        self.grips, self.wheeled, self.no_load_speed = False, False, 1e300
         self.grip_ahead = self.grip_across = 1e300
         self.strength = self.bound = self.bound_ahead = self.bound_across = 0.0
-        self.wheeled, self.tread_ahead, self.tread_across = False, 0.0, 0.0
-        self.skid = 1.0
+        self.tread_ahead = self.tread_across = self.skid = 0.0
         self.since, self.effort = 1 << 20, 0.0
         self.grip = self.twist_grip = self.lever = self.slows = self.stops = 0.0
         self.rest_grip = self.rest_twist_grip = 0.0
@@ -293,7 +292,6 @@ class Body:
         self.pull_x = self.pull_y = self.pull_torque = 0.0
         self.bend = 0.0
         self.moved_x = self.moved_y = self.moved_angle = 0.0
-        self.ahead = False
         self.aim_x = self.aim_y = self.aim_spin = 0.0
         self.end_x = self.end_y = self.end_spin = self.lead_x = self.lead_y = 0.0
         self.back_x = self.back_y = self.back_angle = self.gone = 0.0

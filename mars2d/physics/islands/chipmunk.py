@@ -16,15 +16,16 @@ from pymunk._chipmunk_cffi import ffi, lib
 from mars2d.physics.islands.arithmetic import cosine_sine, exponential
 
 __all__ = [
-    "DAMPED_SPRING", "GEAR", "GROOVE", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
-    "Arbiters", "Handle", "Seams", "Vector", "add_body", "add_joint", "add_shape", "aim",
-    "angle_of", "arm_of", "bounce_of", "check_signals", "count_of", "depth_of", "drag_of", "first_of",
-    "free_body", "free_joint", "free_shape", "free_space", "ground_of", "impulse_of", "is_void",
-    "make_joint", "new_body", "new_control", "new_disc", "new_ground", "new_polygon",
-    "new_segment", "new_space", "normal_of", "point_of", "position_of", "push", "push_of", "put",
-    "remove_body", "remove_joint", "remove_shape", "rub_of", "scale", "second_of",
-    "set_iterations", "set_joint", "set_limits", "set_max_bias", "set_max_force", "set_surface",
-    "sew", "spin_of", "step", "twist_of", "used_of", "velocity_of", "watch", "weight_at",
+    "DAMPED_SPRING", "GEAR", "GROOVE", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT",
+    "ROTARY_SPRING", "SLIDE", "Arbiters", "Handle", "Seams", "Vector", "add_body", "add_joint",
+    "add_shape", "aim", "angle_of", "arm_of", "bounce_of", "check_signals", "count_of",
+    "depth_of", "drag_of", "first_of", "free_body", "free_joint", "free_shape", "free_space",
+    "ground_of", "impulse_of", "is_void", "make_joint", "new_body", "new_control", "new_disc",
+    "new_ground", "new_polygon", "new_segment", "new_space", "normal_of", "point_of",
+    "position_of", "push", "push_of", "put", "remove_body", "remove_joint", "remove_shape",
+    "rub_of", "scale", "second_of", "set_iterations", "set_joint", "set_limits", "set_max_bias",
+    "set_max_force", "set_surface", "sew", "spin_of", "step", "twist_of", "used_of",
+    "velocity_of", "watch", "weight_at",
 ]  # fmt: skip
 
 Handle: TypeAlias = Any
