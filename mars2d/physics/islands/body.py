@@ -392,6 +392,28 @@ class Body:
         self.aim_spin = self.turning
 
     @cython.cfunc
+    def advance_half(self, h: cython.double) -> cython.void:
+        """Go on for half of h s at the velocity that its centre of mass had before the step."""
+        if self.lead != 0.0:
+            self.lean(self.angle)
+            self.x, self.y = self.x + self.lead_x, self.y + self.lead_y
+        self.x += h / 2 * self.before_x
+        self.y += h / 2 * self.before_y
+        self.angle += h / 2 * self.before_spin
+        if self.lead != 0.0:
+            self.lean(self.angle)
+            self.x, self.y = self.x - self.lead_x, self.y - self.lead_y
+
+    @cython.cfunc
+    def part(self, h: cython.double) -> cython.void:
+        """Go as far as the engine moved it in h s to mend overlaps, beyond its velocity's way."""
+        x: cython.double = self.moved_x - (self.back_x + h * self.back_vx)
+        y: cython.double = self.moved_y - (self.back_y + h * self.back_vy)
+        turn: cython.double = self.moved_angle - (self.back_angle + h * self.back_spin)
+        if length(x, y) + self.reach * abs(turn) > 1e-12:  # no rounding error
+            self.x, self.y, self.angle = self.x + x, self.y + y, self.angle + turn
+
+    @cython.cfunc
     def remember(self) -> cython.void:
         """Note where and how it is before a substep."""
         self.back_x, self.back_y, self.back_angle = self.x, self.y, self.angle
@@ -499,6 +521,16 @@ class Body:
         self.account(x, self.vy + self.spin * self.lead_x, self.spin)
 
     # -- its drive ----------------------------------------------------------------------------
+
+    @cython.cfunc
+    def time_to_brake(self, turned: cython.double) -> cython.double:
+        """Return when its drive stops the spin that a blow has given a robot: there a substep ends.
+
+        It has a lower bound, in which its rim turns by `turned`, too little to be seen.
+        """
+        spin: cython.double = abs(self.spin - self.turning)
+        moment: cython.double = self.moment + self.mass * self.lead * self.lead
+        return max(spin * moment / self.torque, turned / max(spin * self.rim, 1e-300))
 
     @cython.cfunc
     def out_of_reach(self, h: cython.double) -> cython.bint:

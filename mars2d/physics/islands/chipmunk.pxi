@@ -276,17 +276,17 @@ cdef extern from *:
     static double fading(void *spring, int rest, int felt) {
         void *space = engine.cpConstraintGetSpace(spring);
         double *n = spring, h = engine.cpSpaceGetCurrentTimeStep(space);
-        return -(n[rest + 2] * h) / n[felt];
+        return n[rest + 2] * h / n[felt];
     }
-    static double pull_of(void *spring, double length, double lost) {
+    static double pull_of(void *spring, double length, double lost, double surge) {
         double *n = spring;
         n[LOST] = lost;
-        return (n[REST] - length) * n[REST + 1];
+        return (n[REST] - length) * n[REST + 1] * surge;
     }
-    static double twist_to(void *spring, double angle, double lost) {
+    static double twist_to(void *spring, double angle, double lost, double surge) {
         double *n = spring;
         n[LOST_TURNING] = lost;
-        return (angle - n[REST_ANGLE]) * n[REST_ANGLE + 1];
+        return (angle - n[REST_ANGLE]) * n[REST_ANGLE + 1] * surge;
     }
     static Vector drag(void *joint, int at) {
         return vector(((double *)joint)[at], ((double *)joint)[at + 1]);
@@ -410,8 +410,8 @@ cdef extern from *:
     void *second_body(void *) noexcept
     enum: REST, REST_ANGLE, FELT, FELT_TURNING
     double fading(void *, int, int) noexcept
-    double pull_of(void *, double, double) noexcept
-    double twist_to(void *, double, double) noexcept
+    double pull_of(void *, double, double, double) noexcept
+    double twist_to(void *, double, double, double) noexcept
     Vector drag(void *, int) noexcept
     double twist(void *) noexcept
     void mend_in(void *) noexcept
@@ -604,10 +604,12 @@ cdef Handle make_joint(
     return joint
 
 cdef double pull(void *spring, double length) noexcept:
-    return pull_of(spring, length, 1.0 - exponential(fading(spring, REST, FELT)))
+    cdef double fades = fading(spring, REST, FELT)
+    return pull_of(spring, length, 1.0 - exponential(-fades), surge(fades))
 
 cdef double twist_back(void *spring, double angle) noexcept:
-    return twist_to(spring, angle, 1.0 - exponential(fading(spring, REST_ANGLE, FELT_TURNING)))
+    cdef double fades = fading(spring, REST_ANGLE, FELT_TURNING)
+    return twist_to(spring, angle, 1.0 - exponential(-fades), surge(fades))
 
 cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
     engine.cpConstraintSetErrorBias(joint, bias)

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.physics.islands.arithmetic import cosine_sine, exponential
+from mars2d.physics.islands.arithmetic import cosine_sine, exponential, surge
 
 __all__ = [
     "DAMPED_SPRING", "GEAR", "GROOVE", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT",
@@ -316,20 +316,27 @@ everywhere.
 
 @ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _PULL(spring: Handle, length: float) -> float:  # noqa: N802
-    numbers = ffi.cast("double *", spring)
-    h = lib.cpSpaceGetCurrentTimeStep(lib.cpConstraintGetSpace(spring))
-    numbers[LOST] = 1.0 - exponential(-(numbers[REST + 2] * h) / numbers[FELT])
-    return float((numbers[REST] - length) * numbers[REST + 1])
+    rest = float(ffi.cast("double *", spring)[REST])
+    return _pulled(rest - length, spring, REST, LOST, FELT)
 
 
 @ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _TWIST(spring: Handle, angle: float) -> float:  # noqa: N802
+    rest = float(ffi.cast("double *", spring)[REST_ANGLE])
+    return _pulled(angle - rest, spring, REST_ANGLE, LOST_TURNING, FELT_TURNING)
+
+
+def _pulled(off: float, spring: Handle, rest: int, lost: int, felt: int) -> float:
+    """Return the force of a spring that is off its rest, and set the speed that its damper takes.
+
+    The engine lets the force act at once, and the damper after it. So the force is larger by as
+    much as the damper takes of it, too much: it should take of it as it comes.
+    """
     numbers = ffi.cast("double *", spring)
     h = lib.cpSpaceGetCurrentTimeStep(lib.cpConstraintGetSpace(spring))
-    numbers[LOST_TURNING] = 1.0 - exponential(
-        -(numbers[REST_ANGLE + 2] * h) / numbers[FELT_TURNING]
-    )
-    return float((angle - numbers[REST_ANGLE]) * numbers[REST_ANGLE + 1])
+    fades = float(numbers[rest + 2]) * h / float(numbers[felt])
+    numbers[lost] = 1.0 - exponential(-fades)
+    return off * float(numbers[rest + 1]) * surge(fades)
 
 
 def _damp(kind: int, spring: Handle) -> None:

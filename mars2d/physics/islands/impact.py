@@ -252,7 +252,7 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     for tie in solver.ties:
         group = group_of(tie.a)
         group.held_by += solver.pull_of(tie)
-        if tie.is_rope and tie.slack > 0.0 and solver.pull_of(tie) > 0.0:
+        if tie.hits and solver.pull_of(tie) > 0.0:
             group.lasting = False
     for body in solver.bodies:
         group = group_of(body)
@@ -267,13 +267,15 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
         )
         if gained > group.held_by * (1 + 1e-9):
             group.lasting = False
+    middle: cython.double = h / 2 if solver.ties else 0.0
     for body in solver.bodies:
         group = group_of(body)
-        body.shift = 0.0
         if group.lasting:
             body.shift = h / 2
         elif group.hit_power > 0.0:
-            body.shift = group.hit_depth / group.hit_power
+            body.shift = middle + group.hit_depth / group.hit_power
+        else:
+            body.shift = middle
 
 
 @cython.cfunc

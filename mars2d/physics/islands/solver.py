@@ -335,13 +335,16 @@ class Solver:
         The engine turns back what is beyond a limit, at a bounded speed, and at none does nothing.
         """
         speed: cython.double = max(tie.rebound * abs(tie.turning), 1e-9)
-        beyond: cython.double = 2 * speed * h
+        beyond: cython.double = (2 * speed + abs(tie.turning)) * h
         least: cython.double = tie.least
         largest: cython.double = tie.largest
+        tie.hits = True
         if tie.angle + tie.turning * h >= largest:
             largest -= beyond
         elif tie.angle + tie.turning * h <= least:
             least += beyond
+        else:
+            tie.hits = False
         k: cython.int
         part: Held
         for k in range(len(tie.parts)):
@@ -421,6 +424,7 @@ class Solver:
         for tie in self.ties:
             if tie.is_rope:
                 self.draw_in(tie, tie.turn * h)
+            tie.hits = tie.is_rope and tie.slack > 0.0
             if tie.largest < 1e300:
                 self.rebound(tie, h)
         for body in self.bodies:
@@ -431,6 +435,8 @@ class Solver:
             where: Vector = position_of(body.handle)
             fast: Vector = velocity_of(body.handle)
             body.x, body.y, body.angle = where.x, where.y, angle_of(body.handle)
+            if self.ties:
+                body.advance_half(h)
             body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, spin_of(body.handle)
             if not body.is_robot and body.engaged:
@@ -464,11 +470,16 @@ class Solver:
         return used_of(body.pivot)
 
     @cython.cfunc
+    def lag(self, h: cython.double) -> cython.double:
+        """Return how long after the beginning of a step of h s joints find bodies where they are."""
+        return h / 2 if self.ties else h
+
+    @cython.cfunc
     def feel(self, body: Body, h: cython.double) -> cython.void:
         """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
         c: cython.double
         s: cython.double
-        angle: cython.double = body.back_angle + h * body.back_spin
+        angle: cython.double = body.back_angle + self.lag(h) * body.back_spin
         c, s = cosine_sine(angle)
         self.take_drag(body)
         body.tread_ahead = (c * body.drag_x + s * body.drag_y) / h
@@ -534,26 +545,24 @@ class Solver:
             x: cython.double = body.aim_x
             y: cython.double = body.aim_y
             turning: cython.double = body.aim_spin
-            body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
-            aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
             if body.wheeled:
-                self.tread(body, vx, vy, x, y, h)
-            elif body.grips:
-                self.grasp(body, h)
+                self.tread(body, vx, vy, h)
+            else:
+                body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
+                aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+                if body.grips:
+                    self.grasp(body, h)
             body.aim_x, body.aim_y, body.aim_spin = x, y, turning
         if not body.is_robot and body.rest_grip > 0.0:
             self.brake(body, h)
         body.pull_turn = body.pull_torque
         if body.lead != 0.0:  # the engine's velocities and forces are those at the centre of mass
-            body.lean(body.angle)
-            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
             if not body.solved:
                 body.lean(body.angle + h * body.aim_spin)
             vx, vy = vx - spin * body.lead_y, vy + spin * body.lead_x
-        if not body.solved:
-            self.set_off(body, vx, vy, spin, h)
-        elif body.placed:
-            put(body.handle, body.x, body.y, body.angle)
+            body.lean(body.angle)
+            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
+        self.set_off(body, vx, vy, spin, h)
         body.placed = False
         if body.pulled:
             push(body.handle, body.pull_x, body.pull_y, body.pull_turn)
@@ -570,15 +579,23 @@ class Solver:
         spin: cython.double,
         h: cython.double,
     ) -> cython.void:
-        """Put a body that moves in closed form where it gets to its place in h s at its end's velocity.
+        """Put a body where the engine begins with it, which then moves it at a velocity for h s.
 
-        So what it hits meets it as fast as it is then. vx, vy: of its centre of mass.
+        One that moves in closed form gets to its place at the velocity that it has there, so what
+        it hits meets it as fast as it is then. In the solver with joints each begins half a step
+        behind, since these are to act on it in the middle. vx, vy: of its centre of mass.
         """
-        if not body.placed and body.aim_x == vx and body.aim_y == vy and body.aim_spin == spin:
+        goes: cython.bint = vx != 0.0 or vy != 0.0 or spin != 0.0
+        x: cython.double = body.x + body.lead_x
+        y: cython.double = body.y + body.lead_y
+        angle: cython.double = body.angle
+        if not body.solved and (body.aim_x != vx or body.aim_y != vy or body.aim_spin != spin):
+            x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
+            angle += h * (body.aim_spin - spin)
+        elif not body.placed and not (goes and self.ties):
             return
-        x: cython.double = body.x + h * body.aim_x + body.lead_x - h * vx
-        y: cython.double = body.y + h * body.aim_y + body.lead_y - h * vy
-        angle: cython.double = body.angle + h * body.aim_spin - h * spin
+        if self.ties:
+            x, y, angle = x - h / 2 * vx, y - h / 2 * vy, angle - h / 2 * spin
         if body.lead != 0.0:
             body.lean(angle)
             x, y = x - body.lead_x, y - body.lead_y
@@ -605,26 +622,28 @@ class Solver:
         body: Body,
         vx: cython.double,
         vy: cython.double,
-        x: cython.double,
-        y: cython.double,
         h: cython.double,
     ) -> cython.void:
         """Put the joints of a robot's wheels where it will be, and bound their forces.
 
-        vx, vy: its velocity; x, y: that in closed form. What it takes to move as commanded is what
-        the wheels bore in the step before, and what was lacking then.
+        vx, vy: its velocity. What it takes to move as commanded is what the wheels bore in the step
+        before, and what was lacking then.
         """
         c: cython.double
         s: cython.double
-        angle: cython.double = body.angle + h * (body.spin if body.solved else body.turning)
+        late: cython.double = self.lag(h)
+        angle: cython.double = body.angle + late * (body.spin if body.solved else body.turning)
         c, s = cosine_sine(angle)
-        if body.solved:
-            x, y = vx, vy
-        x, y = body.x + h * x, body.y + h * y
+        x: cython.double = body.x + late * vx
+        y: cython.double = body.y + late * vy
+        if not body.solved:
+            x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
         if body.solved and body.lead != 0.0:  # it goes round its centre of mass
             body.lean(body.angle)
-            x += body.lead_x - h * body.spin * body.lead_y - body.lead * c
-            y += body.lead_y + h * body.spin * body.lead_x - body.lead * s
+            x += body.lead_x - late * body.spin * body.lead_y - body.lead * c
+            y += body.lead_y + late * body.spin * body.lead_x - body.lead * s
+        body.follow(angle, 0.0)
+        aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
         put(body.control, x, y, angle)
         x, y = body.aim_x - vx, body.aim_y - vy
         rate: cython.double = body.mass / h
