@@ -465,13 +465,12 @@ class Solver:
     @cython.cfunc
     def used_by(self, body: Body) -> cython.double:
         """Return how large the impulse on a body of its drive, or of the floor, was, N s."""
-        if body.wheeled:
-            return length(used_of(body.pivot), used_of(body.side))
-        return used_of(body.pivot)
+        used: cython.double = used_of(body.pivot)
+        return length(used, used_of(body.side)) if body.wheeled else used
 
     @cython.cfunc
     def lag(self, h: cython.double) -> cython.double:
-        """Return how long after the beginning of a step of h s joints find bodies where they are."""
+        """Return how long after a step of h s begins joints find bodies where they are."""
         return h / 2 if self.ties else h
 
     @cython.cfunc
@@ -618,11 +617,7 @@ class Solver:
 
     @cython.cfunc
     def tread(
-        self,
-        body: Body,
-        vx: cython.double,
-        vy: cython.double,
-        h: cython.double,
+        self, body: Body, vx: cython.double, vy: cython.double, h: cython.double
     ) -> cython.void:
         """Put the joints of a robot's wheels where it will be, and bound their forces.
 
