@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from mars2d import Holonomic, Robot, Unicycle, World
 from mars2d.addons import Map
-from mars2d.bodies import Car
+from mars2d.bodies import Car, Hinge, Rope
 from mars2d.bodies.props import Box
 from mars2d.core.materials import GRAVITY
 from tests.islands import plainly
@@ -289,6 +289,26 @@ def test_locked_wheels_skid_straight_on(motors, sampling_time):
     poses, _ = way_of(alone(wheels, sampling_time), start, ((0, 0), 3.0, (0, 0)))
     way = velocity * hypot(*velocity) / (2 * 0.5 * GRAVITY)
     assert poses[1, :2] - before == pytest.approx(way, abs=1e-6)
+
+
+@TIMES
+def test_a_robot_at_a_joint_is_held_by_its_wheels_too(sampling_time):
+    robot = Robot(mass=2.0, drive=Unicycle(max_force=5.0, max_torque=5.0, grip=0.9))
+    load = Box(name="b", pose=(-1.0, 0, 0), length=0.3, width=0.3, mass=4.0, ground_friction=0.5)
+
+    def tied(joint: object, box: Box) -> Callable[[], World]:
+        return lambda: endless([robot], [box], [joint], sampling_time=sampling_time)
+
+    rope = Rope(a="robot0", b="b", length=1.0)
+    pull = ((0.3, 0.0), 2.0)
+    poses, world = way_of(tied(rope, load), (*pull, (0, 0)), (*pull, (0, 1.0)))
+    assert poses[1] == pytest.approx(poses[0], abs=1e-6)
+    assert world.effort[0] == pytest.approx(1.0)
+    hinge = Hinge(a="robot0", b="b", anchor_a=(-0.25, 0.0), anchor_b=(0.25, 0.0))
+    light = load.replace(pose=(-0.5, 0, 0), mass=1.0, ground_friction=0.1)
+    poses, world = way_of(tied(hinge, light), ((0.3, 0.8), 4.0, (0, 0)))
+    c, s = cos(poses[0, 2]), sin(poses[0, 2])
+    assert world.velocity[:, 0] == pytest.approx([0.3 * c, 0.3 * s, 0.8], abs=1e-6)
 
 
 def integrated(force, along, across, mass, command, time):

@@ -637,9 +637,17 @@ class Solver:
             body.lean(body.angle)
             x += body.lead_x - late * body.spin * body.lead_y - body.lead * c
             y += body.lead_y + late * body.spin * body.lead_x - body.lead * s
-        body.follow(angle, 0.0)
-        aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
         put(body.control, x, y, angle)
+        body.follow(angle, 0.0)
+        if late < h:  # it is to roll along its heading at the end, as fast as it does
+            turned: cython.double = (h - late) * (body.spin if body.solved else body.turning)
+            body.follow(angle + turned, 0.0)
+            x, y = cosine_sine(body.angle)
+            speed: cython.double = x * vx + y * vy if body.solved else body.forward
+            x, y = cosine_sine(turned)
+            body.aim_x -= s * y * (speed - body.forward)
+            body.aim_y += c * y * (speed - body.forward)
+        aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
         x, y = body.aim_x - vx, body.aim_y - vy
         rate: cython.double = body.mass / h
         ahead: cython.double = body.tread_ahead + rate * (c * x + s * y)
