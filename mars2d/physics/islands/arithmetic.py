@@ -10,7 +10,16 @@ from math import floor, fmod, sqrt
 
 from mars2d.physics.islands import shadow as cython
 
-__all__ = ["chord_share", "cosine_sine", "decay_base", "exponential", "length", "power", "sine", "surge"]
+__all__ = [
+    "chord_share",
+    "cosine_sine",
+    "decay_base",
+    "exponential",
+    "length",
+    "power",
+    "sine",
+    "surge",
+]
 
 
 @cython.cfunc

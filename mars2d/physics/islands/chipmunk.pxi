@@ -50,6 +50,8 @@ cdef extern from *:
         void (*cpBodySetTorque)(void *, double);
         void *(*cpPivotJointAlloc)(void);
         void *(*cpPivotJointInit)(void *, void *, void *, Vector, Vector);
+        void *(*cpGrooveJointAlloc)(void);
+        void *(*cpGrooveJointInit)(void *, void *, void *, Vector, Vector, Vector);
         void *(*cpGearJointAlloc)(void);
         void *(*cpGearJointInit)(void *, void *, void *, double, double);
         void *(*cpSlideJointAlloc)(void);
@@ -290,7 +292,9 @@ cdef extern from *:
         n[LOST_TURNING] = lost;
         return (angle - n[REST_ANGLE]) * n[REST_ANGLE + 1] * surge;
     }
-    static Vector drag(void *joint) { return vector(((double *)joint)[25], ((double *)joint)[26]); }
+    static Vector drag(void *joint, int at) {
+        return vector(((double *)joint)[at], ((double *)joint)[at + 1]);
+    }
     static double twist(void *joint) { return ((double *)joint)[18]; }
     static Contact_ *contact_at(void *arbiter, int k) { return ((Arbiter_ *)arbiter)->contacts + k; }
     """
@@ -346,6 +350,8 @@ cdef extern from *:
         void (*cpBodySetTorque)(void *, double) noexcept
         void *(*cpPivotJointAlloc)() noexcept
         void *(*cpPivotJointInit)(void *, void *, void *, Vector, Vector) noexcept
+        void *(*cpGrooveJointAlloc)() noexcept
+        void *(*cpGrooveJointInit)(void *, void *, void *, Vector, Vector, Vector) noexcept
         void *(*cpGearJointAlloc)() noexcept
         void *(*cpGearJointInit)(void *, void *, void *, double, double) noexcept
         void *(*cpSlideJointAlloc)() noexcept
@@ -411,7 +417,7 @@ cdef extern from *:
     double fading(void *, int, int) noexcept
     double pull_of(void *, double, double, double) noexcept
     double twist_to(void *, double, double, double) noexcept
-    Vector drag(void *) noexcept
+    Vector drag(void *, int) noexcept
     double twist(void *) noexcept
     void mend_in(void *) noexcept
     int count_kept(void *) noexcept
@@ -427,7 +433,7 @@ def connect(addresses):
 
 cdef Handle NOTHING = NULL
 cdef enum:
-    PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING
+    PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING, GROOVE
 
 # -- spaces -----------------------------------------------------------------------------------
 
@@ -570,6 +576,8 @@ cdef Handle new_joint(int kind) noexcept:
         return engine.cpDampedSpringAlloc()
     if kind == ROTARY_LIMIT:
         return engine.cpRotaryLimitJointAlloc()
+    if kind == GROOVE:
+        return engine.cpGrooveJointAlloc()
     return engine.cpDampedRotarySpringAlloc()
 
 cdef Handle make_joint(
@@ -586,6 +594,8 @@ cdef Handle make_joint(
         engine.cpGearJointInit(joint, a, b, p, q)
     elif kind == ROTARY_LIMIT:
         engine.cpRotaryLimitJointInit(joint, a, b, p, q)
+    elif kind == GROOVE:
+        engine.cpGrooveJointInit(joint, a, b, vector(-p, -q), vector(p, q), on_b)
     elif kind == SLIDE:
         engine.cpSlideJointInit(joint, a, b, on_a, on_b, p, q)
     elif kind == PIN:
@@ -632,8 +642,8 @@ cdef inline void remove_joint(Handle space, Handle joint) noexcept:
 cdef inline void free_joint(Handle joint) noexcept:
     engine.cpConstraintFree(joint)
 
-cdef inline Vector drag_of(Handle joint) noexcept:
-    return drag(joint)
+cdef inline Vector drag_of(Handle joint, int kind) noexcept:
+    return drag(joint, 32 if kind == GROOVE else 25)
 
 cdef inline double twist_of(Handle joint) noexcept:
     return twist(joint)

@@ -22,7 +22,6 @@ from mars2d.physics.islands.chipmunk import (
     rub_of,
     scale,
     second_of,
-    used_of,
 )
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.tie import Tie
@@ -258,7 +257,7 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     for body in solver.bodies:
         group = group_of(body)
         if body.engaged:
-            group.held_by += used_of(body.pivot)
+            group.held_by += solver.used_by(body)
         if body.pulled:
             group.held_by += length(body.pull_x, body.pull_y) * h
     for body in solver.bodies:
@@ -281,9 +280,7 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
 
 
 @cython.cfunc
-def take_hits(
-    solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
-) -> cython.void:
+def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
     """Find the groups that touch, the impulses on each body, and how they work."""
     i: cython.int
     k: cython.int

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.arithmetic import decay_base, length
+from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, length
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.chipmunk import (
     GEAR,
+    GROOVE,
     NOTHING,
     PIVOT,
     ROTARY_LIMIT,
@@ -159,7 +160,14 @@ class Solver:
     @cython.cfunc
     def hold_by(self, body: Body, holder: Handle) -> cython.void:
         """Make the joints of a body start again: they make it move as its holder does."""
-        body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
+        if body.wheeled:  # grooves are free along
+            body.pivot = make_joint(GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
+            body.side = make_joint(GROOVE, body.side, holder, body.handle, ENDS, 1.0, 0.0, 0.0)
+            set_joint(body.side, 0.0, True)
+            set_max_bias(body.side, 0.0)
+            body.tread_ahead = body.tread_across = 0.0
+        else:
+            body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
         body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
         set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
         set_joint(body.gear, 0.0, True)
@@ -180,6 +188,8 @@ class Solver:
     def engage(self, body: Body) -> cython.void:
         """Let its joints act."""
         add_joint(self.space, body.pivot)
+        if body.wheeled:
+            add_joint(self.space, body.side)
         add_joint(self.space, body.gear)
         body.engaged = True
 
@@ -187,6 +197,8 @@ class Solver:
     def disengage(self, body: Body) -> cython.void:
         """Take its joints out."""
         remove_joint(self.space, body.pivot)
+        if body.wheeled:
+            remove_joint(self.space, body.side)
         remove_joint(self.space, body.gear)
         body.engaged = False
 
@@ -431,8 +443,10 @@ class Solver:
             if not body.is_robot and body.engaged:
                 body.held = used_of(body.pivot) / h
                 body.twist_held = used_of(body.gear) / h
+            if body.is_robot and body.engaged and body.grip_across < 1e300:
+                self.feel(body, h)
             if body.is_robot and body.solved:
-                share: cython.double = used_of(body.pivot) / max(body.bound * h, 1e-300)
+                share: cython.double = self.used_by(body) / max(body.bound * h, 1e-300)
                 body.effort = max(body.effort, share)
                 share = used_of(body.gear) / (body.torque * h)
                 body.effort = max(body.effort, share)
@@ -440,11 +454,37 @@ class Solver:
     @cython.cfunc
     def take_drag(self, body: Body) -> cython.void:
         """Find the impulse on a body of its drive, or of the floor under it."""
-        drag: Vector = drag_of(body.pivot)
+        drag: Vector = drag_of(body.pivot, GROOVE if body.wheeled else PIVOT)
+        body.drag_x, body.drag_y = drag.x, drag.y
+        if body.wheeled:
+            drag = drag_of(body.side, GROOVE)
+            body.drag_x, body.drag_y = body.drag_x + drag.x, body.drag_y + drag.y
         if body.lead != 0.0:
             body.lean(body.angle)
-        body.drag_x, body.drag_y = drag.x, drag.y
-        body.drag_turn = twist_of(body.gear) - body.lead_x * drag.y + body.lead_y * drag.x
+        body.drag_turn = twist_of(body.gear) - body.lead_x * body.drag_y + body.lead_y * body.drag_x
+
+    @cython.cfunc
+    def used_by(self, body: Body) -> cython.double:
+        """Return how large the impulse on a body of its drive, or of the floor, was, N s."""
+        used: cython.double = used_of(body.pivot)
+        return length(used, used_of(body.side)) if body.wheeled else used
+
+    @cython.cfunc
+    def lag(self, h: cython.double) -> cython.double:
+        """Return how long after a step of h s begins joints find bodies where they are."""
+        return h / 2 if self.ties else h
+
+    @cython.cfunc
+    def feel(self, body: Body, h: cython.double) -> cython.void:
+        """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
+        c: cython.double
+        s: cython.double
+        angle: cython.double = body.back_angle + self.lag(h) * body.back_spin
+        c, s = cosine_sine(angle)
+        self.take_drag(body)
+        body.tread_ahead = (c * body.drag_x + s * body.drag_y) / h
+        body.tread_across = (c * body.drag_y - s * body.drag_x) / h
+        body.bear(body.drag_x, body.drag_y, angle, body.vx, body.vy)
 
     @cython.cfunc
     def share_out(
@@ -481,9 +521,7 @@ class Solver:
         body.energy += gained
         gained -= body.hit_x * x + body.hit_y * y + body.hit_turn * spin
         if body.pulled:
-            by_hand: cython.double = (
-                body.pull_x * x + body.pull_y * y + body.pull_turn * spin
-            ) * h
+            by_hand: cython.double = (body.pull_x * x + body.pull_y * y + body.pull_turn * spin) * h
             body.by_hand += by_hand
             gained -= by_hand
         if body.tied:
@@ -510,10 +548,13 @@ class Solver:
             x: cython.double = body.aim_x
             y: cython.double = body.aim_y
             turning: cython.double = body.aim_spin
-            body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
-            aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
-            if body.grips:
-                self.grasp(body, h)
+            if body.wheeled:
+                self.tread(body, vx, vy, h)
+            else:
+                body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
+                aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+                if body.grips:
+                    self.grasp(body, h)
             body.aim_x, body.aim_y, body.aim_spin = x, y, turning
         if not body.is_robot and body.rest_grip > 0.0:
             self.brake(body, h)
@@ -572,7 +613,7 @@ class Solver:
 
         That is where it has pushed in the step before, or where its command is.
         """
-        drag: Vector = drag_of(body.pivot)
+        drag: Vector = drag_of(body.pivot, PIVOT)
         if length(drag.x, drag.y) > 1e-9 * body.strength * h:
             body.bear(drag.x, drag.y, body.angle, body.vx, body.vy)
         else:
@@ -580,6 +621,46 @@ class Solver:
             y: cython.double = body.aim_y - body.vy
             body.bear(x, y, body.angle, body.vx, body.vy)
         set_max_force(body.pivot, body.bound)
+
+    @cython.cfunc
+    def tread(
+        self, body: Body, vx: cython.double, vy: cython.double, h: cython.double
+    ) -> cython.void:
+        """Put the joints of a robot's wheels where it will be, and bound their forces.
+
+        vx, vy: its velocity. What it takes to move as commanded is what the wheels bore in the step
+        before, and what was lacking then.
+        """
+        c: cython.double
+        s: cython.double
+        late: cython.double = self.lag(h)
+        angle: cython.double = body.angle + late * (body.spin if body.solved else body.turning)
+        c, s = cosine_sine(angle)
+        x: cython.double = body.x + late * vx
+        y: cython.double = body.y + late * vy
+        if not body.solved:
+            x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
+        if body.solved and body.lead != 0.0:  # it goes round its centre of mass
+            body.lean(body.angle)
+            x += body.lead_x - late * body.spin * body.lead_y - body.lead * c
+            y += body.lead_y + late * body.spin * body.lead_x - body.lead * s
+        put(body.control, x, y, angle)
+        body.follow(angle, 0.0)
+        if late < h:  # it is to roll along its heading at the end, as fast as it does
+            turned: cython.double = (h - late) * (body.spin if body.solved else body.turning)
+            body.follow(angle + turned, 0.0)
+            x, y = cosine_sine(body.angle)
+            speed: cython.double = x * vx + y * vy if body.solved else body.forward
+            x, y = cosine_sine(turned)
+            body.aim_x -= s * y * (speed - body.forward)
+            body.aim_y += c * y * (speed - body.forward)
+        aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+        x, y = body.aim_x - vx, body.aim_y - vy
+        rate: cython.double = body.mass / h
+        ahead: cython.double = body.tread_ahead + rate * (c * x + s * y)
+        body.divide(ahead, body.tread_across + rate * (c * y - s * x), c * vx + s * vy)
+        set_max_force(body.pivot, body.bound_ahead)
+        set_max_force(body.side, body.bound_across)
 
     @cython.cfunc
     def brake(self, body: Body, h: cython.double) -> cython.void:
@@ -626,6 +707,8 @@ def free_things_of(body: Body) -> cython.void:
     body.shapes = []
     if body.is_robot or body.rest_grip > 0.0:
         free_joint(body.pivot)
+        if body.wheeled:
+            free_joint(body.side)
         free_joint(body.gear)
     if body.is_robot:
         free_body(body.control)
