@@ -259,6 +259,10 @@ cdef extern from *:
         n[CENTER + 1] = (s * n[LEAD] + c * n[LEAD + 1]) + y;
         turn_to(body, angle, c, s);
     }
+    static void forget_mending(void *body) {
+        double *n = body;
+        n[MENDED] = n[MENDED + 1] = n[TURNED] = 0.0;
+    }
     static double move_by(void *body, double h) {
         double *n = body;
         for (int k = 0; k < 2; k++) {
@@ -406,6 +410,7 @@ cdef extern from *:
     void turn_to(void *, double, double, double) noexcept
     void put_at(void *, double, double, double, double, double) noexcept
     double move_by(void *, double) noexcept
+    void forget_mending(void *) noexcept
     void *first_body(void *) noexcept
     void *second_body(void *) noexcept
     enum: REST, REST_ANGLE, FELT, FELT_TURNING
@@ -536,6 +541,9 @@ cdef void move(void *body, double h) noexcept:
 cdef inline void aim(Handle body, double vx, double vy, double spin) noexcept:
     engine.cpBodySetVelocity(body, vector(vx, vy))
     engine.cpBodySetAngularVelocity(body, spin)
+
+cdef inline void settle_down(Handle body) noexcept:
+    forget_mending(body)
 
 cdef inline void push(Handle body, double x, double y, double torque) noexcept:
     engine.cpBodySetForce(body, vector(x, y))

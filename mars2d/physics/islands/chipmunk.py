@@ -24,8 +24,8 @@ __all__ = [
     "new_ground", "new_polygon", "new_segment", "new_space", "normal_of", "point_of",
     "position_of", "push", "push_of", "put", "remove_body", "remove_joint", "remove_shape",
     "rub_of", "scale", "second_of", "set_iterations", "set_joint", "set_limits", "set_max_bias",
-    "set_max_force", "set_surface", "sew", "spin_of", "step", "twist_of", "used_of",
-    "velocity_of", "watch", "weight_at",
+    "set_max_force", "set_surface", "settle_down", "sew", "spin_of", "step", "twist_of",
+    "used_of", "velocity_of", "watch", "weight_at",
 ]  # fmt: skip
 
 Handle: TypeAlias = Any
@@ -233,6 +233,12 @@ def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
     """Give a body a velocity."""
     lib.cpBodySetVelocity(body, (vx, vy))
     lib.cpBodySetAngularVelocity(body, spin)
+
+
+def settle_down(body: Handle) -> None:
+    """Let a body forget the velocity by which the engine would mend its overlaps in the next step."""
+    numbers = ffi.cast("double *", body)
+    numbers[MENDED] = numbers[MENDED + 1] = numbers[TURNED] = 0.0
 
 
 def push(body: Handle, x: float, y: float, torque: float) -> None:

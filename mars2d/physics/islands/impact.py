@@ -270,6 +270,7 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     middle: cython.double = h / 2 if solver.ties else 0.0
     for body in solver.bodies:
         group = group_of(body)
+        body.lasting = group.lasting or group.hit_power == 0.0
         if group.lasting:
             body.shift = h / 2
         elif group.hit_power > 0.0:

@@ -297,12 +297,13 @@ class Island:
         count: cython.int = 0
         body: Body
         self.set_accuracy()
+        self.measure()
         for body in self.bodies:
             body.gone = 0.0
-            self.any_solved = self.any_solved or body.solver is not None
+            if body.solver is not None and (self.any_touch or self.ties or body.pulled):
+                self.any_solved = True
         if self.any_solved:
             self.land()
-        self.measure()
         while elapsed < duration:
             if self.any_touch:
                 self.press()
@@ -446,8 +447,10 @@ class Island:
         for body in self.bodies:
             body.touches = body.touches or body.pulled
             body.slips = body.slips or body.touches
-            # Where others touch, a robot that has just lost touch stays with them for a while.
+            # Where others touch, a robot that has just lost touch stays with them for a while, and
+            # so does one at a rope that has just gone slack.
             lately: cython.bint = self.any_touch and body.since <= accuracy.linger
+            lately = lately or len(self.ties) > 0
             body.solved = body.touches or (
                 body.is_robot and body.slips and (body.lead != 0.0 or lately)
             )
@@ -464,7 +467,7 @@ class Island:
         for body in self.bodies:
             if body.solved and body.limited and not body.touches:
                 h = min(h, accuracy.swaying)
-            if body.is_robot and body.solved and body.since > 0:
+            if body.is_robot and body.solved and body.since > accuracy.linger:
                 h = min(h, body.time_to_brake(accuracy.turned))
             if body.touches and body.slows > 0.0 and self.push_step >= 1e300:
                 # Where no drive pushes it on the floor stops it: there the substep ends.
@@ -541,7 +544,7 @@ class Island:
         """
         body.ahead = body.is_pushed() or body.solved
         if body.is_pushed() or (body.solved and body.lead != 0.0):
-            self.solver.share_out(body, h, body.shift)
+            self.solver.share_out(body, h, body.shift, body.lasting)
             body.slips = True
             if not body.solved and body.shift > 0.0 and not body.tied:
                 # From the blow on its drive, or the floor, has acted: as in the open.

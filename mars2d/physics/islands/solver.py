@@ -47,6 +47,7 @@ from mars2d.physics.islands.chipmunk import (
     set_limits,
     set_max_bias,
     set_max_force,
+    settle_down,
     sew,
     spin_of,
     step,
@@ -486,11 +487,14 @@ class Solver:
         body.bear(body.drag_x, body.drag_y, angle, body.vx, body.vy)
 
     @cython.cfunc
-    def share_out(self, body: Body, h: cython.double, shift: cython.double) -> cython.void:
+    def share_out(
+        self, body: Body, h: cython.double, shift: cython.double, lasting: cython.bint
+    ) -> cython.void:
         """Take over a body's motion, and the change of its kinetic energy in the step.
 
         shift: s, since when its impulses have acted, in the mean: it has gone as much further as
-        they have changed its velocity.
+        they have changed its velocity. lasting: whether they go on; else they have put it back out
+        of what it hit, and the engine need not mend that.
 
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
@@ -502,6 +506,8 @@ class Solver:
         body.y += shift * (body.after_y - body.before_y)
         body.angle += shift * (body.spin - body.before_spin)
         body.vx, body.vy, body.placed = body.after_x, body.after_y, True
+        if not lasting:
+            settle_down(body.handle)
         if body.lead != 0.0:
             body.lean(body.angle)
             body.x, body.y = body.x - body.lead_x, body.y - body.lead_y
@@ -589,6 +595,9 @@ class Solver:
         y: cython.double = body.y + body.lead_y
         angle: cython.double = body.angle
         if not body.solved and (body.aim_x != vx or body.aim_y != vy or body.aim_spin != spin):
+            if body.lead != 0.0:
+                body.lean(angle + h * body.aim_spin)
+                x, y = body.x + body.lead_x, body.y + body.lead_y
             x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
             angle += h * (body.aim_spin - spin)
         elif not body.placed and not (goes and self.ties):
