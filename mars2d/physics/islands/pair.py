@@ -12,7 +12,7 @@ from typing import Any
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body, Corner, Edge, Piece
-from mars2d.physics.islands.chipmunk import Seams
+from mars2d.physics.islands.seams import Seams
 
 __all__ = ["DiscPair", "DiscWall", "Pair", "PiecePair", "Wall"]
 
