@@ -19,7 +19,7 @@ __all__ = ["compile_into", "fingerprint", "functions", "joined"]
 HERE = Path(__file__).parent
 
 MODULES = (
-    "arithmetic", "body", "floor", "seams", "surfaces", "thrust", "pair", "tie", "solver",
+    "arithmetic", "body", "floor", "flush", "seams", "surfaces", "thrust", "pair", "tie", "solver",
     "contacts", "impact", "island", "neighbours", "mover",
 )  # fmt: skip
 """The modules, each after those that it imports."""

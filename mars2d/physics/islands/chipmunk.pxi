@@ -40,6 +40,13 @@ cdef extern from *:
         void (*cpConstraintFree)(void *);
         void (*cpBodySetCenterOfGravity)(void *, Vector);
         void (*cpBodySetPositionUpdateFunc)(void *, void (*)(void *, double));
+        void (*cpBodySetVelocityUpdateFunc)(void *, void (*)(void *, Vector, double, double));
+        void (*cpBodyUpdateVelocity)(void *, Vector, double, double);
+        void *(*cpBodyGetSpace)(void *);
+        void (*cpSpaceSetUserData)(void *, void *);
+        void *(*cpSpaceGetUserData)(void *);
+        Vector (*cpSegmentShapeGetA)(void *);
+        Vector (*cpSegmentShapeGetB)(void *);
         void (*cpBodySetVelocity)(void *, Vector);
         void (*cpBodySetAngularVelocity)(void *, double);
         Vector (*cpBodyGetPosition)(void *);
@@ -184,9 +191,12 @@ cdef extern from *:
     ctypedef struct Contact_:
         Vector r1
         Vector r2
+        double normal_mass
+        double tangent_mass
         double bounce
         double normal_impulse
         double tangent_impulse
+        double bias
     ctypedef void *Handle
     ctypedef struct Engine_:
         void *(*cpSpaceNew)() noexcept
@@ -220,6 +230,14 @@ cdef extern from *:
         void (*cpBodySetCenterOfGravity)(void *, Vector) noexcept
         void (*cpBodySetPositionUpdateFunc)(
             void *, void (*)(void *, double) noexcept) noexcept
+        void (*cpBodySetVelocityUpdateFunc)(
+            void *, void (*)(void *, Vector, double, double) noexcept) noexcept
+        void (*cpBodyUpdateVelocity)(void *, Vector, double, double) noexcept
+        void *(*cpBodyGetSpace)(void *) noexcept
+        void (*cpSpaceSetUserData)(void *, void *) noexcept
+        void *(*cpSpaceGetUserData)(void *) noexcept
+        Vector (*cpSegmentShapeGetA)(void *) noexcept
+        Vector (*cpSegmentShapeGetB)(void *) noexcept
         void (*cpBodySetVelocity)(void *, Vector) noexcept
         void (*cpBodySetAngularVelocity)(void *, double) noexcept
         Vector (*cpBodyGetPosition)(void *) noexcept
@@ -275,6 +293,7 @@ cdef extern from *:
         Vector (*cpPolyShapeGetVert)(void *, int) noexcept
         Vector (*cpBodyLocalToWorld)(void *, Vector) noexcept
     ctypedef struct Arbiter_:
+        double e
         void *a
         void *b
         void *body_a
@@ -377,6 +396,9 @@ cdef Handle new_polygon(Handle body, points, surface) except NULL:
     for k in range(count):
         vertices[k] = vector(points[k][0], points[k][1])
     return surfaced(engine.cpPolyShapeNewRaw(body, count, vertices, 0.0), surface)
+
+cdef inline void number_shape(Handle shape, int number) noexcept:
+    engine.cpShapeSetUserData(shape, <void *><intptr_t>number)
 
 cdef Handle new_segment(Handle body, ends, surface) except NULL:
     a, b = ends
@@ -580,6 +602,17 @@ cdef inline void set_surface(Handle arbiter, double friction, double restitution
     engine.cpArbiterSetFriction(arbiter, friction)
     engine.cpArbiterSetRestitution(arbiter, restitution)
 
+cdef void straighten_contacts(void *body, Vector gravity, double damping, double h) noexcept:
+    (<Flush>engine.cpSpaceGetUserData(engine.cpBodyGetSpace(body))).straighten()
+    engine.cpBodyUpdateVelocity(body, gravity, damping, h)
+
+cdef inline void straighten_in(Handle space, flush) noexcept:
+    engine.cpSpaceSetUserData(space, <void *>flush)
+
+cdef inline void ask_in(Handle body, bint does) noexcept:
+    engine.cpBodySetVelocityUpdateFunc(
+        body, straighten_contacts if does else engine.cpBodyUpdateVelocity)
+
 cdef void settle_contact(void *arbiter, void *space, void *data) noexcept:
     (<Surfaces>data).settle(arbiter)
 
@@ -606,11 +639,26 @@ cdef inline void put_point(Handle arbiter, double ax, double ay, double bx, doub
     contact.r1, contact.r2 = vector(ax - a.x, ay - a.y), vector(bx - b.x, by - b.y)
     contact.normal_impulse = contact.tangent_impulse = 0.0
 
+cdef inline void set_point(
+    Handle arbiter, int k, double ax, double ay, double bx, double by, double mass,
+    double mass_across, double bounce
+) noexcept:
+    cdef Contact_ *contact = (<Arbiter_ *>arbiter).contacts + k
+    contact.r1, contact.r2 = vector(ax, ay), vector(bx, by)
+    contact.normal_mass, contact.tangent_mass = mass, mass_across
+    contact.bounce, contact.bias = bounce, 0.0
+
 cdef inline void leave_out(Handle arbiter) noexcept:
     (<Arbiter_ *>arbiter).count = 0
 
-cdef inline Handle second_shape(Handle arbiter) noexcept:
-    return (<Arbiter_ *>arbiter).b
+cdef inline Handle shape_of(Handle arbiter, bint second) noexcept:
+    return (<Arbiter_ *>arbiter).b if second else (<Arbiter_ *>arbiter).a
+
+cdef inline int piece_of(Handle arbiter, bint second) noexcept:
+    return <int><intptr_t>engine.cpShapeGetUserData(shape_of(arbiter, second))
+
+cdef inline double restitution_of(Handle arbiter) noexcept:
+    return (<Arbiter_ *>arbiter).e
 
 cdef inline Vector point_of(Handle arbiter, int k, bint second) noexcept:
     if second:
@@ -638,11 +686,8 @@ cdef inline int check_signals() except -1:
 # -- seams ------------------------------------------------------------------------------------
 
 cdef void mend_contact(void *arbiter, void *space, void *data) noexcept:
-    cdef Handle first = engine.cpShapeGetUserData((<Arbiter_ *>arbiter).a)
-    if first == NULL:
-        (<Seams>engine.cpShapeGetUserData((<Arbiter_ *>arbiter).b)).mend(arbiter, False)
-    else:
-        (<Seams>first).mend(arbiter, True)
+    cdef bint first = first_of(arbiter) < 0
+    (<Seams>engine.cpShapeGetUserData(shape_of(arbiter, not first))).mend(arbiter, first)
 
 cdef inline void sew(Handle segment, seams) noexcept:
     engine.cpShapeSetUserData(segment, <void *>seams)
@@ -654,3 +699,6 @@ cdef inline int corners_of(Handle shape) noexcept:
 cdef inline Vector corner_of(Handle shape, int k) noexcept:
     return engine.cpBodyLocalToWorld(
         engine.cpShapeGetBody(shape), engine.cpPolyShapeGetVert(shape, k))
+
+cdef inline Vector end_of(Handle segment, bint second) noexcept:
+    return engine.cpSegmentShapeGetB(segment) if second else engine.cpSegmentShapeGetA(segment)

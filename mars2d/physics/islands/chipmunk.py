@@ -18,14 +18,15 @@ from mars2d.physics.islands.arithmetic import cosine_sine, exponential
 __all__ = [
     "DAMPED_SPRING", "GEAR", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
     "Arbiters", "Handle", "Vector", "add_body", "add_joint", "add_shape", "aim", "angle_of",
-    "arm_of", "bounce_of", "check_signals", "corner_of", "corners_of", "count_of", "drag_of",
-    "first_of", "free_body", "free_joint", "free_shape", "free_space", "ground_of", "impulse_of",
-    "is_void", "leave_out", "make_joint", "new_body", "new_control", "new_disc", "new_ground",
-    "new_polygon", "new_segment", "new_space", "normal_of", "point_of", "position_of", "push",
-    "push_of", "put", "put_point", "remove_body", "remove_joint", "remove_shape", "rub_of", "scale",
-    "second_of", "second_shape", "set_iterations", "set_joint", "set_limits", "set_max_bias",
-    "set_max_force", "set_normal", "set_surface", "sew", "spin_of", "step", "twist_of", "used_of",
-    "velocity_of", "watch", "weight_at",
+    "arm_of", "ask_in", "bounce_of", "check_signals", "corner_of", "corners_of", "count_of",
+    "drag_of", "end_of", "first_of", "free_body", "free_joint", "free_shape", "free_space",
+    "ground_of", "impulse_of", "is_void", "leave_out", "make_joint", "new_body", "new_control",
+    "new_disc", "new_ground", "new_polygon", "new_segment", "new_space", "normal_of",
+    "number_shape", "piece_of", "point_of", "position_of", "push", "push_of", "put", "put_point",
+    "remove_body", "remove_joint", "remove_shape", "restitution_of", "rub_of", "scale", "second_of",
+    "set_iterations", "set_joint", "set_limits", "set_max_bias", "set_max_force", "set_normal",
+    "set_point", "set_surface", "sew", "shape_of", "spin_of", "step", "straighten_in", "twist_of",
+    "used_of", "velocity_of", "watch", "weight_at",
 ]  # fmt: skip
 
 Handle: TypeAlias = Any
@@ -139,6 +140,11 @@ def new_polygon(body: Handle, points: Any, surface: Any) -> Handle:
 def new_segment(body: Handle, ends: Any, surface: Any) -> Handle:
     """Return a wall without thickness between two points."""
     return _surfaced(lib.cpSegmentShapeNew(body, ends[0], ends[1], 0.0), surface)
+
+
+def number_shape(shape: Handle, number: int) -> None:
+    """Give a shape of a body the number of its piece."""
+    lib.cpShapeSetUserData(shape, ffi.cast("void *", number))
 
 
 def _surfaced(shape: Handle, surface: Any) -> Handle:
@@ -484,6 +490,29 @@ def scale(arbiter: Handle, ratio: float) -> None:
         contact.jtAcc *= ratio
 
 
+@ffi.callback(  # type: ignore[untyped-decorator]
+    "void(cpBody *, cpVect, double, double)", onerror=_catch
+)
+def _STRAIGHTEN(body: Handle, gravity: Vector, damping: float, h: float) -> None:  # noqa: N802
+    ffi.from_handle(lib.cpSpaceGetUserData(lib.cpBodyGetSpace(body))).straighten()
+    lib.cpBodyUpdateVelocity(body, gravity, damping, h)
+
+
+def straighten_in(space: Handle, flush: Any) -> None:
+    """Say what is to straighten the contacts of a space; see `ask_in`."""
+    flush.handle = ffi.new_handle(flush)
+    lib.cpSpaceSetUserData(space, flush.handle)
+
+
+def ask_in(body: Handle, does: bool) -> None:
+    """Have contacts straightened, or not, after they are found and before they are solved.
+
+    The engine then updates velocities, and that of this body by a function of ours.
+    """
+    function = _STRAIGHTEN if does else ffi.addressof(lib, "cpBodyUpdateVelocity")
+    lib.cpBodySetVelocityUpdateFunc(body, function)
+
+
 def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
     """Set the friction and the restitution of a contact for this step."""
     lib.cpArbiterSetFriction(arbiter, friction)
@@ -493,9 +522,19 @@ def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
 count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse
 
 
-def second_shape(arbiter: Handle) -> Handle:
-    """Return a contact's second shape."""
-    return arbiter.b
+def shape_of(arbiter: Handle, second: bool) -> Handle:
+    """Return a contact's first or second shape."""
+    return arbiter.b if second else arbiter.a
+
+
+def piece_of(arbiter: Handle, second: bool) -> int:
+    """Return the number of the piece of a body that is a contact's first or second shape."""
+    return int(ffi.cast("intptr_t", lib.cpShapeGetUserData(shape_of(arbiter, second))))
+
+
+def restitution_of(arbiter: Handle) -> float:
+    """Return the restitution of a contact in this step."""
+    return float(arbiter.e)
 
 
 def normal_of(arbiter: Handle) -> Vector:
@@ -515,6 +554,19 @@ def put_point(arbiter: Handle, ax: float, ay: float, bx: float, by: float) -> No
     contact.r1.x, contact.r1.y = ax - a.x, ay - a.y
     contact.r2.x, contact.r2.y = bx - b.x, by - b.y
     contact.jnAcc = contact.jtAcc = 0.0
+
+
+def set_point(
+    arbiter: Handle, k: int, ax: float, ay: float, bx: float, by: float, mass: float,
+    mass_across: float, bounce: float,
+) -> None:  # fmt: skip
+    """Set the arms of a point of a contact, its masses along and across its normal, its bounce.
+
+    An overlap is left there.
+    """
+    contact = arbiter.contacts[k]
+    contact.r1.x, contact.r1.y, contact.r2.x, contact.r2.y = ax, ay, bx, by
+    contact.nMass, contact.tMass, contact.bounce, contact.bias = mass, mass_across, bounce, 0.0
 
 
 def leave_out(arbiter: Handle) -> None:
@@ -565,8 +617,9 @@ _SEWN = 1
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _MEND(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
-    first, second = (lib.cpShapeGetUserData(shape) for shape in (arbiter.a, arbiter.b))
-    ffi.from_handle(first or second).mend(arbiter, bool(first))
+    first = first_of(arbiter) < 0
+    data = lib.cpShapeGetUserData(arbiter.a if first else arbiter.b)
+    ffi.from_handle(data).mend(arbiter, first)
 
 
 def sew(segment: Handle, seams: Any) -> None:
@@ -575,6 +628,11 @@ def sew(segment: Handle, seams: Any) -> None:
         seams.handle = ffi.new_handle(seams)
     lib.cpShapeSetUserData(segment, seams.handle)
     lib.cpShapeSetCollisionType(segment, _SEWN)
+
+
+def end_of(segment: Handle, second: bool) -> Vector:
+    """Return an end of a wall."""
+    return (lib.cpSegmentShapeGetB if second else lib.cpSegmentShapeGetA)(segment)
 
 
 corners_of = lib.cpPolyShapeGetCount

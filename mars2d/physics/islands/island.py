@@ -245,7 +245,7 @@ class Island:
             solver.tie(tie)
         self.tries = 0
         set_iterations(solver.space, self.iterations)
-        solver.used = True
+        solver.used, solver.crowded = True, len(self.pairs) > 1
 
     @cython.cfunc
     def find_solver(self) -> Solver:
@@ -275,6 +275,7 @@ class Island:
         else:
             solver = Solver(
                 self.accuracy.slop,
+                2 * self.accuracy.entry,
                 self.accuracy.mend_rate,
                 self.accuracy.joint_mend_rate,
                 self.surfaces,

@@ -20,8 +20,8 @@ from mars2d.physics.islands.chipmunk import (
     leave_out,
     normal_of,
     put_point,
-    second_shape,
     set_normal,
+    shape_of,
 )
 
 __all__ = ["Seams"]
@@ -73,7 +73,7 @@ class Seams:
     @cython.cfunc
     def mend(self, arbiter: Handle, is_first: cython.bint) -> cython.void:
         """Look at a contact before it is solved. is_first: whether the wall is its first shape."""
-        shape: Handle = second_shape(arbiter)
+        shape: Handle = shape_of(arbiter, True)
         normal: Vector = normal_of(arbiter)
         nx: cython.double = normal.x if is_first else -normal.x
         ny: cython.double = normal.y if is_first else -normal.y

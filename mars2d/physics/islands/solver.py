@@ -20,6 +20,7 @@ from mars2d.physics.islands.chipmunk import (
     add_shape,
     aim,
     angle_of,
+    ask_in,
     drag_of,
     free_body,
     free_joint,
@@ -34,6 +35,7 @@ from mars2d.physics.islands.chipmunk import (
     new_polygon,
     new_segment,
     new_space,
+    number_shape,
     position_of,
     push,
     put,
@@ -48,6 +50,7 @@ from mars2d.physics.islands.chipmunk import (
     sew,
     spin_of,
     step,
+    straighten_in,
     twist_of,
     used_of,
     velocity_of,
@@ -55,6 +58,7 @@ from mars2d.physics.islands.chipmunk import (
     weight_at,
 )
 from mars2d.physics.islands.floor import hold
+from mars2d.physics.islands.flush import Flush
 from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.tie import Tie
 
@@ -95,13 +99,16 @@ class Solver:
     mend: cython.double  # what the engine is told for steps as long as the last one
     joint_mend: cython.double
     surfaces: object  # kept for the space, which knows its address
+    flush: Flush
+    crowded: cython.bint  # whether a piece may meet two things at once
 
     def __init__(
-        self, slop: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
+        self, slop: float, flush: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
     ) -> None:
         """Make an empty one.
 
-        slop: the overlap that is left in steady contact, metres. mend_rate, joint_mend_rate: how
+        slop: the overlap that is left in steady contact, metres. flush: that up to which a body
+        slides over what it meets there. mend_rate, joint_mend_rate: how
         what is beyond decays, and what joints are off by, 1/s. surfaces: what settles friction and
         restitution; None: they are products.
         """
@@ -112,6 +119,8 @@ class Solver:
         if surfaces is not None:
             watch(self.space, surfaces)
         self.bodies, self.walls, self.ties = [], {}, []
+        self.flush, self.crowded = Flush(self.bodies, flush), False
+        straighten_in(self.space, self.flush)
         self.arbiters = Arbiters()
         self.last_step, self.used, self.stale, self.idle = 1e300, False, False, False
 
@@ -150,6 +159,7 @@ class Solver:
                 shape.handle = new_disc(body.handle, piece.radius, x, y, body.surface)
             else:
                 shape.handle = new_polygon(body.handle, points, body.surface)
+            number_shape(shape.handle, len(body.shapes) - 1)
         if body.is_robot:
             body.control = new_control()
             self.hold_by(body, body.control)
@@ -400,7 +410,10 @@ class Solver:
                 self.rebound(tie, h)
         for body in self.bodies:
             self.prepare(body, h)
+        body = self.bodies[0]
+        ask_in(body.handle, self.crowded)
         step(self.space, h, self.mend)
+        ask_in(body.handle, False)
         self.used = True
         for body in self.bodies:
             where: Vector = position_of(body.handle)

@@ -1,0 +1,346 @@
+"""Flush: pieces that lie side by side with their faces in one plane, and what slides over them.
+
+A piece that slides over one of them overlaps it a little. So it meets the next one from the side,
+less deep than from above, and the engine would throw it back. But if an axis parts it from both by
+less than bodies may overlap, it slides over both: then that axis is the normal of both contacts. A
+disc only has the contact with the piece under its middle.
+"""
+
+from __future__ import annotations
+
+from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import cosine_sine
+from mars2d.physics.islands.body import Body, Corner, Edge, Piece
+from mars2d.physics.islands.chipmunk import (
+    Arbiters,
+    Handle,
+    Vector,
+    angle_of,
+    arm_of,
+    count_of,
+    end_of,
+    first_of,
+    leave_out,
+    normal_of,
+    piece_of,
+    position_of,
+    restitution_of,
+    second_of,
+    set_normal,
+    set_point,
+    shape_of,
+    spin_of,
+    velocity_of,
+)
+
+__all__ = ["Flush"]
+
+ALIKE = 1e-7
+"""The sine of the angle up to which normals are the same."""
+
+
+@cython.final
+@cython.cclass
+class Side:
+    """A piece of a body, or a wall, where it is when the engine looks for contacts."""
+
+    body: Body
+    is_wall: cython.bint
+    piece: Piece
+    # of a body: where its pose is, and its centre of mass
+    c: cython.double
+    s: cython.double
+    x: cython.double
+    y: cython.double
+    center_x: cython.double
+    center_y: cython.double
+    # of a wall: its end
+    end_x: cython.double
+    end_y: cython.double
+
+    def __init__(self) -> None:
+        """Stand for nothing yet."""
+        self.is_wall = True
+        self.c = self.s = self.x = self.y = 0.0
+        self.center_x = self.center_y = self.end_x = self.end_y = 0.0
+
+    @cython.cfunc
+    def take(self, body: Body, piece: cython.int) -> cython.void:
+        """Stand for a piece of a body."""
+        where: Vector = position_of(body.handle)
+        self.body, self.piece, self.is_wall = body, body.pieces[piece], False
+        self.c, self.s = cosine_sine(angle_of(body.handle))
+        self.x, self.y = where.x, where.y
+        self.center_x = where.x + self.c * body.lead
+        self.center_y = where.y + self.s * body.lead
+
+    @cython.cfunc
+    def take_wall(self, wall: Handle) -> cython.void:
+        """Stand for a wall."""
+        where: Vector = end_of(wall, False)
+        self.is_wall, self.x, self.y = True, where.x, where.y
+        self.center_x = self.center_y = 0.0
+        where = end_of(wall, True)
+        self.end_x, self.end_y = where.x, where.y
+
+    @cython.cfunc
+    def is_disc(self) -> cython.bint:
+        """Return whether it is a disc."""
+        return not self.is_wall and self.piece.radius > 0.0
+
+    @cython.cfunc
+    def reach(self, nx: cython.double, ny: cython.double) -> cython.double:
+        """Return how far it extends in a direction, as seen from the origin."""
+        if self.is_wall:
+            return max(self.x * nx + self.y * ny, self.end_x * nx + self.end_y * ny)
+        far: cython.double = -1e300
+        x: cython.double = self.c * nx + self.s * ny
+        y: cython.double = self.c * ny - self.s * nx
+        corner: Corner
+        for corner in self.piece.corners:
+            far = max(far, corner.local_x * x + corner.local_y * y)
+        far += self.piece.radius
+        return far + self.x * nx + self.y * ny
+
+    @cython.cfunc
+    def speed(
+        self, x: cython.double, y: cython.double, nx: cython.double, ny: cython.double
+    ) -> cython.double:
+        """Return how fast a point at x, y from its centre of mass moves in a direction, m/s."""
+        if self.is_wall:
+            return 0.0
+        fast: Vector = velocity_of(self.body.handle)
+        spin: cython.double = spin_of(self.body.handle)
+        return (fast.x - spin * y) * nx + (fast.y + spin * x) * ny
+
+    @cython.cfunc
+    def give(
+        self, x: cython.double, y: cython.double, nx: cython.double, ny: cython.double
+    ) -> cython.double:
+        """Return by how much an impulse of 1 N s there makes it faster in its direction, 1/kg."""
+        if self.is_wall:
+            return 0.0
+        turn: cython.double = x * ny - y * nx
+        return 1.0 / self.body.mass + turn * turn / self.body.moment
+
+
+@cython.final
+@cython.cclass
+class Met:
+    """A contact, and what is to become of it. First and second are its sides."""
+
+    arbiter: Handle
+    first: cython.int  # the numbers of both
+    second: cython.int
+    x: cython.double  # its normal, from first to second
+    y: cython.double
+    turned_by: cython.int  # 1: by the first, 2: by the second, 0: not
+    stands_by: cython.int  # 1, 2 or 3: by whose side it is as another contact
+    left_out: cython.bint
+    new_x: cython.double  # its new normal
+    new_y: cython.double
+
+    def __init__(self) -> None:
+        """Begin without any; `take` follows."""
+        self.first = self.second = self.turned_by = self.stands_by = 0
+        self.x = self.y = self.new_x = self.new_y = 0.0
+        self.left_out = False
+
+    @cython.cfunc
+    def take(self, arbiter: Handle) -> cython.void:
+        """Stand for a contact that the engine has found."""
+        normal: Vector = normal_of(arbiter)
+        self.arbiter, self.first, self.second = arbiter, first_of(arbiter), second_of(arbiter)
+        self.x, self.y = normal.x, normal.y
+
+    @cython.cfunc
+    def turn_to(self, nx: cython.double, ny: cython.double, side: cython.int) -> cython.void:
+        """Ask for a normal, away from a side; for none if the other side asks for another."""
+        if side == 2:
+            nx, ny = -nx, -ny
+        if self.turned_by > 0 and not alike(nx, ny, self.new_x, self.new_y):
+            self.left_out = self.left_out or self.turned_by != side
+            return
+        self.turned_by, self.new_x, self.new_y = side, nx, ny
+
+
+@cython.final
+@cython.cclass
+class Flush:
+    """What makes contacts of a solver one plane's where pieces lie flush.
+
+    Where the corners of three bodies meet, a contact may be asked for along a seam and across it:
+    then it is left out, since both bodies are held by the third.
+    """
+
+    bodies: list[Body]
+    arbiters: Arbiters
+    numbers: dict[int, Body]
+    touched: dict[int, list[Met]]  # the contacts of each body
+    depth: cython.double  # m, up to which pieces overlap where one slides over another
+    middle: Side  # a piece that has two contacts, and what these are with
+    one: Side
+    other: Side
+    x: cython.double  # the axis, away from the piece in the middle
+    y: cython.double
+    deepest: cython.double  # m, the overlap along it
+    handle: object  # by which the engine finds it, in Python
+
+    def __init__(self, bodies: list[Body], depth: float) -> None:
+        """Take the solver's bodies, and `depth`."""
+        self.bodies, self.depth = bodies, depth
+        self.arbiters, self.numbers, self.touched = Arbiters(), {}, {}
+        self.middle, self.one, self.other = Side(), Side(), Side()
+        self.x = self.y = self.deepest = 0.0
+        self.handle = None
+
+    @cython.cfunc
+    def straighten(self) -> cython.void:
+        """Look at all contacts that were found in a step, before it is solved."""
+        body: Body
+        found: Met
+        some: list[Met]
+        every: list[Met] = []
+        k: cython.int
+        i: cython.int
+        self.arbiters.clear()
+        for body in self.bodies:
+            self.arbiters.add_those_of(body.handle)
+        if self.arbiters.count() < 2:
+            return
+        self.touched = {}
+        for body in self.bodies:
+            self.numbers[body.number] = body
+            self.touched[body.number] = []
+        for k in range(self.arbiters.count()):
+            if count_of(self.arbiters.at(k)) > 0:
+                found = Met()
+                found.take(self.arbiters.at(k))
+                every.append(found)
+                if found.first >= 0:
+                    self.touched[found.first].append(found)
+                if found.second >= 0:
+                    self.touched[found.second].append(found)
+        for body in self.bodies:
+            some = self.touched[body.number]
+            for k in range(1, len(some)):
+                for i in range(k):
+                    self.compare(body, some[i], some[k])
+        for found in every:
+            if found.left_out or found.turned_by + found.stands_by == 3:
+                leave_out(found.arbiter)
+            elif found.turned_by > 0:
+                self.turn(found)
+
+    @cython.cfunc
+    def compare(self, body: Body, a: Met, b: Met) -> cython.void:
+        """Ask for one normal of two contacts if it is one piece of a body that slides over both."""
+        by_a: cython.int = 1 if a.first == body.number else 2
+        by_b: cython.int = 1 if b.first == body.number else 2
+        piece: cython.int = piece_of(a.arbiter, by_a == 2)
+        if piece_of(b.arbiter, by_b == 2) != piece:
+            return
+        ax: cython.double = a.x if by_a == 1 else -a.x
+        ay: cython.double = a.y if by_a == 1 else -a.y
+        bx: cython.double = b.x if by_b == 1 else -b.x
+        by: cython.double = b.y if by_b == 1 else -b.y
+        if alike(ax, ay, bx, by):
+            a.stands_by |= by_a
+            b.stands_by |= by_b
+            return
+        self.put(self.middle, a, by_a)
+        self.put(self.one, a, 3 - by_a)
+        self.put(self.other, b, 3 - by_b)
+        if self.one.is_wall and self.other.is_wall:
+            return
+        self.deepest = self.depth
+        self.try_axis(ax, ay)
+        self.try_axis(bx, by)
+        self.try_sides(self.one)
+        self.try_sides(self.other)
+        if self.deepest >= self.depth:
+            return
+        a_stands: cython.bint = alike(ax, ay, self.x, self.y)
+        b_stands: cython.bint = alike(bx, by, self.x, self.y)
+        if not a_stands:
+            self.ask(a, by_a, self.one, b_stands)
+        if not b_stands:
+            self.ask(b, by_b, self.other, a_stands)
+
+    @cython.cfunc
+    def ask(self, found: Met, by: cython.int, side: Side, other_stands: cython.bint) -> cython.void:
+        """Ask for the axis as normal. other_stands: whether it is that of the other contact."""
+        if not (self.middle.is_disc() or side.is_disc()):
+            found.turn_to(self.x, self.y, by)
+        elif other_stands:
+            found.left_out = True
+
+    @cython.cfunc
+    def put(self, side: Side, found: Met, which: cython.int) -> cython.void:
+        """Let a side stand for what is first or second in a contact."""
+        number: cython.int = found.first if which == 1 else found.second
+        if number < 0:
+            side.take_wall(shape_of(found.arbiter, which == 2))
+        else:
+            side.take(self.numbers[number], piece_of(found.arbiter, which == 2))
+
+    @cython.cfunc
+    def try_sides(self, side: Side) -> cython.void:
+        """See whether the normal of one of its edges is an axis."""
+        edge: Edge
+        if side.is_wall:
+            return
+        for edge in side.piece.edges:
+            self.try_axis(
+                side.s * edge.local_y - side.c * edge.local_x,
+                -side.s * edge.local_x - side.c * edge.local_y,
+            )
+
+    @cython.cfunc
+    def try_axis(self, nx: cython.double, ny: cython.double) -> cython.void:
+        """Take an axis if along none of those before the overlaps were as small."""
+        far: cython.double = self.middle.reach(nx, ny)
+        deep: cython.double = far + self.one.reach(-nx, -ny)
+        if deep < self.deepest:
+            deep = max(deep, far + self.other.reach(-nx, -ny))
+            if deep < self.deepest:
+                self.x, self.y, self.deepest = nx, ny, deep
+
+    @cython.cfunc
+    def turn(self, found: Met) -> cython.void:
+        """Turn a contact's normal, and prepare its points as the engine does.
+
+        Both sides get a point in one place, so that the impulse there turns them by as much.
+        """
+        a: Side = self.one
+        b: Side = self.other
+        nx: cython.double = found.new_x
+        ny: cython.double = found.new_y
+        self.put(a, found, 1)
+        self.put(b, found, 2)
+        set_normal(found.arbiter, nx, ny)
+        k: cython.int
+        for k in range(count_of(found.arbiter)):
+            of_a: Vector = arm_of(found.arbiter, k, False)
+            of_b: Vector = arm_of(found.arbiter, k, True)
+            x: cython.double = (a.center_x + of_a.x + b.center_x + of_b.x) / 2
+            y: cython.double = (a.center_y + of_a.y + b.center_y + of_b.y) / 2
+            ax: cython.double = x - a.center_x
+            ay: cython.double = y - a.center_y
+            bx: cython.double = x - b.center_x
+            by: cython.double = y - b.center_y
+            bounce: cython.double = b.speed(bx, by, nx, ny) - a.speed(ax, ay, nx, ny)
+            set_point(
+                found.arbiter, k, ax, ay, bx, by,
+                1.0 / (a.give(ax, ay, nx, ny) + b.give(bx, by, nx, ny)),
+                1.0 / (a.give(ax, ay, -ny, nx) + b.give(bx, by, -ny, nx)),
+                bounce * restitution_of(found.arbiter),
+            )  # fmt: skip
+
+
+@cython.cfunc
+def alike(
+    ax: cython.double, ay: cython.double, bx: cython.double, by: cython.double
+) -> cython.bint:
+    """Return whether two directions are the same."""
+    return ax * bx + ay * by > 0.0 and abs(ax * by - ay * bx) <= ALIKE
