@@ -111,7 +111,8 @@ class Side:
             return 0.0
         fast: Vector = velocity_of(self.body.handle)
         spin: cython.double = spin_of(self.body.handle)
-        return (fast.x - spin * y) * nx + (fast.y + spin * x) * ny
+        along: cython.double = (fast.x - spin * y) * nx + (fast.y + spin * x) * ny
+        return along
 
     @cython.cfunc
     def give(
@@ -227,7 +228,7 @@ class Flush:
                 for i in range(k):
                     self.compare(body, some[i], some[k])
         for found in every:
-            if found.left_out or found.turned_by + found.stands_by == 3:
+            if found.left_out or (found.turned_by > 0 and found.turned_by + found.stands_by == 3):
                 leave_out(found.arbiter)
             elif found.turned_by > 0:
                 self.turn(found)
@@ -262,9 +263,13 @@ class Flush:
             return
         a_stands: cython.bint = alike(ax, ay, self.x, self.y)
         b_stands: cython.bint = alike(bx, by, self.x, self.y)
-        if not a_stands:
+        if a_stands:
+            a.stands_by |= by_a
+        else:
             self.ask(a, by_a, self.one, b_stands)
-        if not b_stands:
+        if b_stands:
+            b.stands_by |= by_b
+        else:
             self.ask(b, by_b, self.other, a_stands)
 
     @cython.cfunc
