@@ -257,8 +257,9 @@ class Flush:
         self.deepest = self.depth
         self.try_axis(ax, ay)
         self.try_axis(bx, by)
-        self.try_sides(self.one)
-        self.try_sides(self.other)
+        if self.deepest >= self.depth:  # a corner on a seam may be pushed by no face at all
+            self.try_sides(self.one)
+            self.try_sides(self.other)
         if self.deepest >= self.depth:
             return
         a_stands: cython.bint = alike(ax, ay, self.x, self.y)
