@@ -199,7 +199,7 @@ class Flush:
     def straighten(self) -> cython.void:
         """Look at all contacts that were found in a step, before it is solved."""
         body: Body
-        found: Met
+        met: Met
         some: list[Met]
         every: list[Met] = []
         k: cython.int
@@ -207,7 +207,7 @@ class Flush:
         self.arbiters.clear()
         for body in self.bodies:
             self.arbiters.add_those_of(body.handle)
-        if self.arbiters.count() < 2:
+        if self.arbiters.count() == 0:
             return
         self.touched = {}
         for body in self.bodies:
@@ -215,23 +215,26 @@ class Flush:
             self.touched[body.number] = []
         for k in range(self.arbiters.count()):
             if count_of(self.arbiters.at(k)) > 0:
-                found = Met()
-                found.take(self.arbiters.at(k))
-                every.append(found)
-                if found.first >= 0:
-                    self.touched[found.first].append(found)
-                if found.second >= 0:
-                    self.touched[found.second].append(found)
+                met = Met()
+                met.take(self.arbiters.at(k))
+                every.append(met)
+                if met.first >= 0:
+                    self.touched[met.first].append(met)
+                if met.second >= 0:
+                    self.touched[met.second].append(met)
         for body in self.bodies:
             some = self.touched[body.number]
             for k in range(1, len(some)):
                 for i in range(k):
                     self.compare(body, some[i], some[k])
-        for found in every:
-            if found.left_out or (found.turned_by > 0 and found.turned_by + found.stands_by == 3):
-                leave_out(found.arbiter)
-            elif found.turned_by > 0:
-                self.turn(found)
+        for met in every:
+            self.look_beside(met, 1)
+            self.look_beside(met, 2)
+        for met in every:
+            if met.left_out or (met.turned_by > 0 and met.turned_by + met.stands_by == 3):
+                leave_out(met.arbiter)
+            elif met.turned_by > 0:
+                self.turn(met)
 
     @cython.cfunc
     def compare(self, body: Body, a: Met, b: Met) -> cython.void:
@@ -274,21 +277,86 @@ class Flush:
             self.ask(b, by_b, self.other, a_stands)
 
     @cython.cfunc
-    def ask(self, found: Met, by: cython.int, side: Side, other_stands: cython.bint) -> cython.void:
-        """Ask for the axis as normal. other_stands: whether it is that of the other contact."""
-        if not (self.middle.is_disc() or side.is_disc()):
-            found.turn_to(self.x, self.y, by)
-        elif other_stands:
-            found.left_out = True
+    def look_beside(self, met: Met, by: cython.int) -> cython.void:
+        """Ask for a face's normal where a corner meets a piece, at the seam with one beside it.
+
+        by: which of both the piece is that slides over it, and need not touch the one beside.
+        """
+        which: cython.int = 3 - by
+        number: cython.int = met.second if by == 1 else met.first
+        if number < 0 or met.left_out:
+            return
+        body: Body = self.numbers[number]
+        some: list[Met] = self.touched[number]
+        if len(some) + len(body.pieces) < 3:
+            return
+        self.put(self.middle, met, by)
+        self.put(self.one, met, which)
+        if self.middle.is_disc() or self.middle.is_wall or self.one.is_disc():
+            return
+        self.deepest = self.depth
+        self.try_faces(self.one)
+        nx: cython.double = met.x if by == 1 else -met.x
+        ny: cython.double = met.y if by == 1 else -met.y
+        if self.deepest >= self.depth or alike(nx, ny, self.x, self.y):
+            return
+        piece: cython.int = piece_of(met.arbiter, which == 2)
+        k: cython.int
+        other: Met
+        for k in range(len(body.pieces)):
+            if k != piece:
+                self.other.take(body, k)
+                self.ask_beside(met, by)
+        for other in some:
+            if other is not met and piece_of(other.arbiter, other.second == number) == piece:
+                self.put(self.other, other, 1 if other.second == number else 2)
+                self.ask_beside(met, by)
 
     @cython.cfunc
-    def put(self, side: Side, found: Met, which: cython.int) -> cython.void:
+    def ask_beside(self, met: Met, by: cython.int) -> cython.void:
+        """Ask for the axis if the other piece is flush with that which is met, and at the contact.
+
+        by: as in `look_beside`.
+        """
+        deep: cython.double = self.middle.reach(self.x, self.y) + self.other.reach(-self.x, -self.y)
+        if abs(deep) > self.depth:
+            return
+        arm: Vector = arm_of(met.arbiter, 0, by == 2)
+        x: cython.double = self.middle.center_x + arm.x
+        y: cython.double = self.middle.center_y + arm.y
+        along: cython.double = y * self.x - x * self.y
+        most: cython.double = self.other.reach(-self.y, self.x) + self.depth
+        least: cython.double = -self.other.reach(self.y, -self.x) - self.depth
+        if least <= along <= most:
+            met.turn_to(self.x, self.y, by)
+
+    @cython.cfunc
+    def try_faces(self, side: Side) -> cython.void:
+        """See along which of the normals of the edges of the one side the overlap is least."""
+        edge: Edge
+        for edge in side.piece.edges:
+            nx: cython.double = side.s * edge.local_y - side.c * edge.local_x
+            ny: cython.double = -side.s * edge.local_x - side.c * edge.local_y
+            deep: cython.double = self.middle.reach(nx, ny) + side.reach(-nx, -ny)
+            if deep < self.deepest:
+                self.x, self.y, self.deepest = nx, ny, deep
+
+    @cython.cfunc
+    def ask(self, met: Met, by: cython.int, side: Side, other_stands: cython.bint) -> cython.void:
+        """Ask for the axis as normal. other_stands: whether it is that of the other contact."""
+        if not (self.middle.is_disc() or side.is_disc()):
+            met.turn_to(self.x, self.y, by)
+        elif other_stands:
+            met.left_out = True
+
+    @cython.cfunc
+    def put(self, side: Side, met: Met, which: cython.int) -> cython.void:
         """Let a side stand for what is first or second in a contact."""
-        number: cython.int = found.first if which == 1 else found.second
+        number: cython.int = met.first if which == 1 else met.second
         if number < 0:
-            side.take_wall(shape_of(found.arbiter, which == 2))
+            side.take_wall(shape_of(met.arbiter, which == 2))
         else:
-            side.take(self.numbers[number], piece_of(found.arbiter, which == 2))
+            side.take(self.numbers[number], piece_of(met.arbiter, which == 2))
 
     @cython.cfunc
     def try_sides(self, side: Side) -> cython.void:
@@ -313,22 +381,22 @@ class Flush:
                 self.x, self.y, self.deepest = nx, ny, deep
 
     @cython.cfunc
-    def turn(self, found: Met) -> cython.void:
+    def turn(self, met: Met) -> cython.void:
         """Turn a contact's normal, and prepare its points as the engine does.
 
         Both sides get a point in one place, so that the impulse there turns them by as much.
         """
         a: Side = self.one
         b: Side = self.other
-        nx: cython.double = found.new_x
-        ny: cython.double = found.new_y
-        self.put(a, found, 1)
-        self.put(b, found, 2)
-        set_normal(found.arbiter, nx, ny)
+        nx: cython.double = met.new_x
+        ny: cython.double = met.new_y
+        self.put(a, met, 1)
+        self.put(b, met, 2)
+        set_normal(met.arbiter, nx, ny)
         k: cython.int
-        for k in range(count_of(found.arbiter)):
-            of_a: Vector = arm_of(found.arbiter, k, False)
-            of_b: Vector = arm_of(found.arbiter, k, True)
+        for k in range(count_of(met.arbiter)):
+            of_a: Vector = arm_of(met.arbiter, k, False)
+            of_b: Vector = arm_of(met.arbiter, k, True)
             x: cython.double = (a.center_x + of_a.x + b.center_x + of_b.x) / 2
             y: cython.double = (a.center_y + of_a.y + b.center_y + of_b.y) / 2
             ax: cython.double = x - a.center_x
@@ -337,10 +405,10 @@ class Flush:
             by: cython.double = y - b.center_y
             bounce: cython.double = b.speed(bx, by, nx, ny) - a.speed(ax, ay, nx, ny)
             set_point(
-                found.arbiter, k, ax, ay, bx, by,
+                met.arbiter, k, ax, ay, bx, by,
                 1.0 / (a.give(ax, ay, nx, ny) + b.give(bx, by, nx, ny)),
                 1.0 / (a.give(ax, ay, -ny, nx) + b.give(bx, by, -ny, nx)),
-                bounce * restitution_of(found.arbiter),
+                bounce * restitution_of(met.arbiter),
             )  # fmt: skip
 
 
