@@ -9,7 +9,7 @@ disc only has the contact with the piece under its middle.
 from __future__ import annotations
 
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.arithmetic import cosine_sine
+from mars2d.physics.islands.arithmetic import cosine_sine, length
 from mars2d.physics.islands.body import Body, Corner, Edge, Piece
 from mars2d.physics.islands.chipmunk import (
     Arbiters,
@@ -38,6 +38,9 @@ __all__ = ["Flush"]
 ALIKE = 1e-7
 """The sine of the angle up to which normals are the same."""
 
+ROUGHLY = 0.1
+"""That up to which two that are asked for do not contradict each other."""
+
 
 @cython.final
 @cython.cclass
@@ -57,12 +60,16 @@ class Side:
     # of a wall: its end
     end_x: cython.double
     end_y: cython.double
+    # of a body: the corner that was found
+    corner_x: cython.double
+    corner_y: cython.double
 
     def __init__(self) -> None:
         """Stand for nothing yet."""
         self.is_wall = True
         self.c = self.s = self.x = self.y = 0.0
         self.center_x = self.center_y = self.end_x = self.end_y = 0.0
+        self.corner_x = self.corner_y = 0.0
 
     @cython.cfunc
     def take(self, body: Body, piece: cython.int) -> cython.void:
@@ -101,6 +108,21 @@ class Side:
             far = max(far, corner.local_x * x + corner.local_y * y)
         far += self.piece.radius
         return far + self.x * nx + self.y * ny
+
+    @cython.cfunc
+    def find_corner(self, x: cython.double, y: cython.double, room: cython.double) -> cython.bint:
+        """Find the nearest corner to a point, within some room; return whether there is one."""
+        corner: Corner
+        nearest: cython.double = room
+        if self.is_wall:
+            return False
+        for corner in self.piece.corners:
+            at_x: cython.double = self.c * corner.local_x - self.s * corner.local_y + self.x
+            at_y: cython.double = self.s * corner.local_x + self.c * corner.local_y + self.y
+            far: cython.double = length(at_x - x, at_y - y)
+            if far < nearest:
+                nearest, self.corner_x, self.corner_y = far, at_x, at_y
+        return nearest < room
 
     @cython.cfunc
     def speed(
@@ -159,8 +181,9 @@ class Met:
         """Ask for a normal, away from a side; for none if the other side asks for another."""
         if side == 2:
             nx, ny = -nx, -ny
-        if self.turned_by > 0 and not alike(nx, ny, self.new_x, self.new_y):
-            self.left_out = self.left_out or self.turned_by != side
+        if self.turned_by > 0:
+            across: cython.bint = not alike(nx, ny, self.new_x, self.new_y, ROUGHLY)
+            self.left_out = self.left_out or (across and self.turned_by != side)
             return
         self.turned_by, self.new_x, self.new_y = side, nx, ny
 
@@ -231,7 +254,10 @@ class Flush:
             self.look_beside(met, 1)
             self.look_beside(met, 2)
         for met in every:
-            if met.left_out or (met.turned_by > 0 and met.turned_by + met.stands_by == 3):
+            if met.turned_by > 0 and met.turned_by + met.stands_by == 3:
+                met.turned_by = 0
+                met.left_out = not alike(met.x, met.y, met.new_x, met.new_y, ROUGHLY)
+            if met.left_out:
                 leave_out(met.arbiter)
             elif met.turned_by > 0:
                 self.turn(met)
@@ -248,7 +274,7 @@ class Flush:
         ay: cython.double = a.y if by_a == 1 else -a.y
         bx: cython.double = b.x if by_b == 1 else -b.x
         by: cython.double = b.y if by_b == 1 else -b.y
-        if alike(ax, ay, bx, by):
+        if alike(ax, ay, bx, by, ALIKE):
             a.stands_by |= by_a
             b.stands_by |= by_b
             return
@@ -265,8 +291,8 @@ class Flush:
             self.try_sides(self.other)
         if self.deepest >= self.depth:
             return
-        a_stands: cython.bint = alike(ax, ay, self.x, self.y)
-        b_stands: cython.bint = alike(bx, by, self.x, self.y)
+        a_stands: cython.bint = alike(ax, ay, self.x, self.y, ALIKE)
+        b_stands: cython.bint = alike(bx, by, self.x, self.y, ALIKE)
         if a_stands:
             a.stands_by |= by_a
         else:
@@ -298,7 +324,7 @@ class Flush:
         self.try_faces(self.one)
         nx: cython.double = met.x if by == 1 else -met.x
         ny: cython.double = met.y if by == 1 else -met.y
-        if self.deepest >= self.depth or alike(nx, ny, self.x, self.y):
+        if self.deepest >= self.depth or alike(nx, ny, self.x, self.y, ALIKE):
             return
         piece: cython.int = piece_of(met.arbiter, which == 2)
         k: cython.int
@@ -388,6 +414,7 @@ class Flush:
         """
         a: Side = self.one
         b: Side = self.other
+        slider: Side = a if met.turned_by == 1 else b
         nx: cython.double = met.new_x
         ny: cython.double = met.new_y
         self.put(a, met, 1)
@@ -399,6 +426,8 @@ class Flush:
             of_b: Vector = arm_of(met.arbiter, k, True)
             x: cython.double = (a.center_x + of_a.x + b.center_x + of_b.x) / 2
             y: cython.double = (a.center_y + of_a.y + b.center_y + of_b.y) / 2
+            if count_of(met.arbiter) == 1 and slider.find_corner(x, y, self.depth):
+                x, y = slider.corner_x, slider.corner_y
             ax: cython.double = x - a.center_x
             ay: cython.double = y - a.center_y
             bx: cython.double = x - b.center_x
@@ -414,7 +443,11 @@ class Flush:
 
 @cython.cfunc
 def alike(
-    ax: cython.double, ay: cython.double, bx: cython.double, by: cython.double
+    ax: cython.double,
+    ay: cython.double,
+    bx: cython.double,
+    by: cython.double,
+    sine: cython.double,
 ) -> cython.bint:
-    """Return whether two directions are the same."""
-    return ax * bx + ay * by > 0.0 and abs(ax * by - ay * bx) <= ALIKE
+    """Return whether two directions are the same, but for an angle with this sine."""
+    return ax * bx + ay * by > 0.0 and abs(ax * by - ay * bx) <= sine
