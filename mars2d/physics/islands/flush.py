@@ -254,7 +254,7 @@ class Flush:
             self.look_beside(met, 1)
             self.look_beside(met, 2)
         for met in every:
-            if met.turned_by > 0 and met.turned_by + met.stands_by == 3:
+            if met.turned_by > 0 and met.stands_by & (3 - met.turned_by):
                 met.turned_by = 0
                 met.left_out = not alike(met.x, met.y, met.new_x, met.new_y, ROUGHLY)
             if met.left_out:
