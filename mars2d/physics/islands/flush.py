@@ -38,6 +38,9 @@ __all__ = ["Flush"]
 ALIKE = 1e-7
 """The sine of the angle up to which normals are the same."""
 
+RESTS = 1e-3
+"""The speed up to which bodies do not approach each other, m/s."""
+
 ROUGHLY = 0.1
 """That up to which two that are asked for do not contradict each other."""
 
@@ -160,6 +163,7 @@ class Met:
     turned_by: cython.int  # 1: by the first, 2: by the second, 0: not
     stands_by: cython.int  # 1, 2 or 3: by whose side it is as another contact
     left_out: cython.bint
+    doubted: cython.bint  # whether it was turned for two bodies, which may move past each other
     new_x: cython.double  # its new normal
     new_y: cython.double
 
@@ -167,7 +171,7 @@ class Met:
         """Begin without any; `take` follows."""
         self.first = self.second = self.turned_by = self.stands_by = 0
         self.x = self.y = self.new_x = self.new_y = 0.0
-        self.left_out = False
+        self.left_out = self.doubted = False
 
     @cython.cfunc
     def take(self, arbiter: Handle) -> cython.void:
@@ -257,6 +261,8 @@ class Flush:
             if met.turned_by > 0 and met.stands_by & (3 - met.turned_by):
                 met.turned_by = 0
                 met.left_out = not alike(met.x, met.y, met.new_x, met.new_y, ROUGHLY)
+            elif met.turned_by > 0 and met.doubted and self.would_stop(met):
+                met.turned_by = 0
             if met.left_out:
                 leave_out(met.arbiter)
             elif met.turned_by > 0:
@@ -371,9 +377,29 @@ class Flush:
     def ask(self, met: Met, by: cython.int, side: Side, other_stands: cython.bint) -> cython.void:
         """Ask for the axis as normal. other_stands: whether it is that of the other contact."""
         if not (self.middle.is_disc() or side.is_disc()):
+            met.doubted = self.one.is_wall or self.other.is_wall
+            met.doubted = met.doubted or self.one.body is not self.other.body
             met.turn_to(self.x, self.y, by)
         elif other_stands:
             met.left_out = True
+
+    @cython.cfunc
+    def would_stop(self, met: Met) -> cython.bint:
+        """Return whether bodies approach each other faster along its new normal than along its own.
+
+        Then it is not along that one that they slide.
+        """
+        arm: Vector = arm_of(met.arbiter, 0, False)
+        ax: cython.double = arm.x
+        ay: cython.double = arm.y
+        arm = arm_of(met.arbiter, 0, True)
+        self.put(self.one, met, 1)
+        self.put(self.other, met, 2)
+        closing: cython.double = self.one.speed(ax, ay, met.x, met.y)
+        closing -= self.other.speed(arm.x, arm.y, met.x, met.y)
+        faster: cython.double = self.one.speed(ax, ay, met.new_x, met.new_y)
+        faster -= self.other.speed(arm.x, arm.y, met.new_x, met.new_y)
+        return faster > max(closing, 0.0) + RESTS
 
     @cython.cfunc
     def put(self, side: Side, met: Met, which: cython.int) -> cython.void:
