@@ -611,7 +611,7 @@ cdef inline void straighten_in(Handle space, flush) noexcept:
 
 cdef inline void ask_in(Handle body, bint does) noexcept:
     engine.cpBodySetVelocityUpdateFunc(
-        body, straighten_contacts if does else engine.cpBodyUpdateVelocity)
+        body, engine.cpBodyUpdateVelocity if not does else straighten_contacts)
 
 cdef void settle_contact(void *arbiter, void *space, void *data) noexcept:
     (<Surfaces>data).settle(arbiter)
