@@ -128,18 +128,6 @@ class Side:
         return nearest < room
 
     @cython.cfunc
-    def speed(
-        self, x: cython.double, y: cython.double, nx: cython.double, ny: cython.double
-    ) -> cython.double:
-        """Return how fast a point at x, y from its centre of mass moves in a direction, m/s."""
-        if self.is_wall:
-            return 0.0
-        fast: Vector = velocity_of(self.body.handle)
-        spin: cython.double = spin_of(self.body.handle)
-        along: cython.double = (fast.x - spin * y) * nx + (fast.y + spin * x) * ny
-        return along
-
-    @cython.cfunc
     def give(
         self, x: cython.double, y: cython.double, nx: cython.double, ny: cython.double
     ) -> cython.double:
@@ -254,15 +242,19 @@ class Flush:
             for k in range(1, len(some)):
                 for i in range(k):
                     self.compare(body, some[i], some[k])
+        speed: cython.double
         for met in every:
-            self.look_beside(met, 1)
-            self.look_beside(met, 2)
+            if self.closing(met, met.x, met.y) > RESTS:
+                self.look_beside(met, 1)
+                self.look_beside(met, 2)
         for met in every:
             if met.turned_by > 0 and met.stands_by & (3 - met.turned_by):
                 met.turned_by = 0
                 met.left_out = not alike(met.x, met.y, met.new_x, met.new_y, ROUGHLY)
-            elif met.turned_by > 0 and met.doubted and self.would_stop(met):
-                met.turned_by = 0
+            elif met.turned_by > 0 and met.doubted:  # they do not slide along it
+                speed = max(self.closing(met, met.x, met.y), 0.0)
+                if self.closing(met, met.new_x, met.new_y) > speed + RESTS:
+                    met.turned_by = 0
             if met.left_out:
                 leave_out(met.arbiter)
             elif met.turned_by > 0:
@@ -284,6 +276,13 @@ class Flush:
             a.stands_by |= by_a
             b.stands_by |= by_b
             return
+        arm: Vector = arm_of(a.arbiter, 0, by_a == 2)
+        x: cython.double = arm.x
+        y: cython.double = arm.y
+        arm = arm_of(b.arbiter, 0, by_b == 2)
+        near: cython.bint = length(arm.x - x, arm.y - y) < 4 * self.depth
+        if not near and ax * bx + ay * by < -0.5:
+            return
         self.put(self.middle, a, by_a)
         self.put(self.one, a, 3 - by_a)
         self.put(self.other, b, 3 - by_b)
@@ -292,7 +291,7 @@ class Flush:
         self.deepest = self.depth
         self.try_axis(ax, ay)
         self.try_axis(bx, by)
-        if self.deepest >= self.depth:  # a corner on a seam may be pushed by no face at all
+        if near and self.deepest >= self.depth:  # a corner on a seam may be pushed by no face
             self.try_sides(self.one)
             self.try_sides(self.other)
         if self.deepest >= self.depth:
@@ -384,22 +383,17 @@ class Flush:
             met.left_out = True
 
     @cython.cfunc
-    def would_stop(self, met: Met) -> cython.bint:
-        """Return whether bodies approach each other faster along its new normal than along its own.
-
-        Then it is not along that one that they slide.
-        """
-        arm: Vector = arm_of(met.arbiter, 0, False)
-        ax: cython.double = arm.x
-        ay: cython.double = arm.y
-        arm = arm_of(met.arbiter, 0, True)
-        self.put(self.one, met, 1)
-        self.put(self.other, met, 2)
-        closing: cython.double = self.one.speed(ax, ay, met.x, met.y)
-        closing -= self.other.speed(arm.x, arm.y, met.x, met.y)
-        faster: cython.double = self.one.speed(ax, ay, met.new_x, met.new_y)
-        faster -= self.other.speed(arm.x, arm.y, met.new_x, met.new_y)
-        return faster > max(closing, 0.0) + RESTS
+    def closing(self, met: Met, nx: cython.double, ny: cython.double) -> cython.double:
+        """Return how fast both sides of a contact approach each other along a normal, m/s."""
+        speed: cython.double = 0.0
+        arm: Vector
+        if met.first >= 0:
+            arm = arm_of(met.arbiter, 0, False)
+            speed = speed_of(self.numbers[met.first], arm.x, arm.y, nx, ny)
+        if met.second >= 0:
+            arm = arm_of(met.arbiter, 0, True)
+            speed -= speed_of(self.numbers[met.second], arm.x, arm.y, nx, ny)
+        return speed
 
     @cython.cfunc
     def put(self, side: Side, met: Met, which: cython.int) -> cython.void:
@@ -458,13 +452,28 @@ class Flush:
             ay: cython.double = y - a.center_y
             bx: cython.double = x - b.center_x
             by: cython.double = y - b.center_y
-            bounce: cython.double = b.speed(bx, by, nx, ny) - a.speed(ax, ay, nx, ny)
+            bounce: cython.double = 0.0
+            if not b.is_wall:
+                bounce = speed_of(b.body, bx, by, nx, ny)
+            if not a.is_wall:
+                bounce -= speed_of(a.body, ax, ay, nx, ny)
             set_point(
                 met.arbiter, k, ax, ay, bx, by,
                 1.0 / (a.give(ax, ay, nx, ny) + b.give(bx, by, nx, ny)),
                 1.0 / (a.give(ax, ay, -ny, nx) + b.give(bx, by, -ny, nx)),
                 bounce * restitution_of(met.arbiter),
             )  # fmt: skip
+
+
+@cython.cfunc
+def speed_of(
+    body: Body, x: cython.double, y: cython.double, nx: cython.double, ny: cython.double
+) -> cython.double:
+    """Return how fast a point at x, y from a body's centre of mass moves in a direction, m/s."""
+    fast: Vector = velocity_of(body.handle)
+    spin: cython.double = spin_of(body.handle)
+    along: cython.double = (fast.x - spin * y) * nx + (fast.y + spin * x) * ny
+    return along
 
 
 @cython.cfunc
