@@ -536,6 +536,35 @@ def test_a_crate_that_stands_on_another_stops_a_box():
     assert after(props, (0.0, 1), 0.4) == pytest.approx([0, 0, 0], abs=1e-3)
 
 
+@pytest.mark.parametrize("name", ["two crates", "two pieces"])
+@pytest.mark.parametrize("off", [0.0, 1e-5, -3e-4, 1e-3])
+def test_no_needle_is_pressed_into_a_seam_of_bodies(name, off):
+    """A robot presses it there for seconds; it gets no deeper than bodies may."""
+    needle = Solid(shape=TIPS["needle"]["shape"], pose=(off, 0.105, 0), mass=1.0, **SMOOTH)
+    robot = Robot(
+        shape=Polygon([(-0.2, -0.3), (0.2, -0.3), (0.2, 0.3), (-0.2, 0.3)]), drive=Holonomic(),
+        pose=(0, 0.46, 0),
+    )  # fmt: skip
+    floor = [
+        Solid(
+            Compound([rectangle_of(a, b, -0.25, 0.25) for a, b in pairwise(ends)]),
+            pose=((ends[0] + ends[-1]) / 2, -0.25, 0), **{**FIRM, "ground_friction": 20.0},
+        )
+        for ends in ROWS[name]
+    ]  # fmt: skip
+    scenario = Scenario(
+        robots=[robot], props=[needle, *floor], workspace=None, stop_time=2, sampling_time=0.05
+    )
+    world = World(scenario)
+    deepest = 0.0
+    while not world.over:
+        world.step(np.array([[0.0], [-0.3]]))
+        _, y, angle = world.prop_pose[:, 0]
+        tip = min(y + u * sin(angle) + v * cos(angle) for u, v in needle.shape.pieces[0].vertices)
+        deepest = max(deepest, world.prop_pose[1, 1:].max() + 0.25 - tip)
+    assert 0 < deepest < 1.1e-3
+
+
 def test_rows_give_the_same_bits_where_nothing_is_compiled():
     def velocities() -> list[bytes]:
         found = []

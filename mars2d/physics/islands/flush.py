@@ -244,9 +244,8 @@ class Flush:
                     self.compare(body, some[i], some[k])
         speed: cython.double
         for met in every:
-            if self.closing(met, met.x, met.y) > RESTS:
-                self.look_beside(met, 1)
-                self.look_beside(met, 2)
+            self.look_beside(met, 1)
+            self.look_beside(met, 2)
         for met in every:
             if met.turned_by > 0 and met.stands_by & (3 - met.turned_by):
                 met.turned_by = 0
@@ -321,17 +320,19 @@ class Flush:
         some: list[Met] = self.touched[number]
         if len(some) + len(body.pieces) < 3:
             return
+        piece: cython.int = piece_of(met.arbiter, which == 2)
+        nx: cython.double = met.x if by == 1 else -met.x
+        ny: cython.double = met.y if by == 1 else -met.y
+        if rests_on(body.pieces[piece], nx, ny) and self.closing(met, met.x, met.y) < RESTS:
+            return
         self.put(self.middle, met, by)
         self.put(self.one, met, which)
         if self.middle.is_disc() or self.middle.is_wall or self.one.is_disc():
             return
         self.deepest = self.depth
         self.try_faces(self.one)
-        nx: cython.double = met.x if by == 1 else -met.x
-        ny: cython.double = met.y if by == 1 else -met.y
         if self.deepest >= self.depth or alike(nx, ny, self.x, self.y, ALIKE):
             return
-        piece: cython.int = piece_of(met.arbiter, which == 2)
         k: cython.int
         other: Met
         for k in range(len(body.pieces)):
@@ -474,6 +475,16 @@ def speed_of(
     spin: cython.double = spin_of(body.handle)
     along: cython.double = (fast.x - spin * y) * nx + (fast.y + spin * x) * ny
     return along
+
+
+@cython.cfunc
+def rests_on(piece: Piece, nx: cython.double, ny: cython.double) -> cython.bint:
+    """Return whether something that is pushed along a normal may rest on an edge of a piece."""
+    edge: Edge
+    rests: cython.bint = False
+    for edge in piece.edges:  # as it was before the step
+        rests = rests or alike(-nx, -ny, edge.x, edge.y, ROUGHLY)
+    return rests
 
 
 @cython.cfunc
