@@ -275,12 +275,13 @@ class Flush:
             a.stands_by |= by_a
             b.stands_by |= by_b
             return
-        arm: Vector = arm_of(a.arbiter, 0, by_a == 2)
-        x: cython.double = arm.x
-        y: cython.double = arm.y
-        arm = arm_of(b.arbiter, 0, by_b == 2)
-        near: cython.bint = length(arm.x - x, arm.y - y) < 4 * self.depth
-        if not near and ax * bx + ay * by < -0.5:
+        of_a: Vector = arm_of(a.arbiter, 0, by_a == 2)
+        of_b: Vector = arm_of(b.arbiter, 0, by_b == 2)
+        near: cython.bint = length(of_b.x - of_a.x, of_b.y - of_a.y) < 4 * self.depth
+        if not near and not (
+            self.is_level(b, by_b == 2, of_a.x * ax + of_a.y * ay, ax, ay)
+            or self.is_level(a, by_a == 2, of_b.x * bx + of_b.y * by, bx, by)
+        ):
             return
         self.put(self.middle, a, by_a)
         self.put(self.one, a, 3 - by_a)
@@ -305,6 +306,23 @@ class Flush:
             b.stands_by |= by_b
         else:
             self.ask(b, by_b, self.other, a_stands)
+
+    @cython.cfunc
+    def is_level(
+        self,
+        met: Met,
+        second: cython.bint,
+        level: cython.double,
+        nx: cython.double,
+        ny: cython.double,
+    ) -> cython.bint:
+        """Return whether all points of a contact are about as far along a normal as said."""
+        k: cython.int
+        for k in range(count_of(met.arbiter)):
+            arm: Vector = arm_of(met.arbiter, k, second)
+            if abs(arm.x * nx + arm.y * ny - level) > 2 * self.depth:
+                return False
+        return True
 
     @cython.cfunc
     def look_beside(self, met: Met, by: cython.int) -> cython.void:
