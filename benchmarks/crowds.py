@@ -286,16 +286,16 @@ def crosses(start: Float, end: Float, edge: Float) -> bool:
 @contextmanager
 def after_each_substep(look: Callable[[list[Body]], None]) -> Iterator[None]:
     """Call something with an island's bodies after each substep of worlds that are built within."""
-    note = Island.note
+    close = Island.close
 
-    def note_and_look(island: Island, time: float, h: float) -> None:
-        note(island, time, h)
+    def close_and_look(island: Island, time: float, h: float) -> None:
+        close(island, time, h)
         look(island.bodies)
 
     plain = os.environ.get("MARS2D_PLAIN", "")
     os.environ["MARS2D_PLAIN"] = "1"
     try:
-        with replaced(Island, "note", note_and_look):
+        with replaced(Island, "close", close_and_look):
             yield
     finally:
         os.environ["MARS2D_PLAIN"] = plain

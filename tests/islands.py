@@ -93,7 +93,7 @@ def place(body: Body, position: complex, angle: float = 0.0) -> None:
 
 def let_move(body: Body, velocity: complex, spin: float = 0.0, bend: float = 0.0) -> None:
     """Let a body have a velocity that turns by `bend` m/s^2 at most."""
-    body.now_x, body.now_y, body.now_spin, body.bend = velocity.real, velocity.imag, spin, bend
+    body.vx, body.vy, body.spin, body.bend = velocity.real, velocity.imag, spin, bend
 
 
 def states_of(bodies: Sequence[Body]) -> np.ndarray:

@@ -16,6 +16,7 @@ from mars2d.core.arithmetic import angles_of, norms
 
 __all__ = [
     "ON_THE_EDGE",
+    "WITHIN",
     "bounds_of",
     "distance_to_ring",
     "edges_of",
@@ -26,6 +27,7 @@ __all__ = [
     "outside_polygon",
     "point_segment_distance",
     "rectangle",
+    "up_to",
     "wrap",
 ]
 
@@ -36,6 +38,9 @@ Outline = Sequence[Point]
 ON_THE_EDGE = 1e-9
 """A point at most this far from a polygon's boundary lies on it, metres."""
 
+WITHIN = 1 + 1e-9
+"""What exceeds a range or an angle of view by no more than this factor is still within it."""
+
 
 def wrap(angle: ArrayLike) -> Float:
     """Return the angle(s) in (-pi, pi].
@@ -45,6 +50,15 @@ def wrap(angle: ArrayLike) -> Float:
     """
     turned = (np.pi - np.asarray(angle, dtype=float)) % (2 * np.pi)
     return np.asarray(-(turned - np.pi) + 0.0)  # 0, not -0
+
+
+def up_to(distance: Float, reach: ArrayLike) -> Float:
+    """Return distances as sensors with a range read them: inf beyond it, but not exactly at it.
+
+    >>> up_to(np.array([0.1, 0.1 * 3, 0.301]), 0.3).tolist()
+    [0.1, 0.3, inf]
+    """
+    return np.where(distance <= np.multiply(WITHIN, reach), np.minimum(distance, reach), np.inf)
 
 
 def bounds_of(points: Sequence[Point] | Float) -> tuple[float, float, float, float]:

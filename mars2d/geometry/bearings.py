@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.arithmetic import angles_of, cosine_sine, norms
-from mars2d.core.plane import Point, wrap
+from mars2d.core.plane import WITHIN, Point, up_to, wrap
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 
@@ -21,9 +21,6 @@ Float = NDArray[np.float64]
 
 RANGE = Quantity("range", "m", "distance")
 BEARING = Quantity("bearing", "rad", "angle")
-
-ROUNDING = 1e-9
-"""The relative rounding error of a distance is less than this."""
 
 
 class Sight(Protocol):
@@ -57,16 +54,16 @@ def sighted(
     across, upwards = points[:, 0] - x[:, None], points[:, 1] - y[:, None]
     # In a crowd, most points are outside the square about the circle that is seen.
     larger = np.maximum(np.abs(across), np.abs(upwards))
-    around = larger <= reach * (1 + ROUNDING)
+    around = larger <= WITHIN * reach
     if bodies is not None:
         around &= bodies != np.array(robots)[:, None]
     who, what = np.nonzero(around)
     dx, dy = across[who, what], upwards[who, what]
-    apart = norms(dx, dy)
+    apart = up_to(norms(dx, dy), reach)
     bearings = wrap(angles_of(dy, dx) - theta[who])
     seen = apart <= reach
     if field_of_view < 2 * pi:
-        seen &= np.abs(bearings) <= field_of_view / 2
+        seen &= np.abs(bearings) <= WITHIN * field_of_view / 2
     who, what, apart, bearings = who[seen], what[seen], apart[seen], bearings[seen]
     if sight is not None and bodies is not None:
         seen = _not_hidden(poses, points, bodies, robots, sight, who, what)

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.arithmetic import cosines_sines, norms
-from mars2d.core.plane import Outline, Point, edges_of
+from mars2d.core.plane import WITHIN, Outline, Point, edges_of, up_to
 
 __all__ = ["CORNER", "Fans"]
 
@@ -41,9 +41,6 @@ GRAZING = 1e-4
 
 CORNER = 1e-13
 """The rounding error by which a ray aimed at an edge's end passes it, per metre plus one."""
-
-SLACK = 1 + 1e-9
-"""The factor by which things must be farther away than the range to be culled."""
 
 MAX_RAYS_AT_ONCE = 12_000
 """The approximate number of rays cast together; more do not fit into the processor's cache."""
@@ -265,7 +262,7 @@ class Fans:
     ) -> tuple[Float, Int]:
         """Return the lengths of rays, (m, k), and the bodies hit, empty if `nothing` is None."""
         far, blind = np.asarray(reach, dtype=float), np.asarray(ignore)
-        limit = float(far.max(initial=0.0))
+        limit = WITHIN * float(far.max(initial=0.0))
         table = _table(np.asarray(bearings, dtype=float).tobytes())
         shape = poses.shape[1], len(table.cos)
         distances = np.full(shape, inf)
@@ -276,11 +273,10 @@ class Fans:
             nearest = np.full(len(beams.way_x), inf)
             for met in found:
                 np.minimum.at(nearest, met.ray, met.distance)
-            whole = nearest.reshape(len(fans), -1)
-            whole[whole > far] = inf
-            distances[fans] = whole
+            seen = distances[fans] = up_to(nearest.reshape(len(fans), -1), far)
+            nearest[np.isinf(seen).ravel()] = inf
             if nothing is not None:
-                bodies[fans] = _first(found, nearest, nothing).reshape(whole.shape)
+                bodies[fans] = _first(found, nearest, nothing).reshape(seen.shape)
         return distances, bodies
 
     def _near(self, beams: _Beams) -> tuple[Int, Int]:
@@ -291,7 +287,7 @@ class Fans:
             radius = self._radius[near]
             near = near[(middle[near] - radius <= high) & (middle[near] + radius >= low)]
         dx, dy = self._middle[0, near] - beams.x[:, None], self._middle[1, near] - beams.y[:, None]
-        seen = dx * dx + dy * dy <= (SLACK * (self._radius[near] + beams.reach)) ** 2
+        seen = dx * dx + dy * dy <= (WITHIN * (self._radius[near] + beams.reach)) ** 2
         seen &= self._owner[near] != beams.ignore[:, None]
         fan, thing = np.nonzero(seen)
         return fan, near[thing]
@@ -333,7 +329,7 @@ class Fans:
         inside = np.minimum.reduceat(area, before) >= 0
         solid = inside & self._ring_solid[ring]
         facing = (area < 0) | np.repeat(inside ^ solid, size)
-        limit = beams.reach * SLACK * self._length
+        limit = beams.reach * WITHIN * self._length
         seen = np.flatnonzero(facing & (np.abs(area) <= limit[edge]))
         eye, edge, area, ax, ay = eye[seen], edge[seen], area[seen], ax[seen], ay[seen]
         bx, by = self._edge_b[0][edge] - beams.x[eye], self._edge_b[1][edge] - beams.y[eye]

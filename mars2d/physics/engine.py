@@ -54,8 +54,7 @@ class Engine(Motion):
 
     def pull(self, body: int, force: tuple[float, float], torque: float) -> None:
         """Let a force (x, y) [N] and a torque [N m] act on a body from now on."""
-        pull = [float(force[0]), float(force[1]), float(torque)]
-        self._mover.pull(body, pull, self.velocity[:, body].tolist())
+        self._mover.pull(body, [float(force[0]), float(force[1]), float(torque)])
         self._mover.write_states(self._numbers)
 
     def step_under(self, acceleration: float) -> float:

@@ -121,7 +121,7 @@ class Motion:
         return self.seen_work.copy()
 
     def take_contacts(self) -> NDArray[np.void]:
-        """Return the contacts since the last call by time, one row (dtype CONTACT) per pair."""
+        """Return the contacts since the last call by time: a row (CONTACT) per pair and normal."""
         count = self._mover.count_contacts()
         if not count:
             return NOTHING

@@ -15,7 +15,7 @@ from pymunk import batch
 from pymunk._chipmunk_cffi import ffi, lib
 
 from mars2d.core.arithmetic import cosines_sines, norm, norms
-from mars2d.core.plane import Point
+from mars2d.core.plane import WITHIN, Point, up_to
 from mars2d.geometry.ray_casting import CORNER
 
 __all__ = ["BODY", "POSE", "SIGHT", "Rays", "end_bars"]
@@ -212,7 +212,8 @@ class Rays:
 
     def distances(self, start: Point, angles: Float, reach: ArrayLike, ignore: int) -> Float:
         """Return the lengths of rays at angles (k,), inf where nothing is hit; see Surroundings."""
-        return self._sweep(start, angles, reach, ignore)[1]
+        far = np.multiply(WITHIN, reach)
+        return up_to(self._sweep(start, angles, far, ignore)[1], reach)
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int

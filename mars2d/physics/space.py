@@ -17,7 +17,7 @@ from pymunk._chipmunk_cffi import ffi, lib
 
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import cosines_sines
-from mars2d.core.plane import Outline, Point, edges_of
+from mars2d.core.plane import WITHIN, Outline, Point, edges_of
 from mars2d.physics.islands.chipmunk import bodies_are_as_thought, frame_of
 from mars2d.physics.rays import BODY, POSE, SIGHT, Rays, end_bars
 from mars2d.scenario.scenario import Scenario
@@ -123,12 +123,12 @@ class Space:
         space = self._seen._space
         self._filter.group = ignore + 1
         info = self._info
-        hit = lib.cpSpacePointQueryNearest(space, point, limit, self._filter[0], info)
-        return info.distance if hit else inf
+        hit = lib.cpSpacePointQueryNearest(space, point, WITHIN * limit, self._filter[0], info)
+        return min(info.distance, limit) if hit else inf
 
     def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
-        """Yield the nearest point of each surface within `limit`; see Surroundings."""
-        for info in self._seen.point_query(point, limit, _own(ignore)):
+        """Yield the nearest point of each surface at most `limit` away; see Surroundings."""
+        for info in self._seen.point_query(point, WITHIN * limit, _own(ignore)):
             yield info.point.x, info.point.y
 
 

@@ -2,32 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["CONTACT", "EPISODE", "episodes", "rows_of"]
+__all__ = ["CONTACT", "EPISODE", "count_meetings", "episodes", "met", "rows_of"]
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 
 CONTACT = np.dtype(
     [
-        ("time", "f8"),  # s, when the bodies were first in touch during the control step
-        ("duration", "f8"),  # s, for how long they touched during the control step
+        ("time", "f8"),  # s, when they were first in touch, by this normal, in the control step
+        ("duration", "f8"),  # s, for how long they touched by it during the control step
         ("a", "i4"),  # index of a body: robots first, then props
         ("b", "i4"),  # index of another body, a < b; or -1 - k for obstacle k
-        ("point", "f8", (2,)),  # m, on the surface of a
-        ("normal", "f8", (2,)),  # unit vector from a to b
+        ("point", "f8", (2,)),  # m, on the surface of a, then
+        ("normal", "f8", (2,)),  # unit vector from a to b: the mean, weighted by normal impulses
         ("impulse", "f8"),  # N s, over the control step: the length of its sum
         ("normal_impulse", "f8"),  # N s, that part of it along the normal
         ("tangential_impulse", "f8"),  # N s, on b, along the normal turned by +90 degrees
-        ("speed", "f8"),  # m/s, at which they approached when they came to touch; 0 if they did
+        ("speed", "f8"),  # m/s, at which they approached along it when this began; else 0
         ("slip", "f8"),  # m/s, of b along a then, along the normal turned by +90 degrees
-        ("began", "?"),  # whether they did not touch in the control step before
-        ("ended", "?"),  # whether they had parted by the end of the control step
+        ("began", "?"),  # whether they did not touch by it when the control step began
+        ("ended", "?"),  # whether they did not touch by it any more when the control step ended
     ]
 )
-"""A row for each pair and control step in which the pair touched."""
+"""A row for each control step in which a pair touched, and for each normal by which it did.
+
+Rows add up as vectors: what a body has got from all contacts of a control step is the sum, over its
+rows, of ``normal_impulse * normal`` and ``tangential_impulse`` times the normal turned by +90
+degrees, with the sign minus where the body is a.
+"""
+
+ROUNDING = 1e-9
+"""Seconds between touches of a pair that count as none."""
 
 EPISODE = np.dtype(
     [
@@ -40,7 +50,7 @@ EPISODE = np.dtype(
         ("tangential_impulse", "f8"),  # N s, on b
     ]
 )
-"""A row for each time that a pair touched until it parted."""
+"""A row for each time that a pair touched, by whatever normals, until it parted."""
 
 
 def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:
@@ -48,21 +58,38 @@ def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:
 
     contacts: rows of dtype CONTACT, in the order of time, such as ``record.contacts``.
     """
-    key = _key(contacts["a"], contacts["b"])
-    order = np.lexsort((contacts["time"], key))
-    rows = contacts[order]
-    group = np.cumsum(rows["began"] | (np.diff(key[order], prepend=-1) != 0)) - 1
-    count = int(group[-1]) + 1 if len(rows) else 0
-    first = np.searchsorted(group, np.arange(count))
-    last = np.searchsorted(group, np.arange(count), side="right") - 1
+    order, begins, until = _touching(contacts)
+    rows, first = contacts[order], np.flatnonzero(begins)
+    count, group = len(first), np.cumsum(begins) - 1
     result = np.zeros(count, dtype=EPISODE)
     result["began"] = rows["time"][first]
-    result["ended"] = rows["time"][last] + rows["duration"][last]
+    result["ended"] = until[np.append(first[1:], len(rows))[:count] - 1]
     for name in ("a", "b", "speed"):
         result[name] = rows[name][first]
     for name in ("normal_impulse", "tangential_impulse"):
         result[name] = np.bincount(group, rows[name], count)
     return result[np.argsort(result["began"], kind="stable")]
+
+
+def met(contacts: NDArray[np.void]) -> NDArray[np.bool_]:
+    """Return with which rows (c,) two bodies came to touch that did not touch by another normal.
+
+    contacts: (c,) of dtype CONTACT, in the order of time: of a record, or of single control steps.
+    """
+    order, begins, _ = _touching(contacts)
+    found = np.zeros(len(contacts), dtype=bool)
+    found[order] = begins
+    return np.asarray(found & contacts["began"])
+
+
+def count_meetings(pieces: Iterable[NDArray[np.void]]) -> int:
+    """Return how often two bodies came to touch, in contacts that are given piece by piece."""
+    count, before = 0, np.empty(0, dtype=CONTACT)
+    for piece in pieces:
+        contacts = np.concatenate([before, piece])
+        count += int(met(contacts)[len(before) :].sum())
+        before = contacts[contacts["time"] + contacts["duration"] >= piece["time"][-1] - ROUNDING]
+    return count
 
 
 def rows_of(contacts: NDArray[np.void], time: Float, sampling_time: float) -> NDArray[np.intp]:
@@ -77,6 +104,18 @@ def rows_of(contacts: NDArray[np.void], time: Float, sampling_time: float) -> ND
     return np.searchsorted(time, within, side="left")
 
 
-def _key(a: Int, b: Int) -> Int:
-    """Return a number for each pair, which sorts pairs by a, then by b."""
-    return (np.asarray(a, dtype=np.int64) << 32) + np.asarray(b, dtype=np.int64) + (1 << 31)
+def _touching(contacts: NDArray[np.void]) -> tuple[NDArray[np.intp], NDArray[np.bool_], Float]:
+    """Return an order of rows by their pairs, and of rows in it which begin an episode.
+
+    The third array says until when each row's pair had touched by then, s.
+    """
+    key = (contacts["a"].astype(np.int64) << 32) + contacts["b"]
+    order = np.argsort(key, kind="stable")
+    key, time, began = key[order], contacts["time"][order], contacts["began"][order]
+    begins = np.diff(key, prepend=key[:1] - 1) != 0
+    # the largest end of a pair's rows so far: a running maximum that no other pair's ends exceed
+    ends, rank = np.unique(time + contacts["duration"][order], return_inverse=True)
+    above = np.cumsum(begins) * len(ends)
+    until = ends[np.maximum.accumulate(rank.ravel() + above) - above]
+    begins[1:] |= began[1:] & (time[1:] > until[:-1] + ROUNDING)
+    return order, begins, until

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.record.contact import met
+
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
@@ -28,14 +30,13 @@ def marks_of(record: Record) -> dict[MarkKind, list[int]]:
 
 
 def meets(contacts: NDArray[np.void], body: int | None) -> NDArray[np.bool_]:
-    """Return which contacts begin: those of a body, or all of them for None."""
+    """Return with which contacts a body came to touch another, or any body for None."""
     of = True if body is None else (contacts["a"] == body) | (contacts["b"] == body)
-    began: NDArray[np.bool_] = contacts["began"] & of
-    return began
+    return np.asarray(met(contacts) & of)
 
 
 def meetings(contacts: NDArray[np.void], sampling_time: float) -> list[int]:
     """Return the rows at the ends of the control steps in which bodies came to touch, ascending."""
-    steps = contacts["time"][contacts["began"]] / sampling_time
+    steps = contacts["time"][met(contacts)] / sampling_time
     rows: list[int] = np.unique(np.ceil(steps - 1e-6).astype(int)).tolist()
     return rows

@@ -17,7 +17,7 @@ from mars2d.core.arrays import sealed
 from mars2d.core.errors import counted
 from mars2d.core.scene import Scene
 from mars2d.record.columns import Texts, blocks
-from mars2d.record.contact import CONTACT, rows_of
+from mars2d.record.contact import CONTACT, count_meetings, rows_of
 from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
@@ -63,8 +63,8 @@ class Record:
     command takes effect; where they are not given, the means over the control step before. work:
     (T, 6) J since the start, of what `mars2d.record.energy.WORK` names; nan where it is not given.
     sensors: for each sensor's name an array (T, m, ...) of readings, of the m robots in
-    ``sensor_robots[name]``. contacts: a row for each pair and control step, with the fields of
-    `mars2d.record.CONTACT`. messages: a row for each message and receiver, with the fields of
+    ``sensor_robots[name]``. contacts: a row for each control step, pair and normal, with the fields
+    of `mars2d.record.CONTACT`. messages: a row for each message and receiver, with the fields of
     `mars2d.record.MESSAGE`; contents: the texts that were sent, as JSON, to which their field
     `content` refers. over_message: why the run ended. finished: False if an error or Ctrl-C ended
     the run, or while it goes on. drawn: the add-ons' drawing at the end, which files do not keep.
@@ -181,8 +181,8 @@ class Record:
 
     @property
     def collisions(self) -> int:
-        """How many times two bodies began to touch."""
-        return sum(int(block["began"].sum()) for block in blocks(self.contacts))
+        """How many times two bodies came to touch that did not touch before."""
+        return count_meetings(blocks(self.contacts))
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Return all columns as plain arrays, by their names in files.

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from mars2d.core.arithmetic import norm, norms
 from mars2d.core.description import Description, entry, integer, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
+from mars2d.core.plane import WITHIN
 
 __all__ = [
     "Delaunay",
@@ -32,9 +33,6 @@ Edges = tuple[tuple[int, int], ...]
 
 FLAT = 1e-9
 """A robot is on a line if it is off by less than this share of the line's length."""
-
-ROUNDING = 1e-9
-"""Distances that differ by less than this share may differ by rounding only."""
 
 MAX_SORTED = 64
 """Up to this many robots, sorting all is faster than searching for the near ones."""
@@ -135,15 +133,8 @@ class _Others(Sequence[Sequence[int]]):
 
 
 def within(dx: Float, dy: Float, distance: float) -> NDArray[np.bool_]:
-    """Return which vectors (k,), (k,) [m] are no longer than a distance, the bound included.
-
-    Where rounding decides, Python's hypot is used: its result is the same on all processors.
-    """
-    apart = norms(dx, dy)
-    near = np.asarray(apart <= distance)
-    for k in np.flatnonzero(np.abs(apart - distance) <= ROUNDING * distance).tolist():
-        near[k] = norm(dx[k], dy[k]) <= distance
-    return near
+    """Return which vectors (k,), (k,) [m] are no longer than a distance, the bound included."""
+    return np.asarray(norms(dx, dy) <= WITHIN * distance)
 
 
 class Within(Neighbourhood):
@@ -157,7 +148,7 @@ class Within(Neighbourhood):
 
         # The tree compares squares, which are rounded differently from distances.
         tree = cKDTree(position.T)
-        pairs = tree.query_pairs(self.range * (1 + ROUNDING), output_type="ndarray")
+        pairs = tree.query_pairs(self.range * WITHIN * WITHIN, output_type="ndarray")
         dx, dy = position[:, pairs[:, 1]] - position[:, pairs[:, 0]]
         found: list[list[int]] = [[] for _ in range(position.shape[1])]
         for i, j in pairs[within(dx, dy, self.range)].tolist():
@@ -197,7 +188,7 @@ def _candidates(position: Float, k: int) -> Iterator[NDArray[np.int64]]:
     tree = cKDTree(position.T)
     far = np.asarray(tree.query(position.T, k=[k + 1])[0])[:, 0]  # the nearest is oneself
     # The tree compares squares, which are rounded differently from distances, and may be 0.
-    reach = far * (1 + ROUNDING) + 1e-150
+    reach = far * WITHIN + 1e-150
     for near in tree.query_ball_point(position.T, reach, return_sorted=True):
         yield np.array(near, dtype=np.int64)
 

@@ -105,7 +105,7 @@ class Surroundings(Protocol):
         """
 
     def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
-        """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
+        """Yield, for each surface at most `limit` away, its nearest point (x, y)."""
 
     def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
         """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mars2d.core.arithmetic import angle_of, cosines_sines
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
+from mars2d.core.plane import WITHIN
 from mars2d.core.scene import Scene, faded
 from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
 
@@ -68,12 +69,12 @@ class Bumper(Sensor):
             share = min(max(1 - (world.time - float(contact["time"])) / step, 0.0), 1.0)
             pose = self.placed((1 - share) * self._pose + share * robot.pose)
             bearing = _bearing(contact["point"].tolist(), pose.tolist())
-            if abs(bearing) <= self.field_of_view / 2:
+            if abs(bearing) <= WITHIN * self.field_of_view / 2:
                 width = self.field_of_view / self.sectors
                 sector = floor((bearing - float(self.angles[0])) / width + 0.5)
                 # The left end of all belongs to the last one, or to the first of a full circle.
-                full = self.field_of_view >= 2 * pi
-                touched[sector % self.sectors if full else min(sector, self.sectors - 1)] = True
+                full, last = self.field_of_view >= 2 * pi, self.sectors - 1
+                touched[sector % self.sectors if full else min(max(sector, 0), last)] = True
         self._pose = robot.pose
         self._touches.append(touched)
 

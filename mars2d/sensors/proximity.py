@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import number
 from mars2d.core.interfaces import RobotLike
+from mars2d.core.plane import WITHIN
 from mars2d.core.scene import Scene, faded
 from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
 
@@ -49,11 +50,11 @@ class Proximity(Sensor):
         if self.field_of_view < 2 * pi:
             return np.array([self._sees(world, x, y, to, me) for (x, y, to), me in each])
         reach = self.range
-        return np.array([world.distance((x, y), reach, me) < reach for (x, y, _), me in each])
+        return np.array([world.distance((x, y), reach, me) <= reach for (x, y, _), me in each])
 
     def _sees(self, world: Surroundings, x: float, y: float, theta: float, me: int) -> bool:
         """Return whether something is within the sector that a robot sees."""
-        half = self.field_of_view / 2
+        half = WITHIN * self.field_of_view / 2
         # All surfaces are convex pieces: their point nearest to us within the sector is either the
         # nearest of all, or lies where an edge of the sector first meets them.
         c, s = cosine_sine(theta)

@@ -12,7 +12,7 @@ import numpy as np
 from mars2d.core.arithmetic import cosine_sine, cosines_sines, norms
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
-from mars2d.core.plane import Point
+from mars2d.core.plane import WITHIN, Point, up_to
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
 from mars2d.sensors.base import DISTANCE, Fan, Float, Quantity, Scanner, Surroundings, sight_angle
@@ -53,7 +53,7 @@ class SonarRing(Scanner):
         rngs: Sequence[np.random.Generator],  # noqa: ARG002
     ) -> Float:
         """Return the distances (m, sonars) to the nearest surfaces."""
-        mine, half = [robot.index for robot in robots], self.cone / 2
+        mine, half = [robot.index for robot in robots], WITHIN * self.cone / 2
         poses = self.placed(world.pose[:, mine])
         # All surfaces are convex pieces: their point nearest to us within a cone is either the
         # nearest of all, or lies where an edge of the cone first meets them.
@@ -63,7 +63,7 @@ class SonarRing(Scanner):
             self._nearest(x, y, theta, world.nearby((x, y), self.range, robot))
             for robot, (x, y, theta) in zip(mine, poses.T.tolist(), strict=True)
         ]
-        return np.asarray(np.minimum(rays, nearest))
+        return up_to(np.minimum(rays, nearest), self.range)
 
     def _nearest(self, x: float, y: float, theta: float, points: Iterator[Point]) -> Float:
         """Return the distances (sonars,) of the nearest points in the cones; inf where none is."""
@@ -72,7 +72,7 @@ class SonarRing(Scanner):
         dx, dy = near[:, :1] - x, near[:, 1:] - y
         distance = norms(dx, dy)
         c, s = cosines_sines(axes)
-        inside = dx * c + dy * s >= distance * cosine_sine(self.cone / 2)[0]
+        inside = dx * c + dy * s >= distance * cosine_sine(WITHIN * self.cone / 2)[0]
         return np.asarray(np.where(inside, distance, inf).min(axis=0, initial=inf))
 
     @property

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mars2d.core.errors import Mars2dError
 from mars2d.output.figures.comparison import MODES
 from mars2d.record.columns import Column
+from mars2d.record.contact import met
 from mars2d.record.frame import Frame, between
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
@@ -151,7 +152,7 @@ class Trio:
     def _measure(self) -> None:
         """Count the collisions, and measure how far the runs are apart, at a row that is new."""
         began = [
-            int(each.frame.contacts["began"].sum()) if each.newest == self.row else 0
+            int(met(each.frame.contacts).sum()) if each.newest == self.row else 0
             for each in self.timelines.values()
         ]
         before = self._collisions.row(self.row - 1) if self.row else 0

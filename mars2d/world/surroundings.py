@@ -74,7 +74,7 @@ class Around:
         return self._space.distance(point, limit, ignore)
 
     def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
-        """Yield, for each surface nearer than `limit`, its nearest point (x, y)."""
+        """Yield, for each surface at most `limit` away, its nearest point (x, y)."""
         _check_look("point", point, "limit", limit)
         return self._space.nearby(point, limit, ignore)
 

@@ -155,7 +155,7 @@ class WorldView(Uncopied):
 
     @property
     def contacts(self) -> NDArray[np.void]:
-        """The contacts since the last step, one row a pair, of dtype `mars2d.record.CONTACT`."""
+        """The contacts since the last step, rows of dtype `mars2d.record.CONTACT`."""
         return sealed(self._simulation.contacts)
 
     def neighbour_indices(self, robot: int) -> Sequence[int]:

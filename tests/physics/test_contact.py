@@ -127,14 +127,15 @@ def test_the_walls_of_the_workspace_come_last():
     assert (contacts["b"] == -3).all()
 
 
-def test_all_edges_of_an_obstacle_are_one_thing():
+def test_all_edges_of_an_obstacle_are_one_thing_with_a_row_for_each_normal():
     corner = [(0.3, -0.3), (0.3, 0.16), (-1, 0.16), (-1, 2), (2, 2), (2, -0.3)]
     robot = Robot(drive=Holonomic())
     world = world_of(robot, addons=[Map([corner])])
     contacts = drive(world, [[0.2], [0.2]], 20)
     assert set(contacts["b"]) == {-1}
-    steps = np.floor(contacts["time"] / 0.1 + 1e-9)
-    assert len(np.unique(steps)) == len(contacts)  # pressed in the corner, still one row a step
+    assert contacts["normal"][-2:] == pytest.approx(np.eye(2)[::-1], abs=1e-9)  # in the corner
+    assert contacts["ended"].sum() == 0
+    assert world.record.collisions == 1
 
 
 def test_a_robot_between_two_others_makes_two_rows():

@@ -14,6 +14,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.arithmetic import cosines_sines
+from mars2d.core.plane import WITHIN
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.sensors import RangeFinder
 from mars2d.sensors.base import NOTHING
@@ -486,13 +487,14 @@ def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
         x, y, _ = rng.uniform(-5, 5, 3)
         angles, reach = rng.uniform(-4, 4, 400), rng.uniform(1, 9)
         c, s = cosines_sines(angles)
-        ends_x, ends_y = x + reach * c, y + reach * s
+        far = WITHIN * reach
+        ends_x, ends_y = x + far * c, y + far * s
         own = pymunk.ShapeFilter(group=robot + 1)
         hits = [
             space.segment_query_first((x, y), end, 0.0, own)
             for end in zip(ends_x.tolist(), ends_y.tolist(), strict=True)
         ]
-        public = [inf if hit is None else hit.alpha * reach for hit in hits]
+        public = [inf if hit is None else hit.alpha * far for hit in hits]
         ours = world.simulation.engine.space.rays.distances((x, y), angles, reach, robot)
         assert ours.tolist() == public
         assert np.isfinite(public).any()

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 from array import array
+from math import cos, pi, radians, sin, sqrt
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from mars2d import Robot, Scenario, Unicycle, World
+from mars2d.addons import Map
+from mars2d.bodies.props import Box, Puck
 from mars2d.physics.islands import island as islands
 from mars2d.physics.islands.contacts import (
+    Row,
     Touch,
     begin_touches_again,
+    close_touches,
     keep_touches,
+    note_row,
     part,
     take_touches,
-    touch_between,
 )
 from mars2d.physics.motion import WIDE
 from mars2d.record.contact import CONTACT
 from tests.islands import DISC, body_of, piece_of, place
+from tests.worlds import drive
 
 
 def log_of(*numbers: int) -> list:
@@ -31,11 +38,11 @@ def note(body, *rows: dict, b: int = -2, time: float = 0.1, h: float = 0.1) -> N
     """Let a body touch another during a substep; each row a dict of what differs from these."""
     usual = {"normal": (1.0, 0.0), "impulse": (0.0, 0.0), "point": (0.1, 0.2), "velocity": (0, 0)}
     for given in rows:
-        told, row = usual | given, touch_between(body, b).fresh()
+        told, row = usual | given, Row()
         (row.normal_x, row.normal_y), (row.x, row.y) = told["normal"], told["point"]
         (row.impulse_x, row.impulse_y), (row.vx, row.vy) = told["impulse"], told["velocity"]
-    for touch in body.contacts:
-        touch.close(time, h)
+        note_row(body, b, row)
+    close_touches(body, time, h)
 
 
 def take(bodies: list) -> np.ndarray:
@@ -115,11 +122,10 @@ def test_speed_is_that_of_the_first_touch_and_0_in_the_steps_after():
     assert row["time"] == pytest.approx(0.2)  # what goes on began when the control step did
 
 
-def test_the_order_in_which_the_solver_lists_contacts_does_not_matter():
-    # It depends on addresses in memory. Two edges of one obstacle touch the same robot.
+def test_the_first_contact_of_a_row_is_the_strongest_of_its_substep():
     rng = np.random.default_rng(0)
     listed = []
-    for impulse, angle in ((0.3, 0.2), (7.0, 0.7), (0.7, 0.3)):
+    for impulse, angle in ((0.25, 0.2), (7.0, 0.2), (0.75, 0.2)):
         normal = np.array([np.cos(angle), np.sin(angle)])
         listed.append({"impulse": impulse * normal, "normal": normal,
                        "point": rng.normal(size=2), "velocity": rng.normal(size=2)})  # fmt: skip
@@ -128,10 +134,11 @@ def test_the_order_in_which_the_solver_lists_contacts_does_not_matter():
         bodies = log_of(0)
         for time in (0.5, 0.6):
             note(bodies[0], *(listed[k] for k in order), b=-1, time=time)
-        results.append(take(bodies).tobytes())
-    assert len(set(results)) == 1
-    row = np.frombuffer(results[0], dtype=CONTACT)[0]
-    assert row["normal"].tolist() == listed[1]["normal"].tolist()  # that of the strongest
+        [row] = take(bodies)
+        results.append((row["point"].tolist(), row["normal"].tolist(), row["speed"], row["slip"]))
+    assert results[0] == results[1] == results[2]
+    assert results[0][0] == listed[1]["point"].tolist()
+    assert results[0][1] == listed[1]["normal"].tolist()
 
 
 def test_rows_come_by_time_and_then_by_pair_and_what_has_parted_is_forgotten():
@@ -184,7 +191,236 @@ def test_what_had_touched_before_but_not_yet_since_begins_again_as_that():
 
 
 def test_a_touch_keeps_its_numbers():
-    assert (Touch(3, -2).a, Touch(3, -2).b) == (3, -2)
+    assert (Touch(3, -2, Row()).a, Touch(3, -2, Row()).b) == (3, -2)
+
+
+# -- normals ---------------------------------------------------------------------------------------
+
+
+def at(angle: float, push: float, rub: float = 0.0, **more) -> dict:
+    """A contact whose normal has an angle, degrees, with its impulses along and across, N s."""
+    c, s = cos(radians(angle)), sin(radians(angle))
+    return {"normal": (c, s), "impulse": (push * c - rub * s, push * s + rub * c)} | more
+
+
+def test_two_walls_of_one_outline_are_two_rows_and_each_goes_on_by_itself():
+    bodies = log_of(0)
+    note(bodies[0], at(90, 2.0), at(0, 1.0), time=0.1)
+    note(bodies[0], at(0, 4.0), time=0.2)
+    first, second = take(bodies)
+    assert (first["normal"].tolist(), second["normal"].tolist()) == (
+        pytest.approx([0, 1]), [1, 0],
+    )  # fmt: skip
+    assert (first["normal_impulse"], second["normal_impulse"]) == pytest.approx((2.0, 5.0))
+    assert (first["ended"], second["ended"]) == (True, False)
+    note(bodies[0], at(0, 1.0), time=0.3)
+    note(bodies[0], at(90, 2.0), time=0.4)
+    assert [(round(r["normal"][0]), r["began"], r["ended"]) for r in take(bodies)] == [
+        (1, False, True), (0, True, False),
+    ]  # fmt: skip
+
+
+def test_a_normal_that_turns_on_is_one_row_up_to_45_degrees_and_one_that_leaps_is_another():
+    bodies = log_of(0)
+    for k in range(10):
+        note(bodies[0], at(9.0 * k, 1.0), time=0.1 * k)
+    rows = take(bodies)
+    assert [row["time"] for row in rows] == pytest.approx([0.0, 0.6])
+    assert rows["began"].all()
+    assert rows["ended"].tolist() == [True, False]
+    assert rows["normal"][:, 1] == pytest.approx(np.sin(np.radians([22.5, 67.5])))
+    note(bodies[0], at(81 + 16, 1.0), time=1.0)
+    assert take(bodies)["began"].tolist() == [False, True]
+
+
+def test_a_touch_that_another_normal_takes_over_lasts_until_then():
+    """Even where that is at the beginning of a control step."""
+    bodies = log_of(0)
+    note(bodies[0], at(0, 1.0), time=0.1)
+    take(bodies)
+    note(bodies[0], at(50, 1.0), time=0.2, h=0.1)
+    before, after = take(bodies)
+    assert (before["time"], before["duration"], before["impulse"]) == pytest.approx((0.1, 0.1, 0))
+    assert (before["began"], before["ended"]) == (False, True)
+    assert before["normal"].tolist() == [1, 0]
+    assert (after["time"], after["began"], after["ended"]) == (0.2, True, False)
+
+
+def test_the_normal_is_the_mean_of_those_that_push_weighted_by_how_hard():
+    bodies = log_of(0)
+    note(bodies[0], at(7, 0.0), time=0.1)
+    [row] = take(bodies)
+    assert row["normal"].tolist() == list(at(7, 0.0)["normal"])  # nothing pushes: it is the first
+    note(bodies[0], at(0, 0.0), time=0.2)
+    note(bodies[0], at(10, 3.0), at(10, 0.1), time=0.3)
+    [row] = take(bodies)
+    assert row["normal"].tolist() == list(at(10, 3.0)["normal"])  # to the bit
+    note(bodies[0], at(10, 3.0, 0.5), at(20, 1.0, 0.1), time=0.4)
+    [row] = take(bodies)
+    mean = (3 * np.exp(1j * radians(10)) + np.exp(1j * radians(20))) / 4
+    assert row["normal"] @ [mean.real, mean.imag] == pytest.approx(abs(mean), rel=1e-12)
+
+
+def test_a_row_is_in_the_cone_of_friction_of_its_normal_and_adds_up_as_a_vector():
+    """Where normals turn, the sum of impulses at the edges of their cones may leave the mean's."""
+    rng = np.random.default_rng(1)
+    wrong = []
+    for _ in range(200):
+        bodies, total, mu = log_of(0), np.zeros(2), rng.choice([0.0, 0.1, 0.6])
+        for k in range(rng.integers(1, 6)):
+            push = rng.exponential()
+            one = at(8.0 * k, push, mu * push * rng.choice([-1, 1, rng.uniform(-1, 1)]))
+            total += one["impulse"]
+            note(bodies[0], one, time=0.1 * k)
+        [row] = take(bodies)
+        found, rounding = sums(np.array([row])), 1e-14 * (1 + row["impulse"])
+        inside = abs(row["tangential_impulse"]) <= mu * row["normal_impulse"] + rounding
+        if not (
+            inside
+            and abs(row["normal"] @ row["normal"] - 1) < 1e-14
+            and 0 <= row["normal_impulse"] <= row["impulse"]
+            and abs(found[0] - total).max() <= rounding
+        ):
+            wrong.append((mu, row))
+    assert wrong == []
+
+
+# -- in worlds -------------------------------------------------------------------------------------
+
+
+def sums(rows: np.ndarray) -> np.ndarray:
+    """The impulses of rows (c, 2), N s, on their second bodies."""
+    normal = rows["normal"]
+    tangent = np.column_stack([-normal[:, 1], normal[:, 0]])
+    return rows["normal_impulse"][:, None] * normal + rows["tangential_impulse"][:, None] * tangent
+
+
+def momenta(world: World) -> np.ndarray:
+    """The momenta of props (p, 2), N s."""
+    masses = [prop.inertia.mass for prop in world.scenario.props]
+    return np.array(masses)[:, None] * world.prop_velocity[:2].T
+
+
+def faults_of(world: World, command: object, friction: float, seconds: float) -> list[str]:
+    """What is wrong with rows in the control steps of some seconds; props feel contacts alone."""
+    faults, n = [], len(world.scenario.robots)
+    for _ in range(round(seconds / world.scenario.sampling_time)):
+        before = momenta(world)
+        world.step(command)
+        rows, given = world.contacts, np.zeros((n + len(before), 2))
+        impulse, solid = sums(rows), rows["b"] >= 0
+        np.add.at(given, rows["a"], -impulse)
+        np.add.at(given, rows["b"][solid], impulse[solid])
+        off = np.abs(momenta(world) - before - given[n:]).max()
+        beyond = np.abs(rows["tangential_impulse"]) - friction * rows["normal_impulse"]
+        keys = list(zip(rows["time"], rows["a"], rows["b"], strict=True))
+        faults += [f"{world.time}: momentum off by {off}"] * bool(off > 1e-12)
+        faults += [f"{world.time}: out of the cone: {beyond}"] * bool((beyond > 1e-12).any())
+        faults += ["part above whole"] * bool((rows["normal_impulse"] > rows["impulse"]).any())
+        faults += [f"out of order: {keys}"] * (keys != sorted(keys))
+    return faults
+
+
+STAR = [
+    (0.8 * s * cos(a), 0.8 * s * sin(a))
+    for a, s in zip(np.linspace(0, 2 * pi, 10, endpoint=False), [1.0, 0.4] * 5, strict=True)
+]
+SLACK = Unicycle(max_force=1e-6)
+"""A drive that gives no momentum."""
+
+
+def gliding(kind: type, x: float, y: float, velocity: tuple, friction: float, **fields):
+    """A prop of 1 kg that glides on without friction of the floor."""
+    return kind(
+        pose=(x, y, 0.3), velocity=velocity, mass=1.0, ground_friction=0.0, friction=friction,
+        **fields,
+    )  # fmt: skip
+
+
+def room(robots: list, props: list, time: float, size: float = 2.0, **fields) -> World:
+    """A world in four walls, which are one outline."""
+    walls = [(-size, -size), (size, -size), (size, size), (-size, size)]
+    fields |= {"sampling_time": time, "workspace": walls, "on_exit": "wall", "stop_time": 1e5}
+    return World(Scenario(robots=robots, props=props, **fields))
+
+
+def scenes(friction: float) -> list[tuple]:
+    """Robots, props, an obstacle and a command, with corners, turns and hasty bodies."""
+    still = Robot(pose=(1.7, 1.7, 0), diameter=0.1, friction=friction, drive=SLACK)
+    strong = {"friction": friction, "drive": Unicycle(max_force=9.0)}
+    pair = [Robot(pose=(-0.6, 0.05, 0), **strong), Robot(pose=(0.6, -0.05, pi), **strong)]
+    spinning = [
+        gliding(Box, x, y, (-2 * x, -1.5 * y, 9), friction, width=0.3, length=0.5)
+        for x, y in ((1.4, 0.2), (-1.4, 0.3), (0.2, 1.4), (-0.3, -1.4))
+    ]
+    bouncing = gliding(Puck, 0.3, 0.1, (9, 4, 5), friction, diameter=0.2, restitution=0.9)
+    pushed = [
+        gliding(Box, 0.7, 0.65, (0, 0, 0), friction),
+        gliding(Puck, 1.3, 1.4, (0, 0, 0), friction, diameter=0.4),
+    ]
+    rolled = gliding(Puck, -0.15, -0.1, (0, 0, 0), friction, diameter=0.4)
+    edge, forward = [(0.1, 0), (0.1, -1), (1, -1), (1, 0)], [[0.3, 0.3], [0.2, 0.2]]
+    return [
+        ([still], [bouncing], None, [[0], [0]]),
+        ([still], spinning, STAR, [[0], [0]]),
+        ([Robot(pose=(0, 0, pi / 4), **strong)], pushed, None, [[0.4], [0.05]]),
+        (pair, [gliding(Puck, 0, 0, (0, 0, 0), friction)], None, forward),  # it is turned
+        (pair, [gliding(Box, 0, 0, (0, 0, 0), friction)], None, forward),
+        ([Robot(pose=(-0.45, -0.45, 0.9), **strong)], [rolled], edge, [[0.3], [-0.1]]),
+    ]
+
+
+@pytest.mark.parametrize("time", [1.0, 0.5, 0.1, 0.005])
+@pytest.mark.parametrize("friction", [0.0, 0.6])
+def test_rows_add_up_to_the_momentum_that_contacts_give_in_each_control_step(time, friction):
+    """In corners, on turns, in crowds, and where two meet several times in a control step."""
+    faults = []
+    for robots, props, outline, command in scenes(friction):
+        addons = [] if outline is None else [Map([outline], friction=friction)]
+        world = room(robots, props, time, addons=addons)
+        faults += faults_of(world, command, friction, 4 if time > 0.01 else 2)
+    assert faults == []
+
+
+def test_a_robot_that_drives_into_a_corner_presses_on_each_wall_with_its_part_of_its_force():
+    robot = Robot(pose=(0.5, 0.5, pi / 4), friction=0.0)
+    world = room([robot], [], 0.1, 1.0)
+    drive(world, [[0.2], [0.0]], 5)
+    assert len(world.contacts) == 2
+    for row, normal in zip(world.contacts, ([0, 1], [1, 0]), strict=True):
+        assert row["b"] == -1
+        assert row["normal"] == pytest.approx(normal, abs=1e-9)
+        assert row["normal_impulse"] / 0.1 == pytest.approx(5 / sqrt(2), rel=1e-9)
+        assert row["impulse"] == row["normal_impulse"]
+        assert not row["ended"]
+    assert world.record.collisions == 1  # of one pair
+    assert world.contacts["began"].tolist() == [False, False]
+
+
+def test_who_meets_two_walls_of_one_outline_in_a_control_step_has_two_rows_and_collisions():
+    puck = gliding(Puck, 0.0, 0.0, (1.5, 0, 0), 0.0, diameter=0.2, restitution=1.0)
+    world = room([Robot(pose=(0, 0.8, 0), diameter=0.1)], [puck], 2.0, 1.0)
+    world.step([[0], [0]])
+    first, second = world.contacts
+    assert (first["normal"].tolist(), second["normal"].tolist()) == ([1, 0], [-1, 0])
+    assert (first["speed"], second["speed"]) == pytest.approx((1.5, 1.5))
+    assert (first["normal_impulse"], second["normal_impulse"]) == pytest.approx((3.0, 3.0))
+    assert world.contacts["ended"].all()
+    world.step([[0], [0]])
+    assert world.record.collisions == 3
+
+
+def test_who_meets_one_wall_twice_in_a_control_step_has_one_row():
+    """Thrown back to it by a heavier one, of which it has one row, too."""
+    fields = {"diameter": 0.2, "restitution": 1.0}
+    light = gliding(Puck, 0.85, 0.0, (1.0, 0, 0), 0.0, **fields)
+    heavy = Puck(pose=(0.6, 0, 0), velocity=(0.2, 0, 0), mass=4.0, ground_friction=0.0, **fields)
+    world = room([Robot(pose=(0, 0.8, 0), diameter=0.1)], [light, heavy], 1.0, 1.0)
+    world.step([[0], [0]])
+    of_wall = world.contacts[world.contacts["b"] < 0]
+    assert [(row["a"], row["b"]) for row in of_wall] == [(1, -1)]
+    assert of_wall["normal_impulse"] > 2.0 + 2e-3  # more than the first blow gave
+    assert len(world.contacts) == 2
 
 
 # -- what the solver tells of a contact -----------------------------------------------------------
@@ -245,12 +481,13 @@ def test_the_impulse_is_that_on_b_whatever_the_solvers_sign_and_order(told, bodi
     assert found["point"].tolist() == ([0.1, 0.2] if bodies == (0, 1) else [0.3, 0.4])  # on a
 
 
-def test_pairs_that_do_not_touch_after_the_substep_are_left_out(told):
+def test_pairs_that_neither_push_nor_touch_after_the_substep_are_left_out(told):
     let_touch(told, 1, 2)
-    told.note_one(contact((2, 1), (-1.0, 0.25)))
-    told.note_one(contact((-1, 2), (9.0, 0.0)))
+    told.note_one(contact((2, 1), (0.0, 0.0)))
+    told.note_one(contact((0, 1), (0.0, 0.0)))
+    told.note_one(contact((-1, 2), (9.0, 0.0)))  # it has bounced
     told.close(0.1, 0.1)
-    assert [(r["a"], r["b"]) for r in take(told.numbers)] == [(1, 2)]
+    assert [(r["a"], r["b"], r["impulse"]) for r in take(told.numbers)] == [(1, 2, 0), (2, -1, 9)]
 
 
 def test_an_obstacle_is_always_second_and_the_point_is_the_middle_of_two(told):

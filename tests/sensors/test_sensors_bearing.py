@@ -72,12 +72,6 @@ def test_what_is_sighted_is_the_same_to_the_last_bit_however_many_are_far_off(re
         assert rows.tobytes() == all_sighted(pose, points, reach, field_of_view).tobytes()
 
 
-def test_the_bound_of_the_range_is_in_sight():
-    points = np.array([[0.3, 0.0], [0.0, -0.3], [0.1 + 0.2, 0.0]])
-    found = sighted(np.zeros((3, 1)), points, 0.3, 2 * pi)[0]
-    assert found[:, 0].tolist() == [0.3, 0.3, inf]
-
-
 # -- other robots ---------------------------------------------------------------------------
 
 

@@ -17,7 +17,6 @@ from mars2d.bodies.props import Box
 from mars2d.core.scene import Line, Polygon, Scene
 from mars2d.geometry.shapes import Polygon as PolygonShape
 from mars2d.sensors import Bumper, LineCamera, Proximity, RangeFinder, Sensor, SonarRing
-from mars2d.sensors.bumper import _bearing
 
 
 def world_with(sensor: Sensor, robots=(), outlines=(), pose=(0, 0, 0), **fields) -> World:
@@ -239,10 +238,10 @@ class Touched:
 
 @pytest.mark.parametrize(("bearing", "sector"), [(1.0, 1), (-1.0, 0)])
 def test_a_bumper_feels_a_touch_at_the_very_end_of_its_field_of_view(bearing, sector):
-    point = [cos(bearing + 0.5), sin(bearing + 0.5)]
-    end = abs(_bearing(point, [0.0, 0.0, 0.5]))  # as it is rounded
-    felt = Touched(point).felt(sectors=2, field_of_view=2 * end)
-    assert felt == [k == sector for k in range(2)]
+    for factor, felt in ((1, True), (1 + 5e-10, True), (1 + 1e-6, False)):  # the second: rounding
+        touched = Touched([cos(factor * bearing + 0.5), sin(factor * bearing + 0.5)])
+        expected = [felt and k == sector for k in range(2)]
+        assert touched.felt(sectors=2, field_of_view=2.0) == expected
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])

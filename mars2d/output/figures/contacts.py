@@ -146,10 +146,14 @@ def _timeline(ax: Axes, record: Record, pairs: Index, lines: Index, look: Style)
     # A pair has one bar for each interval, even if it parted in between.
     keys, group = np.unique(np.column_stack([lines, cell]), axis=0, return_inverse=True)
     group = group.ravel()
+    # A pair may touch by several normals in a control step.
+    steps = np.column_stack([lines, record.contact_rows[drawn]])
+    _, same = np.unique(steps, axis=0, return_inverse=True)
+    pressed = np.bincount(same.ravel(), contacts["normal_impulse"])[same.ravel()]
     begin, until, force = (np.full(len(keys), v) for v in (np.inf, -np.inf, 0.0))
     np.minimum.at(begin, group, contacts["time"])
     np.maximum.at(until, group, contacts["time"] + contacts["duration"])
-    np.maximum.at(force, group, contacts["normal_impulse"] / step)
+    np.maximum.at(force, group, pressed / step)
     until = np.maximum(until, begin + 1.5 * width)  # so that the shortest touch is visible
     middle = len(pairs) - 0.5 - keys[:, 0]
     low, high = middle - BAR_HEIGHT / 2, middle + BAR_HEIGHT / 2

@@ -24,6 +24,7 @@ from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import PRINTED
+from mars2d.record.contact import met
 from mars2d.record.frame import Frame
 
 __all__ = ["TITLE_HEIGHT", "Arena", "Reel", "Triptych", "save_triptych"]
@@ -105,7 +106,7 @@ class Triptych:
         bounds = (view.xmin, view.xmax, view.ymin, view.ymax)
         self._cameras = [arena.camera(bounds, size) for arena in self._arenas]
         self._collisions = [
-            np.sort(record.contacts["time"][record.contacts["began"]])
+            np.sort(record.contacts["time"][met(record.contacts)])
             for record in comparison.records.values()
         ]
         self._plot = _Plot(comparison, pygame.Rect(0, top + high, width, size[1] - top - high), ui)

@@ -100,8 +100,9 @@ def mean_forces(contacts: NDArray[np.void], sampling_time: float) -> Float:
 def forces(frame: Frame) -> Scene:
     """Return the mean forces of the control step that led to a frame, and which drives slip.
 
-    Each pair that touched has two opposite arrows from where it touched, one on either body; on an
-    obstacle there is none. In a crowd only the strongest are drawn.
+    Each contact has two opposite arrows from where it is, one on either body; on an obstacle there
+    is none. A pair that touches by two normals has two contacts. In a crowd only the strongest are
+    drawn.
     """
     scene = Scene()
     _slip_marks(scene, frame)
@@ -150,7 +151,7 @@ def bounding_circle(shape: Shape, pose: Float) -> tuple[Float, float]:
 def _touching_points(frame: Frame) -> Float:
     """Return where the contacts of a frame are now, (k, 2) metres.
 
-    A row says where a pair first touched during the control step; that point has moved with a.
+    A row says where its pair first touched during the control step; that point has moved with a.
     """
     contacts = frame.contacts
     since = np.clip(frame.time - contacts["time"], 0.0, frame.scenario.sampling_time)

@@ -81,8 +81,8 @@ def impulse_scale(scenario: Scenario) -> ImpulseScale:
 def blows(frame: Frame) -> NDArray[np.void]:
     """Return the contacts that began in the last second up to a frame with a blow, (k,).
 
-    Their dtype is `mars2d.record.CONTACT`; the strongest come last. Of a pair it is the newest. The
-    impulse of a blow is that of the control step in which two bodies came to touch.
+    Their dtype is `mars2d.record.CONTACT`; the strongest come last. Of a pair they are the newest.
+    The impulse of a blow is that of the control step in which two bodies came to touch.
     """
     scenario, log = frame.scenario, frame.contact_log()
     since = frame.time - SHOWN
@@ -94,10 +94,11 @@ def blows(frame: Frame) -> NDArray[np.void]:
     now = (recent["time"] > since) & (recent["time"] <= frame.time + 1e-9)
     felt = recent["impulse"] >= FAINTEST * impulse_scale(scenario).strongest
     found = recent[recent["began"] & now & felt]
-    found = found[np.argsort(-found["time"], kind="stable")]
-    pairs = np.column_stack([found["a"], found["b"]])
-    found = found[np.unique(pairs, axis=0, return_index=True)[1]]
-    return found[np.argsort(found["impulse"], kind="stable")][-MAX_BLOWS:]
+    _, pair = np.unique(np.column_stack([found["a"], found["b"]]), axis=0, return_inverse=True)
+    newest = np.zeros(len(found))
+    np.maximum.at(newest, pair.ravel(), found["time"])
+    found = found[found["time"] == newest[pair.ravel()]]
+    return np.asarray(found[np.argsort(found["impulse"], kind="stable")][-MAX_BLOWS:])
 
 
 def impulses(frame: Frame) -> Scene:

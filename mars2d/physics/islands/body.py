@@ -105,7 +105,8 @@ class Body:
     vx: cython.double
     vy: cython.double
     spin: cython.double
-    slips: cython.bint  # moved by forces: it does not follow its command, or glide freely
+    slips: cython.bint  # whether it was thrown off its command, and has not come back to it
+    solved: cython.bint  # whether the solver decides how it moves in this substep
     # where the circle's centre is
     center_x: cython.double
     center_y: cython.double
@@ -150,10 +151,7 @@ class Body:
     # what the next substep is worked out from
     touches: cython.bint
     stopped: cython.bint
-    now_x: cython.double  # velocity
-    now_y: cython.double
-    now_spin: cython.double
-    bend: cython.double  # m/s^2, how fast that may change
+    bend: cython.double  # m/s^2, how fast its velocity may change
     aim_x: cython.double  # the velocity that it is told
     aim_y: cython.double
     aim_spin: cython.double
@@ -162,9 +160,16 @@ class Body:
     end_x: cython.double  # a gliding prop's velocity at the end
     end_y: cython.double
     end_spin: cython.double
-    back_x: cython.double  # where it was before a substep that may have to be done again
+    back_x: cython.double  # where and how it was before a substep
     back_y: cython.double
     back_angle: cython.double
+    back_vx: cython.double
+    back_vy: cython.double
+    back_spin: cython.double
+    moved_x: cython.double  # where the engine has moved it
+    moved_y: cython.double
+    moved_angle: cython.double
+    ahead: cython.bint  # whether it is elsewhere, by forces that acted meanwhile
     gone: cython.double  # m, its way in this control step
     # within a control step
     near: cython.bint  # whether it may touch something
@@ -215,9 +220,15 @@ class Body:
     # impulses of contacts in a substep, and for the group of bodies that touch: how they work
     tied: cython.bint  # whether a joint may have acted on it
     group: object  # another body on the way to that which stands for the group
+    pressure: cython.double  # N s, the sum of their sizes
     hit_x: cython.double
     hit_y: cython.double
     hit_turn: cython.double
+    hit_power: cython.double  # W s, of those between bodies that have come to touch
+    hit_depth: cython.double  # J, the same times how deep these are
+    held_by: cython.double  # N s, the impulses of drives, floors, joints and pulls
+    lasting: cython.bint  # whether no more than these has acted
+    shift: cython.double  # s, since when the impulses have acted, in the mean
     push_work: cython.double
     rub_work: cython.double
     excess: cython.double
@@ -256,7 +267,7 @@ class Body:
         """Take its number, its pieces, its friction and restitution; `describe` does the rest."""
         self.number, self.is_robot, self.pieces, self.surface = number, is_robot, pieces, surface
         self.mass = self.moment = self.lead = 0.0
-        self.is_disc = self.slips = self.in_robot_frame = self.holds = self.engaged = False
+        self.is_disc = self.slips = self.solved = self.in_robot_frame = self.holds = self.engaged = False
         self.pulled = self.touches = self.near = self.done = self.placed = self.made = False
         self.stopped = self.limited = self.gathers = False
         self.radius = self.offset_x = self.offset_y = self.offset = self.reach = 0.0
@@ -271,10 +282,13 @@ class Body:
         self.rest_grip = self.rest_twist_grip = 0.0
         self.allowed = self.twist_allowed = self.held = self.twist_held = 0.0
         self.pull_x = self.pull_y = self.pull_torque = 0.0
-        self.now_x = self.now_y = self.now_spin = self.bend = 0.0
+        self.bend = 0.0
+        self.moved_x = self.moved_y = self.moved_angle = 0.0
+        self.ahead = False
         self.aim_x = self.aim_y = self.aim_spin = 0.0
         self.end_x = self.end_y = self.end_spin = self.lead_x = self.lead_y = 0.0
         self.back_x = self.back_y = self.back_angle = self.gone = 0.0
+        self.back_vx = self.back_vy = self.back_spin = 0.0
         self.speed = self.way = self.fastest = self.start_x = self.start_y = 0.0
         self.slack = self.strain = 1.0
         self.home = self.island = self.solver = None
@@ -289,7 +303,9 @@ class Body:
         self.group, self.tied = None, False
         self.before_x = self.before_y = self.before_spin = self.after_x = self.after_y = 0.0
         self.drag_x = self.drag_y = self.drag_turn = self.pull_turn = 0.0
-        self.hit_x = self.hit_y = self.hit_turn = 0.0
+        self.hit_x = self.hit_y = self.hit_turn = self.pressure = 0.0
+        self.shift = self.hit_power = self.hit_depth = self.held_by = 0.0
+        self.lasting = False
         self.push_work = self.rub_work = self.excess = self.push_power = self.rub_power = 0.0
         self.share, self.crowd, self.springy, self.driven = 1.0, 1, False, False
         self.held_x = self.held_y = self.held_turn = self.hold_work = self.hold_energy = 0.0
@@ -326,9 +342,9 @@ class Body:
         """Take x, y, theta, x', y', theta', and whether it slips."""
         self.x, self.y, self.angle, self.vx, self.vy, self.spin = state
         self.slips = slips
-        self.lean(self.angle)
-        x: cython.double = self.vx - self.spin * self.lead_y
-        self.energy = self.kinetic_at(x, self.vy + self.spin * self.lead_x, self.spin)
+        self.energy = 0.0
+        self.account_now()
+        self.by_holder = 0.0
 
     # -- where it is --------------------------------------------------------------------------
 
@@ -368,38 +384,79 @@ class Body:
         self.aim_spin = self.turning
 
     @cython.cfunc
+    def remember(self) -> cython.void:
+        """Note where and how it is before a substep."""
+        self.back_x, self.back_y, self.back_angle = self.x, self.y, self.angle
+        self.back_vx, self.back_vy, self.back_spin = self.vx, self.vy, self.spin
+
+    @cython.cfunc
+    def go_back(self) -> cython.void:
+        """Go back to there."""
+        self.x, self.y, self.angle = self.back_x, self.back_y, self.back_angle
+        self.vx, self.vy, self.spin = self.back_vx, self.back_vy, self.back_spin
+
+    @cython.cfunc
     def advance(self, h: cython.double) -> cython.void:
-        """Move at the velocity that it is told for h s."""
+        """Move for h s as aimed, in closed form."""
         self.x += h * self.aim_x
         self.y += h * self.aim_y
         self.angle += h * self.aim_spin
+        if self.aim_x != 0.0 or self.aim_y != 0.0 or self.aim_spin != 0.0:
+            self.placed = True
+        self.vx, self.vy, self.spin = self.end_x, self.end_y, self.end_spin
+
+    @cython.cfunc
+    def follows(self) -> cython.bint:
+        """Return whether it is a robot that moves as it is commanded at once."""
+        return self.is_robot and not self.slips and not self.limited
+
+    @cython.cfunc
+    def obey(self) -> cython.void:
+        """Let a robot that follows its command have the velocity that it is told now."""
+        if self.follows():
+            self.follow(self.angle, 0.0)
+            self.vx, self.vy, self.spin = self.aim_x, self.aim_y, self.aim_spin
+
+    @cython.cfunc
+    def is_pushed(self) -> cython.bint:
+        """Return whether anything but its drive and the floor acted on it in the solver's step.
+
+        Impulses that are rounding errors do not count.
+        """
+        fast: cython.double = length(self.before_x, self.before_y) + self.reach * abs(self.before_spin)
+        return self.tied or self.pulled or self.pressure > 1e-12 * self.mass * fast
+
+    @cython.cfunc
+    def go_along(self, h: cython.double) -> cython.void:
+        """Aim a robot along its command's arc for h s, and work out its velocity at the end."""
+        self.follow(self.angle + h * self.turning, 0.0)
+        self.end_x, self.end_y, self.end_spin = self.aim_x, self.aim_y, self.aim_spin
+        self.follow(self.angle, h)
 
     @cython.cfunc
     def look(self) -> cython.void:
-        """Work out how it moves now, and how fast its velocity may change."""
+        """Work out how fast its velocity may change."""
         self.gathers = False
-        if self.limited and not self.slips:
-            self.look_ahead()
-            return
-        if self.slips or not self.is_robot:
-            self.now_x, self.now_y, self.now_spin = self.vx, self.vy, self.spin
+        if self.solved:
             self.bend = self.spin * self.spin * abs(self.lead)  # its pose goes round its centre
-            if not self.slips:
-                if self.vx != 0.0 or self.vy != 0.0:
-                    self.bend = self.slows
-                if self.spin != 0.0:
-                    self.bend += self.stops * self.reach
-            return
-        self.follow(self.angle, 0.0)
-        self.now_x, self.now_y, self.now_spin = self.aim_x, self.aim_y, self.aim_spin
-        self.bend = 0.0
-        if self.in_robot_frame:
-            self.bend = abs(length(self.forward, self.left) * self.turning)
+        elif not self.is_robot:
+            self.bend = 0.0
+            if self.vx != 0.0 or self.vy != 0.0:
+                self.bend = self.slows
+            if self.spin != 0.0:
+                self.bend += self.stops * self.reach
+        elif self.limited or self.slips:
+            self.look_ahead()
+        else:
+            self.obey()
+            self.bend = self.pull_on_arc(self.turning) / self.mass
 
     @cython.cfunc
-    def glides(self) -> cython.bint:
-        """Return whether its velocity changes within a substep, but not by the solver."""
-        return not self.slips and (self.limited or not self.is_robot)
+    def fall_back(self) -> cython.void:
+        """Go back to where the engine moved it."""
+        if self.ahead:
+            self.x, self.y, self.angle = self.moved_x, self.moved_y, self.moved_angle
+            self.ahead, self.placed = False, True
 
     @cython.cfunc
     def top_speed(self) -> cython.double:
@@ -407,7 +464,7 @@ class Body:
         arm: cython.double = self.offset
         if self.slips:
             arm += 2 * abs(self.lead)
-        return length(self.now_x, self.now_y) + arm * abs(self.now_spin)
+        return length(self.vx, self.vy) + arm * abs(self.spin)
 
     # -- its energy ---------------------------------------------------------------------------
 
@@ -427,32 +484,13 @@ class Body:
 
     @cython.cfunc
     def account_now(self) -> cython.void:
-        """Do the same at its present velocity; an ideal robot that follows has its command's."""
-        x: cython.double = self.vx
-        y: cython.double = self.vy
-        spin: cython.double = self.spin
+        """Do the same at its present velocity."""
         if self.lead != 0.0:
             self.lean(self.angle)
-        if self.is_robot and not self.slips and not self.limited:
-            x, y, spin = self.forward, self.left, self.turning
-            if self.in_robot_frame:
-                self.lead_x, self.lead_y = self.lead, 0.0
-        self.account(x - spin * self.lead_y, y + spin * self.lead_x, spin)
+        x: cython.double = self.vx - self.spin * self.lead_y
+        self.account(x, self.vy + self.spin * self.lead_x, self.spin)
 
     # -- its drive ----------------------------------------------------------------------------
-
-    @cython.cfunc
-    def time_to_brake(self, turned: cython.double) -> cython.double:
-        """Return when its drive stops the spin of a robot that begins to slip.
-
-        In a longer substep the robot turns on until its end. The time has a lower bound, where its
-        rim turns no further than by `turned`, too little to be seen.
-        """
-        spin: cython.double = abs(self.spin - self.turning)
-        moment: cython.double = self.moment + self.mass * self.lead * self.lead
-        return max(
-            spin * moment / self.torque, turned / max(spin * self.rim, 2.2250738585072014e-308)
-        )
 
     @cython.cfunc
     def out_of_reach(self, h: cython.double) -> cython.bint:
@@ -528,11 +566,6 @@ class Body:
     # -- its centre of mass, where that is not its pose ---------------------------------------
 
     @cython.cfunc
-    def is_slow(self) -> cython.bint:
-        """Return whether the solver brings it back to its command where nothing touches it."""
-        return self.is_robot and (not self.limited or self.lead != 0.0)
-
-    @cython.cfunc
     def lean(self, angle: cython.double) -> cython.void:
         """Work out where its centre of mass lies from its pose at a heading."""
         c: cython.double
@@ -540,26 +573,12 @@ class Body:
         c, s = cosine_sine(angle)
         self.lead_x, self.lead_y = self.lead * c, self.lead * s
 
-    @cython.cfunc
-    def lead_control(self, angle: cython.double, h: cython.double) -> cython.void:
-        """Aim its control so that the pose goes along its chord while the centre goes straight on.
-
-        angle: its heading then. h: of the substep, s.
-        """
-        self.lean(angle + self.turning * h)
-        x: cython.double = self.lead_x
-        y: cython.double = self.lead_y
-        self.lean(angle)
-        self.aim_x += (x - self.lead_x) / h + self.turning * self.lead_y
-        self.aim_y += (y - self.lead_y) / h - self.turning * self.lead_x
-
     # -- where its force bounds its acceleration in the open, too ----------------------------
 
     @cython.cfunc
     def look_ahead(self) -> cython.void:
         """Do `look` for such a robot: it moves as it has come to, whatever it is commanded."""
         self.follow(self.angle, 0.0)
-        self.now_x, self.now_y, self.now_spin = self.vx, self.vy, self.spin
         self.gathers = self.vx != self.aim_x or self.vy != self.aim_y or self.lags(self.spin)
         if not self.gathers:
             self.bend = self.pull_on_arc(self.turning) / self.mass

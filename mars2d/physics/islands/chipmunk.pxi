@@ -84,6 +84,7 @@ cdef extern from *:
         void (*cpBodyEachArbiter)(void *, void (*)(void *, void *, void *), void *);
         Vector (*cpArbiterTotalImpulse)(void *);
         int (*cpArbiterGetCount)(void *);
+        double (*cpArbiterGetDepth)(void *, int);
         Vector (*cpArbiterGetPointA)(void *, int);
         Vector (*cpArbiterGetPointB)(void *, int);
         void (*cpArbiterSetFriction)(void *, double);
@@ -279,6 +280,7 @@ cdef extern from *:
             void *, void (*)(void *, void *, void *) noexcept, void *) noexcept
         Vector (*cpArbiterTotalImpulse)(void *) noexcept
         int (*cpArbiterGetCount)(void *) noexcept
+        double (*cpArbiterGetDepth)(void *, int) noexcept
         Vector (*cpArbiterGetPointA)(void *, int) noexcept
         Vector (*cpArbiterGetPointB)(void *, int) noexcept
         void (*cpArbiterSetFriction)(void *, double) noexcept
@@ -670,6 +672,9 @@ cdef inline Vector arm_of(Handle arbiter, int k, bint second) noexcept:
 
 cdef inline double push_of(Handle arbiter, int k) noexcept:
     return (<Arbiter_ *>arbiter).contacts[k].normal_impulse
+
+cdef inline double depth_of(Handle arbiter, int k) noexcept:
+    return -engine.cpArbiterGetDepth(arbiter, k)
 
 cdef inline double rub_of(Handle arbiter, int k) noexcept:
     return (<Arbiter_ *>arbiter).contacts[k].tangent_impulse

@@ -19,7 +19,7 @@ __all__ = [
     "DAMPED_SPRING", "GEAR", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
     "Arbiters", "Handle", "Vector", "add_body", "add_joint", "add_shape", "aim", "angle_of",
     "arm_of", "ask_in", "bounce_of", "check_signals", "corner_of", "corners_of", "count_of",
-    "drag_of", "end_of", "first_of", "free_body", "free_joint", "free_shape", "free_space",
+    "depth_of", "drag_of", "end_of", "first_of", "free_body", "free_joint", "free_shape", "free_space",
     "ground_of", "impulse_of", "is_void", "leave_out", "make_joint", "new_body", "new_control",
     "new_disc", "new_ground", "new_polygon", "new_segment", "new_space", "normal_of",
     "number_shape", "piece_of", "point_of", "position_of", "push", "push_of", "put", "put_point",
@@ -583,6 +583,11 @@ def arm_of(arbiter: Handle, k: int, second: bool) -> Vector:
     """Return the way to one of its points from the centre of mass of its first or second body."""
     contact = arbiter.contacts[k]
     return contact.r2 if second else contact.r1
+
+
+def depth_of(arbiter: Handle, k: int) -> float:
+    """Return how deep bodies are in each other in one of its points, metres."""
+    return -float(lib.cpArbiterGetDepth(arbiter, k))
 
 
 def push_of(arbiter: Handle, k: int) -> float:

@@ -1,7 +1,11 @@
-"""Contacts: who touches whom, where and how hard, summed up over a control step."""
+"""Contacts: who touches whom, where and how hard, summed up over a control step.
+
+What two bodies do to each other by one normal is one touch; in a corner there are two.
+"""
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
@@ -9,8 +13,15 @@ from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 
 __all__ = [
-    "Row", "Touch", "begin_touches_again", "keep_touches", "part", "take_touches", "touch_between",
+    "Row", "Touch", "begin_touches_again", "close_touches", "keep_touches", "note_row", "part",
+    "take_touches",
 ]  # fmt: skip
+
+ALIKE = 0.9659258262890683
+"""The cosine up to which a contact's normal is still that of a touch in the substep before."""
+
+TURNED = 0.7071067811865476
+"""The cosine up to which a normal that turns on and on is still that of one touch."""
 
 
 @cython.final
@@ -39,8 +50,8 @@ class Row:
     @cython.cfunc
     def add_speed(self, body: Body, sign: cython.double) -> cython.void:
         """Add the velocity of the point as one of a body, or subtract it."""
-        self.vx += sign * (body.aim_x - body.aim_spin * (self.y - body.y))
-        self.vy += sign * (body.aim_y + body.aim_spin * (self.x - body.x))
+        self.vx += sign * (body.before_x - body.before_spin * (self.y - body.y))
+        self.vy += sign * (body.before_y + body.before_spin * (self.x - body.x))
 
     @cython.cfunc
     def push_apart(self) -> cython.void:
@@ -48,10 +59,14 @@ class Row:
         if self.impulse_x * self.normal_x + self.impulse_y * self.normal_y < 0:
             self.impulse_x, self.impulse_y = -self.impulse_x, -self.impulse_y
 
-    def order(self) -> tuple[float, ...]:
-        """Return the sort key of a pair's rows: the strongest comes first."""
-        strength = length(self.impulse_x, self.impulse_y)
-        return -strength, self.x, self.y, self.normal_x, self.normal_y
+    @cython.cfunc
+    def is_above(self, other: Row) -> cython.bint:
+        """Return whether it is the stronger one; of equal ones one of them is."""
+        mine: cython.double = length(self.impulse_x, self.impulse_y)
+        theirs: cython.double = length(other.impulse_x, other.impulse_y)
+        if mine != theirs:
+            return mine > theirs
+        return self.x < other.x or (self.x == other.x and self.y < other.y)
 
 
 @cython.final
@@ -63,114 +78,136 @@ class Touch:
     b: cython.int
     goes_on: cython.bint  # whether they touch after the last substep
     was_on: cython.bint  # whether they did when contacts were last taken
-    # of the present substep: the solver lists them by their places in memory
-    count: cython.int
-    row: Row
-    rows: list[Row]  # where there are several
+    now: Row | None  # the strongest of the present substep
+    last: Row  # and of the last substep with one: by its normal others are known as this touch's
     # since contacts were last taken
     any: cython.bint
     time: cython.double
-    h: cython.double
-    first: Row
     held: cython.double
+    first: Row
     impulse_x: cython.double
     impulse_y: cython.double
-    along: cython.double
-    across: cython.double
-    # as it was when the control step began, if it was there
-    kept: cython.bint
-    kept_goes_on: cython.bint
-    kept_any: cython.bint
-    kept_held: cython.double
-    kept_impulse_x: cython.double
-    kept_impulse_y: cython.double
-    kept_along: cython.double
-    kept_across: cython.double
+    push: cython.double  # the sum of normal impulses, whatever their directions
+    base: Row | None  # the first that has pushed
+    turn_x: cython.double  # by how much others' normals are off, times their pushes
+    turn_y: cython.double
+    steepest: cython.double  # the largest ratio of friction to push
+    kept: Any  # itself as it was when the control step began
 
-    def __init__(self, a: int, b: int) -> None:
-        """Take the numbers of both."""
-        self.a, self.b, self.goes_on, self.was_on = a, b, False, False
-        self.count, self.row, self.rows, self.first = 0, Row(), [], Row()
-        self.any = False
-        self.time = self.h = self.held = 0.0
-        self.impulse_x = self.impulse_y = self.along = self.across = 0.0
-        self.kept = self.kept_goes_on = self.kept_any = False
-        self.kept_held = self.kept_impulse_x = self.kept_impulse_y = 0.0
-        self.kept_along = self.kept_across = 0.0
+    def __init__(self, a: int, b: int, last: Row) -> None:
+        """Take the numbers of both, and the contact by which it is found."""
+        self.a, self.b, self.goes_on, self.now, self.last = a, b, False, None, last
+        self.time, self.first, self.kept = 0.0, last, None
+        self.begin()
+
+    @cython.cfunc
+    def begin(self) -> cython.void:
+        """Start again, after contacts were taken."""
+        self.was_on, self.any, self.base = self.goes_on, False, None
+        self.held = self.impulse_x = self.impulse_y = self.push = self.steepest = 0.0
+        self.turn_x = self.turn_y = 0.0
 
     @cython.cfunc
     def keep(self) -> cython.void:
         """Keep it as it is, to begin with it again."""
-        self.kept, self.kept_goes_on, self.kept_any = True, self.goes_on, self.any
-        self.kept_held, self.kept_along, self.kept_across = self.held, self.along, self.across
-        self.kept_impulse_x, self.kept_impulse_y = self.impulse_x, self.impulse_y
+        copy: Touch = Touch(self.a, self.b, self.last)
+        copy.goes_on, copy.was_on, copy.any = self.goes_on, self.was_on, self.any
+        copy.time, copy.held, copy.first = self.time, self.held, self.first
+        copy.impulse_x, copy.impulse_y, copy.push = self.impulse_x, self.impulse_y, self.push
+        copy.base, copy.turn_x, copy.turn_y = self.base, self.turn_x, self.turn_y
+        copy.steepest = self.steepest
+        self.kept = copy
 
     @cython.cfunc
-    def begin_again(self) -> cython.void:
-        """Go back to the kept rows; the first row stays, if there was one."""
-        self.goes_on, self.any, self.count = self.kept_goes_on, self.kept_any, 0
-        self.held, self.along, self.across = self.kept_held, self.kept_along, self.kept_across
-        self.impulse_x, self.impulse_y = self.kept_impulse_x, self.kept_impulse_y
+    def likeness(self, row: Row) -> cython.double:
+        """Return the cosine of the angle that the normal has turned to be a contact's."""
+        x: cython.double = row.normal_x
+        y: cython.double = row.normal_y
+        if self.any and self.first.normal_x * x + self.first.normal_y * y < TURNED:
+            return 0.0
+        return self.last.normal_x * x + self.last.normal_y * y
 
     @cython.cfunc
-    def close(self, time: cython.double, h: cython.double) -> cython.void:
-        """Add the rows of a substep of h seconds, which ends at `time`."""
-        row: Row
-        if self.count == 0:
-            self.goes_on = False
-            return
-        if self.goes_on:
-            self.held += h
-        if self.count == 1:
-            self.add(self.row, time, h)
-        else:
-            self.rows.sort(key=Row.order)
-            for row in self.rows:
-                self.add(row, time, h)
-            self.row, self.rows = Row(), []
-        self.count, self.goes_on = 0, True
-
-    @cython.cfunc
-    def fresh(self) -> Row:
-        """Return a row for the present substep."""
-        self.count += 1
-        if self.count == 1:
-            return self.row
-        if self.count == 2:
-            self.rows.append(self.row)
-        self.rows.append(Row())
-        return self.rows[self.count - 1]
-
-    @cython.cfunc
-    def add(self, row: Row, time: cython.double, h: cython.double) -> cython.void:
-        """Add a row; the first one is kept, the strongest of its substep."""
-        if not self.any:
-            self.any, self.time, self.h = True, time, h
-            self.row, self.first = self.first, row
+    def add(self, row: Row) -> cython.void:
+        """Add a contact of the present substep."""
+        if self.now is None or row.is_above(self.now):
+            self.now = row
         self.impulse_x += row.impulse_x
         self.impulse_y += row.impulse_y
-        self.along += row.impulse_x * row.normal_x + row.impulse_y * row.normal_y
-        self.across += row.impulse_y * row.normal_x - row.impulse_x * row.normal_y
+        push: cython.double = row.impulse_x * row.normal_x + row.impulse_y * row.normal_y
+        rub: cython.double = row.impulse_y * row.normal_x - row.impulse_x * row.normal_y
+        if push <= 0.0:
+            return
+        if self.base is None:
+            self.base = row
+        self.push += push
+        self.turn_x += push * (row.normal_x - self.base.normal_x)
+        self.turn_y += push * (row.normal_y - self.base.normal_y)
+        self.steepest = max(self.steepest, abs(rub) / push)
 
-    def order(self) -> tuple[float, int, int]:
-        """Return the sort key of contacts: when they began in this step, and between whom."""
-        return self.time if not self.was_on else self.time - self.h, self.a, self.b
+    @cython.cfunc
+    def close(self, time: cython.double, h: cython.double, passes_on: cython.bint) -> cython.void:
+        """End a substep of h seconds at `time`.
+
+        passes_on: whether the pair touches by another normal alone: this one lasted until then.
+        """
+        if self.now is None and not passes_on:
+            self.goes_on = False
+            return
+        if self.now is not None:
+            self.last = self.now
+        if not self.any:
+            self.any, self.first = True, self.last
+            self.time = time - h if self.was_on else time
+        if self.goes_on:
+            self.held += h
+        self.goes_on = self.now is not None
+
+    def start(self) -> float:
+        """Return when it began, or the control step."""
+        return self.time
+
+    @cython.cfunc
+    def precedes(self, other: Touch) -> cython.bint:
+        """Return whether it comes before another touch of the same body."""
+        if self.b != other.b:
+            return self.b < other.b
+        if self.first.normal_x != other.first.normal_x:
+            return self.first.normal_x < other.first.normal_x
+        return self.first.normal_y < other.first.normal_y
 
     @cython.cfunc
     def write(self, numbers: cython.Doubles, k: cython.int) -> cython.void:
         """Write the fields of `mars2d.record.contact.CONTACT` from the k-th number on."""
-        row: Row = self.first
-        numbers[k] = self.time if not self.was_on else self.time - self.h
+        row: Row = self.first if self.base is None else self.base
+        x: cython.double = row.normal_x
+        y: cython.double = row.normal_y
+        turns: cython.bint = self.turn_x != 0.0 or self.turn_y != 0.0
+        if turns:
+            x, y = self.push * x + self.turn_x, self.push * y + self.turn_y
+            far: cython.double = length(x, y)
+            x, y = x / far, y / far
+        whole: cython.double = length(self.impulse_x, self.impulse_y)
+        along: cython.double = min(self.impulse_x * x + self.impulse_y * y, whole)
+        across: cython.double = self.impulse_y * x - self.impulse_x * y
+        if turns and abs(across) > self.steepest * along:
+            # The sum leaves the cone of the mean normal: turn that until it is on its edge.
+            along = whole / sqrt(1.0 + self.steepest * self.steepest)
+            across = self.steepest * along if across > 0.0 else -self.steepest * along
+            x = (self.impulse_x * along + self.impulse_y * across) / (whole * whole)
+            y = (self.impulse_y * along - self.impulse_x * across) / (whole * whole)
+        row = self.first
+        numbers[k] = self.time
         numbers[k + 1] = self.held
         numbers[k + 2] = self.a
         numbers[k + 3] = self.b
         numbers[k + 4] = row.x
         numbers[k + 5] = row.y
-        numbers[k + 6] = row.normal_x
-        numbers[k + 7] = row.normal_y
-        numbers[k + 8] = length(self.impulse_x, self.impulse_y)
-        numbers[k + 9] = self.along
-        numbers[k + 10] = self.across
+        numbers[k + 6] = x
+        numbers[k + 7] = y
+        numbers[k + 8] = whole
+        numbers[k + 9] = along
+        numbers[k + 10] = across
         numbers[k + 11] = 0.0
         if not self.was_on:
             numbers[k + 11] = -(row.vx * row.normal_x + row.vy * row.normal_y)
@@ -178,23 +215,39 @@ class Touch:
         numbers[k + 13] = 0.0 if self.was_on else 1.0
         numbers[k + 14] = 0.0 if self.goes_on else 1.0
 
-    @cython.cfunc
-    def begin(self) -> cython.void:
-        """Start again, after contacts were taken."""
-        self.was_on, self.any, self.held = self.goes_on, False, 0.0
-        self.impulse_x = self.impulse_y = self.along = self.across = 0.0
+
+@cython.cfunc
+def note_row(a: Body, b: cython.int, row: Row) -> cython.void:
+    """Add a contact of a body with another or an obstacle to the touch whose normal it has."""
+    touch: Touch
+    found: Touch
+    most: cython.double = ALIKE
+    likeness: cython.double
+    for touch in a.contacts:
+        if touch.b == b:
+            likeness = touch.likeness(row)
+            if likeness > most:
+                found, most = touch, likeness
+    if most == ALIKE:
+        found = Touch(a.number, b, row)
+        a.contacts.append(found)
+    found.add(row)
 
 
 @cython.cfunc
-def touch_between(a: Body, b: cython.int) -> Touch:
-    """Return the contact of a body with another or an obstacle, made if there is none yet."""
+def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.void:
+    """End a substep of h seconds at `time`."""
     touch: Touch
-    for touch in a.contacts:
-        if touch.b == b:
-            return touch
-    touch = Touch(a.number, b)
-    a.contacts.append(touch)
-    return touch
+    other: Touch
+    passes_on: cython.bint
+    for touch in body.contacts:
+        passes_on = False
+        if touch.goes_on and touch.now is None:
+            for other in body.contacts:
+                passes_on = passes_on or (other.b == touch.b and other.now is not None)
+        touch.close(time, h, passes_on)
+    for touch in body.contacts:
+        touch.now = None
 
 
 @cython.cfunc
@@ -217,33 +270,45 @@ def keep_touches(body: Body) -> cython.void:
 def begin_touches_again(body: Body) -> cython.void:
     """Go back to the contacts that were kept, and drop those that are new."""
     touch: Touch
-    left: list[Any] = []
-    for touch in body.contacts:
-        if touch.kept:
-            touch.begin_again()
-            left.append(touch)
-    body.contacts = left
+    touches: list[Any] = body.contacts
+    body.contacts = []
+    for touch in touches:
+        if touch.kept is not None:
+            body.contacts.append(touch.kept)
+    keep_touches(body)
 
 
 @cython.cfunc
 def take_touches(bodies: list[Body]) -> list[Any]:
-    """Return the contacts since the last call, sorted; those that have ended are forgotten."""
+    """Return the contacts since the last call by time, a, b and normal, and forget the ended."""
     taken: list[Any] = []
     left: list[Any]
     body: Body
     touch: Touch
+    other: Touch
+    k: cython.int
+    first: cython.int
     for body in bodies:
         if not body.contacts:
             continue
         left = []
+        first = len(taken)
         for touch in body.contacts:
-            if touch.any:
-                taken.append(touch)
-            else:
-                touch.begin()
             if touch.goes_on:
                 left.append(touch)
+            if not touch.any:
+                touch.begin()
+                continue
+            k = len(taken)
+            taken.append(touch)
+            while k > first:
+                other = taken[k - 1]
+                if not touch.precedes(other):
+                    break
+                taken[k] = other
+                k -= 1
+            taken[k] = touch
         body.contacts = left
     if len(taken) > 1:
-        taken.sort(key=Touch.order)
+        taken.sort(key=Touch.start)  # which leaves those of one time as they are
     return taken

@@ -7,6 +7,7 @@ body as seen from the other. The sum over all impulses is the change of the kine
 from __future__ import annotations
 
 from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.chipmunk import (
     Handle,
@@ -14,12 +15,14 @@ from mars2d.physics.islands.chipmunk import (
     arm_of,
     bounce_of,
     count_of,
+    depth_of,
     first_of,
     normal_of,
     push_of,
     rub_of,
     scale,
     second_of,
+    used_of,
 )
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.tie import Tie
@@ -62,12 +65,13 @@ class Impact:
     arm_by: cython.double
     push: cython.double
     rub: cython.double
+    depth: cython.double
 
     def __init__(self, body: Body) -> None:
         """Stand for none yet; body: any."""
         self.a = self.b = body
         self.has_a = self.has_b = False
-        self.normal_x = self.normal_y = self.push = self.rub = 0.0
+        self.normal_x = self.normal_y = self.push = self.rub = self.depth = 0.0
         self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
 
     @cython.cfunc
@@ -89,6 +93,7 @@ class Impact:
         arm = arm_of(arbiter, k, True)
         self.arm_bx, self.arm_by = arm.x, arm.y
         self.push, self.rub = push_of(arbiter, k), rub_of(arbiter, k)
+        self.depth = depth_of(arbiter, k)
 
     @cython.cfunc
     def hit(self) -> cython.void:
@@ -99,14 +104,19 @@ class Impact:
             self.a.hit_x -= x
             self.a.hit_y -= y
             self.a.hit_turn -= self.arm_ax * y - self.arm_ay * x
+            self.a.pressure += self.push + abs(self.rub)
         if self.has_b:
             self.b.hit_x += x
             self.b.hit_y += y
             self.b.hit_turn += self.arm_bx * y - self.arm_by * x
+            self.b.pressure += self.push + abs(self.rub)
 
     @cython.cfunc
-    def work(self, bounce: cython.double) -> cython.void:
-        """Add up for the group how the impulse in this point works, and its rebound."""
+    def work(self, bounce: cython.double, h: cython.double) -> cython.void:
+        """Add up for the group how the impulse in this point works, its rebound, and its age.
+
+        h: of the substep, s. Points that came to touch within it are as deep as they moved since.
+        """
         group: Body = group_of(self.a)
         x: cython.double = 0.0
         y: cython.double = 0.0
@@ -132,7 +142,11 @@ class Impact:
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
         parting: cython.double = after_x * nx + after_y * ny
-        group.push_work += self.push * (x * nx + y * ny + parting) / 2
+        closing: cython.double = -(x * nx + y * ny)
+        if 0.0 < self.depth <= closing * h * (1 + 1e-9):
+            group.hit_power += self.push * closing
+            group.hit_depth += self.push * self.depth
+        group.push_work += self.push * (parting - closing) / 2
         group.rub_work += self.rub * ((y + after_y) * nx - (x + after_x) * ny) / 2
         group.excess += self.push * (parting + bounce)
 
@@ -181,6 +195,8 @@ def join_groups(a: Body, b: Body) -> cython.void:
     a.push_work += b.push_work
     a.rub_work += b.rub_work
     a.excess += b.excess
+    a.hit_power += b.hit_power
+    a.hit_depth += b.hit_depth
     b.push_work = b.rub_work = b.excess = 0.0
     a.crowd += b.crowd
     a.driven = a.driven or b.driven
@@ -197,13 +213,13 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
     body: Body
     for body in solver.bodies:
         body.group, body.springy, body.tied = body, False, False
-        body.hit_x = body.hit_y = body.hit_turn = 0.0
-        body.push_work = body.rub_work = body.excess = 0.0
+        body.hit_x = body.hit_y = body.hit_turn = body.pressure = 0.0
+        body.push_work = body.rub_work = body.excess = body.hit_power = body.hit_depth = 0.0
         body.crowd, body.driven = 1, False
         if body.is_robot:
             body.driven = body.forward != 0.0 or body.left != 0.0 or body.turning != 0.0
     if solver.find_contacts() > 0:
-        take_hits(solver, numbers, impact)
+        take_hits(solver, numbers, impact, h)
         if gains(solver):
             take_powers(solver, numbers, impact)
             if weaken_contacts(solver):
@@ -213,24 +229,74 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
         if weaken_holds(solver):
             scale_all(solver, numbers, impact)
             work_again(solver, numbers, impact)
+    find_shifts(solver, h)
     for body in solver.bodies:
         body.by_push += body.push_work
         body.by_rub += body.rub_work
 
 
 @cython.cfunc
-def take_hits(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
+def find_shifts(solver: Solver, h: cython.double) -> cython.void:
+    """Find out since when, in the mean, the impulses on each group have acted in a step of h s.
+
+    The engine moves bodies by the velocities that they had before. A force that lasts has acted
+    half of the step, and so has all that it makes others do: no body has got more momentum than
+    drives, floors, joints and pulls have given. Else it was an impact: it acted since bodies came
+    to touch. Of what touched before nothing is known.
+    """
+    body: Body
+    group: Body
+    tie: Tie
+    k: cython.int
+    for body in solver.bodies:
+        body.held_by, body.lasting = 0.0, True
+    for tie in solver.ties:
+        group = group_of(tie.a)
+        group.held_by += solver.pull_of(tie)
+        if tie.is_rope and tie.slack > 0.0 and solver.pull_of(tie) > 0.0:
+            group.lasting = False
+    for body in solver.bodies:
+        group = group_of(body)
+        if body.engaged:
+            group.held_by += used_of(body.pivot)
+        if body.pulled:
+            group.held_by += length(body.pull_x, body.pull_y) * h
+    for body in solver.bodies:
+        group = group_of(body)
+        gained: cython.double = body.mass * length(
+            body.after_x - body.before_x, body.after_y - body.before_y
+        )
+        if gained > group.held_by * (1 + 1e-9):
+            group.lasting = False
+    for body in solver.bodies:
+        group = group_of(body)
+        body.shift = 0.0
+        if group.lasting:
+            body.shift = h / 2
+        elif group.hit_power > 0.0:
+            body.shift = group.hit_depth / group.hit_power
+
+
+@cython.cfunc
+def take_hits(
+    solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
+) -> cython.void:
     """Find the groups that touch, the impulses on each body, and how they work."""
     i: cython.int
     k: cython.int
     for i in range(solver.arbiters.count()):
         arbiter: Handle = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
+        pushes: cython.bint = False
+        for k in range(count_of(arbiter)):
+            pushes = pushes or push_of(arbiter, k) != 0.0
+        if not pushes:
+            continue
         join_groups(impact.a, impact.b)
         for k in range(count_of(arbiter)):
             impact.look_at(arbiter, k)
             impact.hit()
-            impact.work(bounce_of(arbiter, k))
+            impact.work(bounce_of(arbiter, k), h)
 
 
 @cython.cfunc
@@ -272,7 +338,7 @@ def work_again(solver: Solver, numbers: list[Body], impact: Impact) -> cython.vo
         impact.take(arbiter, numbers)
         for k in range(count_of(arbiter)):
             impact.look_at(arbiter, k)
-            impact.work(0.0)
+            impact.work(0.0, 0.0)
 
 
 @cython.cfunc

@@ -26,7 +26,7 @@ from mars2d.physics.islands.chipmunk import (
     second_of,
     set_iterations,
 )
-from mars2d.physics.islands.contacts import Row, Touch, touch_between
+from mars2d.physics.islands.contacts import Row, close_touches, note_row
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
 from mars2d.physics.islands.pair import Pair
@@ -118,7 +118,7 @@ class Island:
     tries: cython.int  # substeps in a row in which the solver had more iterations than these
     deepest: cython.double  # m, the overlap
     limit: cython.double  # m, how far a body may go
-    any_slips: cython.bint
+    any_solved: cython.bint
     any_touch: cython.bint
     impact: Impact
 
@@ -136,7 +136,7 @@ class Island:
         self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
         self.thrust = Thrust()
         self.bodies, self.pairs, self.ties = [], [], []
-        self.solved = self.any_slips = self.any_touch = False
+        self.solved = self.any_solved = self.any_touch = False
         self.contact_step = self.push_step = 1e300
         self.strain = self.least_strain = self.most_strain = 1.0
         self.iterations, self.tries = accuracy.iterations, 0
@@ -149,7 +149,7 @@ class Island:
         del self.bodies[:]
         del self.pairs[:]
         del self.ties[:]
-        self.solved = self.any_slips = self.any_touch = False
+        self.solved = self.any_solved = self.any_touch = False
 
     # -- before the first substep -------------------------------------------------------------
 
@@ -299,8 +299,8 @@ class Island:
         self.set_accuracy()
         for body in self.bodies:
             body.gone = 0.0
-            self.any_slips = self.any_slips or body.slips
-        if self.any_slips:
+            self.any_solved = self.any_solved or body.solver is not None
+        if self.any_solved:
             self.land()
         self.measure()
         while elapsed < duration:
@@ -318,16 +318,19 @@ class Island:
                 if body.gone > self.limit:
                     return False
             self.aim(h)
-            if self.any_slips or not self.glide_on(h):
+            if self.any_solved or not self.glide_on(h):
                 if not self.solved:
                     self.land()
                 self.solver.go(h, self.accuracy.growth)
                 settle(self.solver, self.numbers, self.impact, h)
-                self.solver.share_out(h)
+                for body in self.bodies:
+                    self.take(body, h)
                 self.measure()
+                self.hold_back()
                 self.weigh()
+                self.note()
             elapsed = duration if h == left else elapsed + h
-            self.note(time + elapsed, h)
+            self.close(time + elapsed, h)
         for body in self.bodies:
             body.strain = self.strain
         return True
@@ -347,6 +350,24 @@ class Island:
                 self.deepest = max(self.deepest, -pair.gap)
                 self.any_touch = pair.a.touches = pair.b.touches = True
                 pair.next_touch, pair.a.first_touch = pair.a.first_touch, pair
+
+    @cython.cfunc
+    def hold_back(self) -> cython.void:
+        """Leave bodies where the engine moved them that else would be too deep in each other.
+
+        It moved them by the velocities that they had, for which gaps are known to be wide enough.
+        """
+        pair: Pair
+        any_back: cython.bint = self.deepest > self.accuracy.entry
+        while any_back:
+            any_back = False
+            for pair in self.pairs:
+                if pair.gap < -self.accuracy.entry and (pair.a.ahead or pair.b.ahead):
+                    pair.a.fall_back()
+                    pair.b.fall_back()
+                    any_back = True
+            if any_back:
+                self.measure()
 
     @cython.cfunc
     def press(self) -> cython.void:
@@ -421,15 +442,17 @@ class Island:
         accuracy: Accuracy = self.accuracy
         body: Body
         h: cython.double = left
-        self.any_slips = False
+        self.any_solved = False
         for body in self.bodies:
-            if body.pulled:
-                body.touches = True
-            if body.touches:
-                body.slips = True
-            if body.slips:
-                self.any_slips = True
-        if not self.any_slips:
+            body.touches = body.touches or body.pulled
+            body.slips = body.slips or body.touches
+            # Where others touch, a robot that has just lost touch stays with them for a while.
+            lately: cython.bint = self.any_touch and body.since <= accuracy.linger
+            body.solved = body.touches or (
+                body.is_robot and body.slips and (body.lead != 0.0 or lately)
+            )
+            self.any_solved = self.any_solved or body.solved
+        if not self.any_solved:
             return h
         self.set_contact_step()
         h = min(h, self.contact_step)
@@ -439,16 +462,13 @@ class Island:
             # A solver that knows no impulses yet does not settle a file that begins to push.
             h = min(h, self.contact_step / (self.most_strain * self.most_strain))
         for body in self.bodies:
-            if body.slips and body.limited and not body.touches:
+            if body.solved and body.limited and not body.touches:
                 h = min(h, accuracy.swaying)
-            if body.is_robot and body.slips and body.since > 0:
-                h = min(h, body.time_to_brake(accuracy.turned))
-        self.any_slips = False
+        self.any_solved = False
         for body in self.bodies:
-            if body.slips and not body.touches:
-                body.slips = body.is_slow() and body.out_of_reach(h)
-            if body.slips:
-                self.any_slips = True
+            if body.solved and not body.touches:
+                body.solved = body.slips = body.out_of_reach(h)
+            self.any_solved = self.any_solved or body.solved
         return h
 
     @cython.cfunc
@@ -462,18 +482,23 @@ class Island:
         brief: cython.bint = h <= self.contact_step
         body: Body
         for body in self.bodies:
-            if body.slips:
-                body.aim_x, body.aim_y, body.aim_spin = body.vx, body.vy, body.spin
+            body.remember()
+            if body.solved:
                 body.since, body.holds = 0, True
-            elif body.limited:
-                self.thrust.over(body, h)
-                body.since, body.holds = min(body.since + 1, 1 << 20), False
-            elif body.is_robot:
-                body.follow(body.angle, h)
-                body.since = min(body.since + 1, 1 << 20)
-                body.holds = brief and body.since <= self.accuracy.linger
-            else:
-                self.glide.over(body, h)
+                continue
+            body.since = min(body.since + 1, 1 << 20)
+            body.holds = body.follows() and brief and body.since <= self.accuracy.linger
+            self.foresee(body, h)
+
+    @cython.cfunc
+    def foresee(self, body: Body, h: cython.double) -> cython.void:
+        """Aim a body at where it will be after h s if nothing touches it, in closed form."""
+        if not body.is_robot:
+            self.glide.over(body, h)
+        elif body.follows():
+            body.go_along(h)
+        else:
+            self.thrust.over(body, h)
 
     @cython.cfunc
     def glide_on(self, h: cython.double) -> cython.bint:
@@ -483,23 +508,42 @@ class Island:
         """
         body: Body
         for body in self.bodies:
-            body.back_x, body.back_y, body.back_angle = body.x, body.y, body.angle
             body.advance(h)
         self.measure()
         if self.any_touch:
             for body in self.bodies:
-                body.x, body.y, body.angle = body.back_x, body.back_y, body.back_angle
+                body.go_back()
             return False
         for body in self.bodies:
-            body.placed = True
-            if body.is_robot and not body.limited:
-                body.vx, body.vy, body.spin = body.aim_x, body.aim_y, body.aim_spin
-            else:
-                body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
-            body.account_now()
+            self.arrive(body)
         if self.solved:
             self.solver.stale = True
         return True
+
+    @cython.cfunc
+    def arrive(self, body: Body) -> cython.void:
+        """Note that a body has moved in closed form."""
+        body.slips = body.slips and body.is_robot and not body.limited and body.gathers
+        body.account_now()
+
+    @cython.cfunc
+    def take(self, body: Body, h: cython.double) -> cython.void:
+        """Take over how a body has moved in the solver's step of h s.
+
+        What was not pushed by anything has moved in closed form, whatever it touches.
+        """
+        body.ahead = body.is_pushed() or body.solved
+        if body.is_pushed() or (body.solved and body.lead != 0.0):
+            self.solver.share_out(body, h, body.shift)
+            body.slips = True
+            return
+        if body.solved:
+            body.go_back()
+            self.foresee(body, h)
+        else:
+            body.x, body.y, body.angle = body.back_x, body.back_y, body.back_angle
+        body.advance(h)
+        self.arrive(body)
 
     # -- without forces -----------------------------------------------------------------------
 
@@ -555,16 +599,12 @@ class Island:
                     body.by_push -= body.energy
                     body.energy = body.vx = body.vy = body.spin = 0.0
                 body.stopped = False
-                body.look()
+                body.obey()
 
     @cython.cfunc
     def drift(self, body: Body, h: cython.double) -> cython.void:
         """Move a body for h s as nothing but its command or the floor says."""
-        if body.is_robot:
-            body.follow(body.angle, h)
-        else:
-            self.glide.over(body, h)
-            body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
+        self.foresee(body, h)
         body.advance(h)
 
     @cython.cfunc
@@ -573,11 +613,9 @@ class Island:
         row: Row
         pair: Pair
         body: Body
-        touch: Touch
         if self.any_touch:
             for body in self.bodies:
-                body.look()
-                body.aim_x, body.aim_y, body.aim_spin = body.now_x, body.now_y, body.now_spin
+                body.before_x, body.before_y, body.before_spin = body.vx, body.vy, body.spin
         for pair in self.pairs:
             if pair.gap > 0:
                 continue
@@ -585,53 +623,48 @@ class Island:
             other: cython.int = pair.other
             if pair.is_wall:
                 other = pair.wall.owner(pair.point_x, pair.point_y)
-            touch = touch_between(pair.a, other)
-            row = touch.fresh()
-            row.impulse_x = row.impulse_y = row.vx = row.vy = 0.0
+            row = Row()
             row.x, row.y = pair.point_x, pair.point_y
             row.normal_x, row.normal_y = pair.normal_x, pair.normal_y
             if not pair.is_wall:
                 row.add_speed(pair.b, 1.0)
             row.add_speed(pair.a, -1.0)
+            note_row(pair.a, other, row)
         self.close(time, h)
 
     # -- contacts -----------------------------------------------------------------------------
 
     @cython.cfunc
-    def note(self, time: cython.double, h: cython.double) -> cython.void:
-        """Note who touches whom after a substep of h seconds, which ends at `time`."""
-        if self.any_touch:
-            solver: Solver = self.solver
-            k: cython.int
-            for k in range(solver.arbiters.count()):
-                self.note_one(solver.arbiters.at(k))
-        self.close(time, h)
+    def note(self) -> cython.void:
+        """Note who touches whom after a step of the solver."""
+        solver: Solver = self.solver
+        k: cython.int
+        for k in range(solver.arbiters.count()):
+            self.note_one(solver.arbiters.at(k))
 
     @cython.cfunc
     def close(self, time: cython.double, h: cython.double) -> cython.void:
-        """Add up the notes of a substep."""
+        """Add up the notes of a substep of h seconds, which ends at `time`."""
         body: Body
-        touch: Touch
         for body in self.bodies:
-            for touch in body.contacts:
-                touch.close(time, h)
+            if body.contacts:
+                close_touches(body, time, h)
 
     @cython.cfunc
     def note_one(self, arbiter: Handle) -> cython.void:
-        """Note the solver's data of one contact, if it still touches."""
+        """Note the solver's data of one contact, if it has pushed or still touches."""
         first: cython.int = first_of(arbiter)
         second: cython.int = second_of(arbiter)
         swap: cython.bint = first < 0 or (second >= 0 and second < first)
         a: Body = self.numbers[second if swap else first]
         b: cython.int = first if swap else second
-        found: Pair | None = touching(a, b)
-        if found is None or is_void(arbiter):
-            return
-        touch: Touch = touch_between(a, owner_of(found, arbiter, not swap))
-        row: Row = touch.fresh()
-        row.x = row.y = row.vx = row.vy = 0.0
         impulse: Vector = impulse_of(arbiter)
         normal: Vector = normal_of(arbiter)
+        if is_void(arbiter):
+            return
+        if impulse.x == 0.0 and impulse.y == 0.0 and touching(a, b) is None:
+            return
+        row: Row = Row()
         row.impulse_x, row.impulse_y = impulse.x, impulse.y
         row.normal_x, row.normal_y = normal.x, normal.y
         count: cython.int = count_of(arbiter)
@@ -639,11 +672,14 @@ class Island:
         self.stand(row, arbiter, count, not swap)
         if b >= 0:
             row.add_speed(self.numbers[b], 1.0)
+        else:
+            b = owner_of(a, b, row.x, row.y)
         self.stand(row, arbiter, count, swap)
         row.add_speed(a, -1.0)
         if swap:
             row.normal_x, row.normal_y = -row.normal_x, -row.normal_y
         row.push_apart()
+        note_row(a, b, row)
 
     @cython.cfunc
     def stand(
@@ -673,25 +709,16 @@ def touching(a: Body, b: cython.int) -> Pair | None:
 
 
 @cython.cfunc
-def owner_of(pair: Pair, arbiter: Handle, second: cython.bint) -> cython.int:
-    """Return the number of the body or obstacle that the first body of a pair touches.
+def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cython.int:
+    """Return the number of the obstacle that a body touches where, of a wall by its number.
 
-    second: whether it is also the second in the solver's contact. A wall may be of several
-    obstacles: it is that in the middle of the contact's points which counts.
+    A wall may be of several obstacles.
     """
-    if not pair.is_wall:
-        return pair.other
-    count: cython.int = count_of(arbiter)
-    x: cython.double = pair.a.x
-    y: cython.double = pair.a.y
-    point: Vector
-    if count > 0:
-        point = point_of(arbiter, 0, second)
-        x, y = point.x, point.y
-    if count > 1:
-        point = point_of(arbiter, 1, second)
-        x, y = (x + point.x) / 2, (y + point.y) / 2
-    return pair.wall.owner(x, y)
+    pair: Pair
+    for pair in a.wall_pairs:
+        if pair.other == b:
+            return pair.wall.owner(x, y)
+    return b
 
 
 @cython.cfunc

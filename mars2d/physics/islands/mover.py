@@ -108,9 +108,6 @@ class Mover:
         for body in self.bodies:
             if not body.near:
                 self.carry(body, duration)
-            if body.is_robot:
-                body.look()
-                body.vx, body.vy, body.spin = body.now_x, body.now_y, body.now_spin
             body.account_now()
 
     def command(self, twist: cython.Doubles) -> None:
@@ -133,23 +130,25 @@ class Mover:
             body = self.bodies[i]
             if body.forward != 0.0 or body.left != 0.0 or body.turning != 0.0:
                 body.forward, body.left, body.turning = twist[i], twist[n + i], twist[2 * n + i]
+                if body.solver is None:  # one that touches something needs a force for that
+                    body.obey()
+                    body.account_now()
 
     @cython.cfunc
     def begin(self, duration: cython.double) -> cython.void:
         """Find out who slips, and how fast each body may be."""
         body: Body
         for body in self.bodies:
-            body.done = body.kept = False
+            body.done = body.kept = body.solved = body.touches = False
             body.start_x, body.start_y = body.x, body.y
             if not body.is_disc:
                 body.locate()
                 body.start_x, body.start_y = body.center_x, body.center_y
-            body.speed = 0.0
             if body.limited and body.lead != 0.0:
                 body.look()
                 body.slips = body.slips or body.gathers  # no closed form is known of how it sways
-            if body.slips or body.glides():
-                body.speed = length(body.vx, body.vy) + body.offset * abs(body.spin)
+            body.speed = length(body.vx, body.vy) + body.offset * abs(body.spin)
+            if body.slips:
                 body.speed += 2 * abs(body.lead * body.spin)
             asked: cython.double = 0.0
             if body.is_robot:
@@ -356,15 +355,12 @@ class Mover:
         body.slack, body.strain = self.accuracy.slack, 1.0
         if body.is_robot:
             body.since = 1 << 20
-        if body.limited:
-            self.thrust.over(body, duration)
-            body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
-        elif body.is_robot:
-            body.follow(body.angle, duration)
-            body.vx, body.vy, body.spin = body.aim_x, body.aim_y, body.aim_spin
-        else:
+        if not body.is_robot:
             self.glide.over(body, duration)
-            body.vx, body.vy, body.spin = body.end_x, body.end_y, body.end_spin
+        elif body.limited:
+            self.thrust.over(body, duration)
+        else:
+            body.go_along(duration)
         body.advance(duration)
 
     @cython.cfunc
@@ -416,15 +412,9 @@ class Mover:
         body: Body
         for i in range(n):
             body = self.bodies[i]
-            if body.slips or body.limited or not body.is_robot:
-                velocities[i] = body.vx
-                velocities[n + i] = body.vy
-                velocities[2 * n + i] = body.spin
-                continue
-            body.follow(body.angle, 0.0)
-            velocities[i] = body.aim_x
-            velocities[n + i] = body.aim_y
-            velocities[2 * n + i] = body.aim_spin
+            velocities[i] = body.vx
+            velocities[n + i] = body.vy
+            velocities[2 * n + i] = body.spin
 
     def take_effort(self, efforts: cython.Doubles) -> None:
         """Write the largest share of its bounds that each drive used since the last call."""
@@ -456,11 +446,10 @@ class Mover:
             slips.append(body.slips)  # noqa: PERF401 - a comprehension would not know the class
         return slips
 
-    def pull(self, i: int, pull: list[float], velocity: list[float]) -> None:
-        """Let a force x, y and a torque act on a body that moves like this, until `let_go`."""
+    def pull(self, i: int, pull: list[float]) -> None:
+        """Let a force x, y and a torque act on a body, until `let_go`."""
         body: Body = self.bodies[i]
         body.pull_x, body.pull_y, body.pull_torque = pull
-        body.vx, body.vy, body.spin = velocity
         body.pulled = body.slips = True
 
     def let_go(self) -> None:

@@ -171,8 +171,8 @@ class Pair:
         """Find the point where they touch, and how fast each moves into the other there."""
         self.point_x = self.a.x + self.a.radius * self.normal_x
         self.point_y = self.a.y + self.a.radius * self.normal_y
-        self.into_b = self.a.now_x * self.normal_x + self.a.now_y * self.normal_y
-        self.into_a = -(self.b.now_x * self.normal_x + self.b.now_y * self.normal_y)
+        self.into_b = self.a.vx * self.normal_x + self.a.vy * self.normal_y
+        self.into_a = -(self.b.vx * self.normal_x + self.b.vy * self.normal_y)
 
 
 @cython.cfunc
@@ -205,12 +205,12 @@ def disc_time(pair: Pair, h: cython.double, depth: cython.double) -> cython.doub
     Along straight lines, the distance to a convex shape is a convex function of time, so it never
     falls faster than it does now.
     """
-    x: cython.double = pair.a.now_x
-    y: cython.double = pair.a.now_y
+    x: cython.double = pair.a.vx
+    y: cython.double = pair.a.vy
     turn: cython.double = pair.a.bend
     if not pair.is_wall:
-        x = x - pair.b.now_x
-        y = y - pair.b.now_y
+        x = x - pair.b.vx
+        y = y - pair.b.vy
         turn = turn + pair.b.bend
     closing: cython.double = max(x * pair.normal_x + y * pair.normal_y, 0.0)
     room: cython.double = max(pair.gap + depth, depth / 64)
@@ -404,15 +404,15 @@ class PiecePair(Pair):
         stands: cython.bint = self.is_wall and not self.of_second
         x: cython.double = -self.between_x if self.of_second else self.between_x
         y: cython.double = -self.between_y if self.of_second else self.between_y
-        spin: cython.double = 0.0 if still else body.now_spin
-        vx: cython.double = 0.0 if still else -body.now_x
-        vy: cython.double = 0.0 if still else -body.now_y
+        spin: cython.double = 0.0 if still else body.spin
+        vx: cython.double = 0.0 if still else -body.vx
+        vy: cython.double = 0.0 if still else -body.vy
         bends: cython.double = 0.0 if still else body.bend
         own: cython.double = 0.0
         if not stands:
-            own = other.now_spin
-            vx = vx + other.now_x
-            vy = vy + other.now_y
+            own = other.spin
+            vx = vx + other.vx
+            vy = vy + other.vy
             bends = bends + other.bend
         nx: cython.double = self.edge_x
         ny: cython.double = self.edge_y
@@ -453,18 +453,18 @@ class PiecePair(Pair):
         for corner in self.p.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             speed: cython.double = (
-                nx * a.now_x + ny * a.now_y + a.now_spin * (ny * corner.x - nx * corner.y)
+                nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
             )
-            turn: cython.double = a.bend + a.now_spin * a.now_spin * corner.lever
+            turn: cython.double = a.bend + a.spin * a.spin * corner.lever
             for other in self.q.corners:
                 room: cython.double = nx * other.x + ny * other.y - place + base + depth
                 closing: cython.double = speed
                 turns: cython.double = turn
                 if not self.is_wall:
                     closing = closing - (
-                        nx * b.now_x + ny * b.now_y + b.now_spin * (ny * other.x - nx * other.y)
+                        nx * b.vx + ny * b.vy + b.spin * (ny * other.x - nx * other.y)
                     )
-                    turns = turns + b.bend + b.now_spin * b.now_spin * other.lever
+                    turns = turns + b.bend + b.spin * b.spin * other.lever
                 room = max(room, floor)
                 if closing * h + 0.5 * turns * h * h > room:
                     h = min(h, time_to_close(room, closing, turns))
@@ -495,15 +495,15 @@ class PiecePair(Pair):
         corner: Corner
         for corner in self.p.corners:
             speed: cython.double = (
-                nx * a.now_x + ny * a.now_y + a.now_spin * (ny * corner.x - nx * corner.y)
+                nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
             )
-            turn: cython.double = a.bend + a.now_spin * a.now_spin * corner.lever
+            turn: cython.double = a.bend + a.spin * a.spin * corner.lever
             front = max(front, nx * corner.x + ny * corner.y + speed * h + turn * half)
         for corner in self.q.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             if not self.is_wall:
-                speed = nx * b.now_x + ny * b.now_y + b.now_spin * (ny * corner.x - nx * corner.y)
-                turn = b.bend + b.now_spin * b.now_spin * corner.lever
+                speed = nx * b.vx + ny * b.vy + b.spin * (ny * corner.x - nx * corner.y)
+                turn = b.bend + b.spin * b.spin * corner.lever
                 place = place + speed * h - turn * half
             back = min(back, place)
         return back - front + room >= 0.0
@@ -533,8 +533,8 @@ class PiecePair(Pair):
                 continue
             along = nx * corner.y - ny * corner.x
             low, high = min(low, along), max(high, along)
-            speed = nx * self.a.now_x + ny * self.a.now_y
-            speed += self.a.now_spin * (ny * corner.x - nx * corner.y)
+            speed = nx * self.a.vx + ny * self.a.vy
+            speed += self.a.spin * (ny * corner.x - nx * corner.y)
             self.into_b = max(self.into_b, speed)
         other_low: cython.double = 1e300
         other_high: cython.double = -1e300
@@ -543,8 +543,8 @@ class PiecePair(Pair):
                 continue
             along = nx * (corner.y + self.between_y) - ny * (corner.x + self.between_x)
             other_low, other_high = min(other_low, along), max(other_high, along)
-            speed = nx * self.b.now_x + ny * self.b.now_y
-            speed += self.b.now_spin * (ny * corner.x - nx * corner.y)
+            speed = nx * self.b.vx + ny * self.b.vy
+            speed += self.b.spin * (ny * corner.x - nx * corner.y)
             self.into_a = max(self.into_a, -speed)
         out: cython.double = front + self.p.radius
         along = (max(low, other_low) + min(high, other_high)) / 2

@@ -12,6 +12,7 @@ from mars2d.physics.islands.chipmunk import (
     NOTHING,
     PIVOT,
     ROTARY_LIMIT,
+    ROTARY_SPRING,
     Arbiters,
     Handle,
     Vector,
@@ -299,6 +300,18 @@ class Solver:
             remove_joint(self.space, part.handle)
 
     @cython.cfunc
+    def pull_of(self, tie: Tie) -> cython.double:
+        """Return the impulse of a joint along its line in the last step, N s."""
+        k: cython.int
+        part: Held
+        most: cython.double = 0.0
+        for k in range(len(tie.parts)):
+            if tie.parts[k][0] != ROTARY_LIMIT and tie.parts[k][0] != ROTARY_SPRING:
+                part = tie.joints[k]
+                most = max(most, used_of(part.handle))
+        return most
+
+    @cython.cfunc
     def untie(self, tie: Tie) -> cython.void:
         """Take a joint out."""
         self.remove_parts(tie)
@@ -388,18 +401,18 @@ class Solver:
         `settle` and `share_out` do the rest.
         """
         body: Body
-        slips: cython.bint = False
+        solved: cython.bint = False
         for body in self.bodies:
-            slips = slips or body.slips
+            solved = solved or body.solved
             if body.is_robot and body.holds and not body.engaged:
                 self.hold_by(body, body.control)
                 self.engage(body)
         for body in self.bodies:
             if body.is_robot and body.engaged and not body.holds:
                 self.disengage(body)
-        if slips and growth * h < self.last_step:
+        if solved and growth * h < self.last_step:
             for body in self.bodies:
-                if body.slips and body.engaged:
+                if body.solved and body.engaged:
                     self.renew(body)
         self.forget(h)
         tie: Tie
@@ -419,11 +432,12 @@ class Solver:
             where: Vector = position_of(body.handle)
             fast: Vector = velocity_of(body.handle)
             body.x, body.y, body.angle = where.x, where.y, angle_of(body.handle)
+            body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, spin_of(body.handle)
             if not body.is_robot and body.engaged:
                 body.held = used_of(body.pivot) / h
                 body.twist_held = used_of(body.gear) / h
-            if body.is_robot and body.slips:
+            if body.is_robot and body.solved:
                 share: cython.double = used_of(body.pivot) / max(body.bound * h, 1e-300)
                 body.effort = max(body.effort, share)
                 share = used_of(body.gear) / (body.torque * h)
@@ -433,94 +447,117 @@ class Solver:
     def take_drag(self, body: Body) -> cython.void:
         """Find the impulse on a body of its drive, or of the floor under it."""
         drag: Vector = drag_of(body.pivot)
-        body.lean(body.angle)
+        if body.lead != 0.0:
+            body.lean(body.angle)
         body.drag_x, body.drag_y = drag.x, drag.y
         body.drag_turn = twist_of(body.gear) - body.lead_x * drag.y + body.lead_y * drag.x
 
     @cython.cfunc
-    def share_out(self, h: cython.double) -> cython.void:
-        """Take over the bodies' motion, and the changes of their kinetic energies in the step.
+    def share_out(self, body: Body, h: cython.double, shift: cython.double) -> cython.void:
+        """Take over a body's motion, and the change of its kinetic energy in the step.
+
+        shift: s, since when its impulses have acted, in the mean: it has gone as much further as
+        they have changed its velocity.
 
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
         """
-        body: Body
-        for body in self.bodies:
-            body.vx, body.vy = body.after_x, body.after_y
-            if body.lead != 0.0:
-                body.lean(body.angle)
-                body.vx += body.spin * body.lead_y
-                body.vy -= body.spin * body.lead_x
-            x: cython.double = (body.before_x + body.after_x) / 2
-            y: cython.double = (body.before_y + body.after_y) / 2
-            spin: cython.double = (body.before_spin + body.spin) / 2
-            gained: cython.double = body.kinetic_at(body.after_x, body.after_y, body.spin)
-            gained -= body.energy
-            body.energy += gained
-            gained -= body.hit_x * x + body.hit_y * y + body.hit_turn * spin
-            if body.pulled:
-                by_hand: cython.double = (
-                    body.pull_x * x + body.pull_y * y + body.pull_turn * spin
-                ) * h
-                body.by_hand += by_hand
-                gained -= by_hand
-            if body.tied:
-                by_holder: cython.double = 0.0
-                if body.engaged:
-                    self.take_drag(body)
-                    by_holder = body.drag_x * x + body.drag_y * y + body.drag_turn * spin
-                body.by_holder += by_holder
-                body.by_joint += gained - by_holder
-            elif body.engaged:
-                body.by_holder += gained
-            else:  # a rounding error
-                body.by_push += gained
+        if body.lead != 0.0:
+            body.lean(body.angle)
+            body.x, body.y = body.x + body.lead_x, body.y + body.lead_y
+        body.x += shift * (body.after_x - body.before_x)
+        body.y += shift * (body.after_y - body.before_y)
+        body.angle += shift * (body.spin - body.before_spin)
+        body.vx, body.vy, body.placed = body.after_x, body.after_y, True
+        if body.lead != 0.0:
+            body.lean(body.angle)
+            body.x, body.y = body.x - body.lead_x, body.y - body.lead_y
+            body.vx += body.spin * body.lead_y
+            body.vy -= body.spin * body.lead_x
+        x: cython.double = (body.before_x + body.after_x) / 2
+        y: cython.double = (body.before_y + body.after_y) / 2
+        spin: cython.double = (body.before_spin + body.spin) / 2
+        gained: cython.double = body.kinetic_at(body.after_x, body.after_y, body.spin)
+        gained -= body.energy
+        body.energy += gained
+        gained -= body.hit_x * x + body.hit_y * y + body.hit_turn * spin
+        if body.pulled:
+            by_hand: cython.double = (
+                body.pull_x * x + body.pull_y * y + body.pull_turn * spin
+            ) * h
+            body.by_hand += by_hand
+            gained -= by_hand
+        if body.tied:
+            by_holder: cython.double = 0.0
+            if body.engaged:
+                self.take_drag(body)
+                by_holder = body.drag_x * x + body.drag_y * y + body.drag_turn * spin
+            body.by_holder += by_holder
+            body.by_joint += gained - by_holder
+        elif body.engaged:
+            body.by_holder += gained
+        else:  # a rounding error
+            body.by_push += gained
 
     @cython.cfunc
     def prepare(self, body: Body, h: cython.double) -> cython.void:
         """Tell the engine of a body all that it needs for a step of h seconds."""
-        vx: cython.double = body.aim_x
-        vy: cython.double = body.aim_y
-        spin: cython.double = body.aim_spin
-        if body.is_robot and body.engaged:  # joints act on the velocity of the step after this
-            turned: cython.double = body.angle + (body.spin if body.slips else body.turning) * h
-            body.follow(turned, h)
-            if body.lead != 0.0:
-                body.lead_control(turned, h)
+        vx: cython.double = body.vx
+        vy: cython.double = body.vy
+        spin: cython.double = body.spin
+        if not body.solved:
+            vx, vy, spin = body.end_x, body.end_y, body.end_spin
+        if body.is_robot and body.engaged:
+            x: cython.double = body.aim_x
+            y: cython.double = body.aim_y
+            turning: cython.double = body.aim_spin
+            body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
             aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
             if body.grips:
                 self.grasp(body, h)
-            body.aim_x, body.aim_y, body.aim_spin = vx, vy, spin
-        elif body.glides() and (vx != 0.0 or vy != 0.0 or spin != 0.0):
-            # It gets its velocity at the end, so that an impact has the right one. With that it
-            # would not go far enough, so it is put ahead by the difference.
-            body.x = body.x + h * (vx - body.end_x)
-            body.y = body.y + h * (vy - body.end_y)
-            body.angle = body.angle + h * (spin - body.end_spin)
-            vx, vy, spin = body.end_x, body.end_y, body.end_spin
-            body.aim_x, body.aim_y, body.aim_spin = vx, vy, spin
-            body.placed = True
+            body.aim_x, body.aim_y, body.aim_spin = x, y, turning
         if not body.is_robot and body.rest_grip > 0.0:
             self.brake(body, h)
-        if body.placed:
-            put(body.handle, body.x, body.y, body.angle)
-            body.placed = False
         body.pull_turn = body.pull_torque
         if body.lead != 0.0:  # the engine's velocities and forces are those at the centre of mass
             body.lean(body.angle)
-            x: cython.double = body.lead_x
-            y: cython.double = body.lead_y
-            body.pull_turn -= x * body.pull_y - y * body.pull_x
-            if body.slips:
-                vx, vy = vx - spin * y, vy + spin * x
-            else:
-                body.lean(body.angle + spin * h)
-                vx, vy = vx + (body.lead_x - x) / h, vy + (body.lead_y - y) / h
+            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
+            if not body.solved:
+                body.lean(body.angle + h * body.aim_spin)
+            vx, vy = vx - spin * body.lead_y, vy + spin * body.lead_x
+        if not body.solved:
+            self.set_off(body, vx, vy, spin, h)
+        elif body.placed:
+            put(body.handle, body.x, body.y, body.angle)
+        body.placed = False
         if body.pulled:
             push(body.handle, body.pull_x, body.pull_y, body.pull_turn)
         aim(body.handle, vx, vy, spin)
         body.before_x, body.before_y, body.before_spin = vx, vy, spin
         body.account(vx, vy, spin)
+
+    @cython.cfunc
+    def set_off(
+        self,
+        body: Body,
+        vx: cython.double,
+        vy: cython.double,
+        spin: cython.double,
+        h: cython.double,
+    ) -> cython.void:
+        """Put a body that moves in closed form where it gets to its place in h s at its end's velocity.
+
+        So what it hits meets it as fast as it is then. vx, vy: of its centre of mass.
+        """
+        if not body.placed and body.aim_x == vx and body.aim_y == vy and body.aim_spin == spin:
+            return
+        x: cython.double = body.x + h * body.aim_x + body.lead_x - h * vx
+        y: cython.double = body.y + h * body.aim_y + body.lead_y - h * vy
+        angle: cython.double = body.angle + h * body.aim_spin - h * spin
+        if body.lead != 0.0:
+            body.lean(angle)
+            x, y = x - body.lead_x, y - body.lead_y
+        put(body.handle, x, y, angle)
 
     @cython.cfunc
     def grasp(self, body: Body, h: cython.double) -> cython.void:
@@ -542,7 +579,7 @@ class Solver:
         """Let the floor hold a prop that slips; a prop at rest is free until it is hit."""
         force: cython.double = body.allowed
         torque: cython.double = body.twist_allowed
-        if body.slips:
+        if body.solved:
             hold(body, h)
         else:
             body.allowed = body.twist_allowed = 0.0

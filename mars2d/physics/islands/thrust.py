@@ -63,11 +63,12 @@ class Thrust:
             gone += self.advance(body, min(part, fine))
         if self.strains:
             body.effort = 1.0
-        else:
+        elif body.limited:
             body.effort = max(body.effort, body.pull_on_arc(body.turning) / body.force)
         body.aim_x, body.aim_y = self.way_x / h, self.way_y / h
         body.aim_spin = (self.angle - body.angle) / h
         body.end_x, body.end_y, body.end_spin = self.vx, self.vy, self.spin
+        body.gathers = not self.keeps or body.lags(self.spin)
 
     @cython.cfunc
     def begin(self, body: Body) -> cython.void:

@@ -129,13 +129,13 @@ class Tie:
         ny: cython.double = self.normal_y
         a: Body = self.a
         b: Body = self.b
-        part_x: cython.double = a.now_spin * self.arm_ay - a.now_x
-        part_y: cython.double = -a.now_y - a.now_spin * self.arm_ax
-        turn: cython.double = a.bend + a.now_spin * a.now_spin * length(self.arm_ax, self.arm_ay)
+        part_x: cython.double = a.spin * self.arm_ay - a.vx
+        part_y: cython.double = -a.vy - a.spin * self.arm_ax
+        turn: cython.double = a.bend + a.spin * a.spin * length(self.arm_ax, self.arm_ay)
         if not self.to_world:
-            part_x = part_x + b.now_x - b.now_spin * self.arm_by
-            part_y = part_y + b.now_y + b.now_spin * self.arm_bx
-            turn = turn + b.bend + b.now_spin * b.now_spin * length(self.arm_bx, self.arm_by)
+            part_x = part_x + b.vx - b.spin * self.arm_by
+            part_y = part_y + b.vy + b.spin * self.arm_bx
+            turn = turn + b.bend + b.spin * b.spin * length(self.arm_bx, self.arm_by)
         along: cython.double = part_x * nx + part_y * ny
         if self.length > 0:  # motion across a rope or rod lengthens it, too
             across: cython.double = part_x * ny - part_y * nx
@@ -159,11 +159,11 @@ class Tie:
     @cython.cfunc
     def time_to_stop(self, give: cython.double) -> cython.double:
         """Return when bodies have turned beyond a limit by so little that no tip goes `give` m."""
-        self.turning = self.a.now_spin
+        self.turning = self.a.spin
         self.angle = self.a.angle
         reach: cython.double = self.a.reach
         if not self.to_world:
-            self.turning = self.b.now_spin - self.a.now_spin
+            self.turning = self.b.spin - self.a.spin
             self.angle = self.b.angle - self.a.angle
             reach = max(reach, self.b.reach)
         room: cython.double = self.largest - self.angle

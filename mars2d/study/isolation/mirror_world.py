@@ -260,7 +260,7 @@ class MirrorWorld:
 
     @property
     def contacts(self) -> NDArray[np.void]:
-        """The contacts since the last step, one row a pair, of dtype `mars2d.record.CONTACT`."""
+        """The contacts since the last step, rows of dtype `mars2d.record.CONTACT`."""
         return self._contacts
 
     @property
