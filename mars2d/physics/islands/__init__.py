@@ -82,7 +82,6 @@ def difference() -> str:
 
 FIELDS: dict[str, dict[str, tuple[int, str]]] = {
     "struct cpArbiter": {
-        "e": (0, "double"),
         "a": (40, "struct cpShape *"),
         "b": (48, "struct cpShape *"),
         "body_a": (56, "struct cpBody *"),
@@ -94,12 +93,9 @@ FIELDS: dict[str, dict[str, tuple[int, str]]] = {
     "struct cpContact": {
         "r1": (0, "struct cpVect"),
         "r2": (16, "struct cpVect"),
-        "nMass": (32, "double"),
-        "tMass": (40, "double"),
         "bounce": (48, "double"),
         "jnAcc": (56, "double"),
         "jtAcc": (64, "double"),
-        "bias": (80, "double"),
     },
     "struct cpCollisionHandler": {
         "preSolveFunc": (24, "void(*)(struct cpArbiter *, struct cpSpace *, void *)"),

@@ -22,12 +22,21 @@ class Corner:
     x: cython.double
     y: cython.double
     lever: cython.double
+    ends_in: cython.int  # the number of the body in which the face that ends here goes on, or -1
+    starts_in: cython.int  # and that which starts here
 
     def __init__(self, x: float, y: float) -> None:
         """Take its place in the frame of its body, metres."""
+        self.ends_in = self.starts_in = -1
         self.local_x = self.x = x
         self.local_y = self.y = y
         self.lever = length(x, y)
+
+    @cython.cfunc
+    def part(self, number: cython.int) -> cython.void:
+        """Forget that faces go on in bodies other than its own, which has this number."""
+        self.ends_in = number if self.ends_in == number else -1
+        self.starts_in = number if self.starts_in == number else -1
 
 
 @cython.final
@@ -59,12 +68,14 @@ class Piece:
     corners: list[Corner]
     edges: list[Edge]
     radius: cython.double
+    shape: Handle  # the engine's
+    flush: object  # what the engine knows by its address
 
     def __init__(self, corners: list[Any], directions: list[Any], radius: float) -> None:
         """Take corners (x, y) counter-clockwise, directions (x, y) in which it ends, a radius."""
         self.corners = [Corner(x, y) for x, y in corners]
         self.edges = [Edge(u, v, max([u * x + v * y for x, y in corners])) for u, v in directions]
-        self.radius = radius
+        self.radius, self.shape, self.flush = radius, NOTHING, None
 
     @cython.cfunc
     def turn(self, c: cython.double, s: cython.double) -> cython.void:

@@ -40,13 +40,6 @@ cdef extern from *:
         void (*cpConstraintFree)(void *);
         void (*cpBodySetCenterOfGravity)(void *, Vector);
         void (*cpBodySetPositionUpdateFunc)(void *, void (*)(void *, double));
-        void (*cpBodySetVelocityUpdateFunc)(void *, void (*)(void *, Vector, double, double));
-        void (*cpBodyUpdateVelocity)(void *, Vector, double, double);
-        void *(*cpBodyGetSpace)(void *);
-        void (*cpSpaceSetUserData)(void *, void *);
-        void *(*cpSpaceGetUserData)(void *);
-        Vector (*cpSegmentShapeGetA)(void *);
-        Vector (*cpSegmentShapeGetB)(void *);
         void (*cpBodySetVelocity)(void *, Vector);
         void (*cpBodySetAngularVelocity)(void *, double);
         Vector (*cpBodyGetPosition)(void *);
@@ -124,7 +117,7 @@ cdef extern from *:
         void *post_solve, *separate, *data;
     } Handler_;
 
-    enum { SEWN = 1 };  /* the engine's collision type of walls that meet others */
+    enum { SEWN = 1, JOINED = 2 };  /* the engine's collision types: see chipmunk.py */
     static void connect_function(int k, uintptr_t address) {
         ((void (**)(void))&engine)[k] = (void (*)(void))address;
     }
@@ -231,14 +224,6 @@ cdef extern from *:
         void (*cpBodySetCenterOfGravity)(void *, Vector) noexcept
         void (*cpBodySetPositionUpdateFunc)(
             void *, void (*)(void *, double) noexcept) noexcept
-        void (*cpBodySetVelocityUpdateFunc)(
-            void *, void (*)(void *, Vector, double, double) noexcept) noexcept
-        void (*cpBodyUpdateVelocity)(void *, Vector, double, double) noexcept
-        void *(*cpBodyGetSpace)(void *) noexcept
-        void (*cpSpaceSetUserData)(void *, void *) noexcept
-        void *(*cpSpaceGetUserData)(void *) noexcept
-        Vector (*cpSegmentShapeGetA)(void *) noexcept
-        Vector (*cpSegmentShapeGetB)(void *) noexcept
         void (*cpBodySetVelocity)(void *, Vector) noexcept
         void (*cpBodySetAngularVelocity)(void *, double) noexcept
         Vector (*cpBodyGetPosition)(void *) noexcept
@@ -312,7 +297,7 @@ cdef extern from *:
     void turn_to(void *, double, double, double) noexcept
     void put_at(void *, double, double, double, double, double) noexcept
     double move_by(void *, double) noexcept
-    enum: REST, REST_ANGLE, FELT, FELT_TURNING, SEWN
+    enum: REST, REST_ANGLE, FELT, FELT_TURNING, CENTER, SEWN, JOINED
     double fading(void *, int, int) noexcept
     double pull_of(void *, double, double) noexcept
     double twist_to(void *, double, double) noexcept
@@ -341,6 +326,7 @@ cdef Handle new_space(double slop) except NULL:
     engine.cpSpaceSetCollisionSlop(space, slop)
     engine.cpSpaceSetCollisionPersistence(space, 1)
     set_handler(engine.cpSpaceAddWildcardHandler(space, SEWN), mend_contact, NULL)
+    set_handler(engine.cpSpaceAddWildcardHandler(space, JOINED), straighten_contact, NULL)
     return space
 
 cdef inline void set_iterations(Handle space, int count) noexcept:
@@ -398,9 +384,6 @@ cdef Handle new_polygon(Handle body, points, surface) except NULL:
     for k in range(count):
         vertices[k] = vector(points[k][0], points[k][1])
     return surfaced(engine.cpPolyShapeNewRaw(body, count, vertices, 0.0), surface)
-
-cdef inline void number_shape(Handle shape, int number) noexcept:
-    engine.cpShapeSetUserData(shape, <void *><intptr_t>number)
 
 cdef Handle new_segment(Handle body, ends, surface) except NULL:
     a, b = ends
@@ -604,17 +587,6 @@ cdef inline void set_surface(Handle arbiter, double friction, double restitution
     engine.cpArbiterSetFriction(arbiter, friction)
     engine.cpArbiterSetRestitution(arbiter, restitution)
 
-cdef void straighten_contacts(void *body, Vector gravity, double damping, double h) noexcept:
-    (<Flush>engine.cpSpaceGetUserData(engine.cpBodyGetSpace(body))).straighten()
-    engine.cpBodyUpdateVelocity(body, gravity, damping, h)
-
-cdef inline void straighten_in(Handle space, flush) noexcept:
-    engine.cpSpaceSetUserData(space, <void *>flush)
-
-cdef inline void ask_in(Handle body, bint does) noexcept:
-    engine.cpBodySetVelocityUpdateFunc(
-        body, engine.cpBodyUpdateVelocity if not does else straighten_contacts)
-
 cdef void settle_contact(void *arbiter, void *space, void *data) noexcept:
     (<Surfaces>data).settle(arbiter)
 
@@ -634,33 +606,19 @@ cdef inline void set_normal(Handle arbiter, double x, double y) noexcept:
     (<Arbiter_ *>arbiter).n = vector(x, y)
 
 cdef inline void put_point(Handle arbiter, double ax, double ay, double bx, double by) noexcept:
-    cdef Vector a = engine.cpBodyGetPosition((<Arbiter_ *>arbiter).body_a)
-    cdef Vector b = engine.cpBodyGetPosition((<Arbiter_ *>arbiter).body_b)
+    cdef double *a = <double *>(<Arbiter_ *>arbiter).body_a
+    cdef double *b = <double *>(<Arbiter_ *>arbiter).body_b
     cdef Contact_ *contact = (<Arbiter_ *>arbiter).contacts
     (<Arbiter_ *>arbiter).count = 1
-    contact.r1, contact.r2 = vector(ax - a.x, ay - a.y), vector(bx - b.x, by - b.y)
+    contact.r1 = vector(ax - a[CENTER], ay - a[CENTER + 1])
+    contact.r2 = vector(bx - b[CENTER], by - b[CENTER + 1])
     contact.normal_impulse = contact.tangent_impulse = 0.0
-
-cdef inline void set_point(
-    Handle arbiter, int k, double ax, double ay, double bx, double by, double mass,
-    double mass_across, double bounce
-) noexcept:
-    cdef Contact_ *contact = (<Arbiter_ *>arbiter).contacts + k
-    contact.r1, contact.r2 = vector(ax, ay), vector(bx, by)
-    contact.normal_mass, contact.tangent_mass = mass, mass_across
-    contact.bounce, contact.bias = bounce, 0.0
 
 cdef inline void leave_out(Handle arbiter) noexcept:
     (<Arbiter_ *>arbiter).count = 0
 
 cdef inline Handle shape_of(Handle arbiter, bint second) noexcept:
     return (<Arbiter_ *>arbiter).b if second else (<Arbiter_ *>arbiter).a
-
-cdef inline int piece_of(Handle arbiter, bint second) noexcept:
-    return <int><intptr_t>engine.cpShapeGetUserData(shape_of(arbiter, second))
-
-cdef inline double restitution_of(Handle arbiter) noexcept:
-    return (<Arbiter_ *>arbiter).e
 
 cdef inline Vector point_of(Handle arbiter, int k, bint second) noexcept:
     if second:
@@ -705,5 +663,18 @@ cdef inline Vector corner_of(Handle shape, int k) noexcept:
     return engine.cpBodyLocalToWorld(
         engine.cpShapeGetBody(shape), engine.cpPolyShapeGetVert(shape, k))
 
-cdef inline Vector end_of(Handle segment, bint second) noexcept:
-    return engine.cpSegmentShapeGetB(segment) if second else engine.cpSegmentShapeGetA(segment)
+cdef void straighten_contact(void *arbiter, void *space, void *data) noexcept:
+    if first_of(arbiter) >= 0 and second_of(arbiter) >= 0:
+        flush_of(arbiter, False).straighten(arbiter)
+
+cdef inline void show(Handle shape, flush) noexcept:
+    engine.cpShapeSetUserData(shape, <void *>flush)
+
+cdef inline void join(Handle shape) noexcept:
+    engine.cpShapeSetCollisionType(shape, JOINED)
+
+cdef inline Flush flush_of(Handle arbiter, bint second):
+    return <Flush>engine.cpShapeGetUserData(shape_of(arbiter, second))
+
+cdef inline Vector place_of(Handle shape, double x, double y) noexcept:
+    return engine.cpBodyLocalToWorld(engine.cpShapeGetBody(shape), vector(x, y))

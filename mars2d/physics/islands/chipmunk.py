@@ -18,15 +18,15 @@ from mars2d.physics.islands.arithmetic import cosine_sine, exponential
 __all__ = [
     "DAMPED_SPRING", "GEAR", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
     "Arbiters", "Handle", "Vector", "add_body", "add_joint", "add_shape", "aim", "angle_of",
-    "arm_of", "ask_in", "bounce_of", "check_signals", "corner_of", "corners_of", "count_of",
-    "depth_of", "drag_of", "end_of", "first_of", "free_body", "free_joint", "free_shape", "free_space",
-    "ground_of", "impulse_of", "is_void", "leave_out", "make_joint", "new_body", "new_control",
-    "new_disc", "new_ground", "new_polygon", "new_segment", "new_space", "normal_of",
-    "number_shape", "piece_of", "point_of", "position_of", "push", "push_of", "put", "put_point",
-    "remove_body", "remove_joint", "remove_shape", "restitution_of", "rub_of", "scale", "second_of",
+    "arm_of", "bounce_of", "check_signals", "corner_of", "corners_of", "count_of", "depth_of",
+    "drag_of", "first_of", "flush_of", "free_body", "free_joint", "free_shape", "free_space",
+    "ground_of", "impulse_of", "is_void", "join", "leave_out", "make_joint", "new_body",
+    "new_control", "new_disc", "new_ground", "new_polygon", "new_segment", "new_space",
+    "normal_of", "place_of", "point_of", "position_of", "push", "push_of", "put", "put_point",
+    "remove_body", "remove_joint", "remove_shape", "rub_of", "scale", "second_of",
     "set_iterations", "set_joint", "set_limits", "set_max_bias", "set_max_force", "set_normal",
-    "set_point", "set_surface", "sew", "shape_of", "spin_of", "step", "straighten_in", "twist_of",
-    "used_of", "velocity_of", "watch", "weight_at",
+    "set_surface", "sew", "shape_of", "show", "spin_of", "step", "twist_of", "used_of",
+    "velocity_of", "watch", "weight_at",
 ]  # fmt: skip
 
 Handle: TypeAlias = Any
@@ -82,6 +82,7 @@ def new_space(slop: float) -> Handle:
     lib.cpSpaceSetCollisionSlop(space, slop)
     lib.cpSpaceSetCollisionPersistence(space, 1)
     lib.cpSpaceAddWildcardHandler(space, _SEWN).preSolveFunc = _MEND
+    lib.cpSpaceAddWildcardHandler(space, _JOINED).preSolveFunc = _STRAIGHTEN
     return space
 
 
@@ -140,11 +141,6 @@ def new_polygon(body: Handle, points: Any, surface: Any) -> Handle:
 def new_segment(body: Handle, ends: Any, surface: Any) -> Handle:
     """Return a wall without thickness between two points."""
     return _surfaced(lib.cpSegmentShapeNew(body, ends[0], ends[1], 0.0), surface)
-
-
-def number_shape(shape: Handle, number: int) -> None:
-    """Give a shape of a body the number of its piece."""
-    lib.cpShapeSetUserData(shape, ffi.cast("void *", number))
 
 
 def _surfaced(shape: Handle, surface: Any) -> Handle:
@@ -490,29 +486,6 @@ def scale(arbiter: Handle, ratio: float) -> None:
         contact.jtAcc *= ratio
 
 
-@ffi.callback(  # type: ignore[untyped-decorator]
-    "void(cpBody *, cpVect, double, double)", onerror=_catch
-)
-def _STRAIGHTEN(body: Handle, gravity: Vector, damping: float, h: float) -> None:  # noqa: N802
-    ffi.from_handle(lib.cpSpaceGetUserData(lib.cpBodyGetSpace(body))).straighten()
-    lib.cpBodyUpdateVelocity(body, gravity, damping, h)
-
-
-def straighten_in(space: Handle, flush: Any) -> None:
-    """Say what is to straighten the contacts of a space; see `ask_in`."""
-    flush.handle = ffi.new_handle(flush)
-    lib.cpSpaceSetUserData(space, flush.handle)
-
-
-def ask_in(body: Handle, does: bool) -> None:
-    """Have contacts straightened, or not, after they are found and before they are solved.
-
-    The engine then updates velocities, and that of this body by a function of ours.
-    """
-    function = _STRAIGHTEN if does else ffi.addressof(lib, "cpBodyUpdateVelocity")
-    lib.cpBodySetVelocityUpdateFunc(body, function)
-
-
 def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
     """Set the friction and the restitution of a contact for this step."""
     lib.cpArbiterSetFriction(arbiter, friction)
@@ -527,16 +500,6 @@ def shape_of(arbiter: Handle, second: bool) -> Handle:
     return arbiter.b if second else arbiter.a
 
 
-def piece_of(arbiter: Handle, second: bool) -> int:
-    """Return the number of the piece of a body that is a contact's first or second shape."""
-    return int(ffi.cast("intptr_t", lib.cpShapeGetUserData(shape_of(arbiter, second))))
-
-
-def restitution_of(arbiter: Handle) -> float:
-    """Return the restitution of a contact in this step."""
-    return float(arbiter.e)
-
-
 def normal_of(arbiter: Handle) -> Vector:
     """Return a contact's normal, from its first to its second body."""
     return arbiter.n
@@ -549,24 +512,11 @@ def set_normal(arbiter: Handle, x: float, y: float) -> None:
 
 def put_point(arbiter: Handle, ax: float, ay: float, bx: float, by: float) -> None:
     """Let a contact have one point, at these places on its bodies, without impulses so far."""
-    a, b = lib.cpBodyGetPosition(arbiter.body_a), lib.cpBodyGetPosition(arbiter.body_b)
+    a, b = ffi.cast("double *", arbiter.body_a), ffi.cast("double *", arbiter.body_b)
     contact, arbiter.count = arbiter.contacts[0], 1
-    contact.r1.x, contact.r1.y = ax - a.x, ay - a.y
-    contact.r2.x, contact.r2.y = bx - b.x, by - b.y
+    contact.r1.x, contact.r1.y = ax - a[CENTER], ay - a[CENTER + 1]
+    contact.r2.x, contact.r2.y = bx - b[CENTER], by - b[CENTER + 1]
     contact.jnAcc = contact.jtAcc = 0.0
-
-
-def set_point(
-    arbiter: Handle, k: int, ax: float, ay: float, bx: float, by: float, mass: float,
-    mass_across: float, bounce: float,
-) -> None:  # fmt: skip
-    """Set the arms of a point of a contact, its masses along and across its normal, its bounce.
-
-    An overlap is left there.
-    """
-    contact = arbiter.contacts[k]
-    contact.r1.x, contact.r1.y, contact.r2.x, contact.r2.y = ax, ay, bx, by
-    contact.nMass, contact.tMass, contact.bounce, contact.bias = mass, mass_across, bounce, 0.0
 
 
 def leave_out(arbiter: Handle) -> None:
@@ -616,8 +566,8 @@ def check_signals() -> None:
 
 # -- seams ------------------------------------------------------------------------------------
 
-_SEWN = 1
-"""The engine's collision type of walls that meet others."""
+_SEWN, _JOINED = 1, 2
+"""The engine's collision types: of walls that meet others, and of pieces that lie flush."""
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
@@ -635,14 +585,36 @@ def sew(segment: Handle, seams: Any) -> None:
     lib.cpShapeSetCollisionType(segment, _SEWN)
 
 
-def end_of(segment: Handle, second: bool) -> Vector:
-    """Return an end of a wall."""
-    return (lib.cpSegmentShapeGetB if second else lib.cpSegmentShapeGetA)(segment)
-
-
 corners_of = lib.cpPolyShapeGetCount
 
 
 def corner_of(shape: Handle, k: int) -> Vector:
     """Return where a corner of a polygon is."""
     return lib.cpBodyLocalToWorld(lib.cpShapeGetBody(shape), lib.cpPolyShapeGetVert(shape, k))
+
+
+@ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
+def _STRAIGHTEN(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
+    if first_of(arbiter) >= 0 and second_of(arbiter) >= 0:
+        flush_of(arbiter, False).straighten(arbiter)
+
+
+def show(shape: Handle, flush: Any) -> None:
+    """Say what is to straighten contacts with a shape of a body, once it is joined."""
+    flush.handle = ffi.new_handle(flush)
+    lib.cpShapeSetUserData(shape, flush.handle)
+
+
+def join(shape: Handle) -> None:
+    """Let contacts with a shape of a body be straightened."""
+    lib.cpShapeSetCollisionType(shape, _JOINED)
+
+
+def flush_of(arbiter: Handle, second: bool) -> Any:
+    """Return what was shown of a contact's first or second shape."""
+    return ffi.from_handle(lib.cpShapeGetUserData(shape_of(arbiter, second)))
+
+
+def place_of(shape: Handle, x: float, y: float) -> Vector:
+    """Return where a point in the frame of a shape's body is."""
+    return lib.cpBodyLocalToWorld(lib.cpShapeGetBody(shape), (x, y))

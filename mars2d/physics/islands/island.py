@@ -120,6 +120,7 @@ class Island:
     limit: cython.double  # m, how far a body may go
     any_solved: cython.bint
     any_touch: cython.bint
+    flush: list[Pair]  # those that lie flush
     impact: Impact
 
     def __init__(
@@ -135,7 +136,7 @@ class Island:
         self.accuracy, self.glide, self.numbers = accuracy, glide, numbers
         self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
         self.thrust = Thrust()
-        self.bodies, self.pairs, self.ties = [], [], []
+        self.bodies, self.pairs, self.ties, self.flush = [], [], [], []
         self.solved = self.any_solved = self.any_touch = False
         self.contact_step = self.push_step = 1e300
         self.strain = self.least_strain = self.most_strain = 1.0
@@ -245,7 +246,7 @@ class Island:
             solver.tie(tie)
         self.tries = 0
         set_iterations(solver.space, self.iterations)
-        solver.used, solver.crowded = True, len(self.pairs) > 1
+        solver.used = True
 
     @cython.cfunc
     def find_solver(self) -> Solver:
@@ -321,6 +322,7 @@ class Island:
             if self.any_solved or not self.glide_on(h):
                 if not self.solved:
                     self.land()
+                self.find_flush()
                 self.solver.go(h, self.accuracy.growth)
                 settle(self.solver, self.numbers, self.impact, h)
                 for body in self.bodies:
@@ -350,6 +352,18 @@ class Island:
                 self.deepest = max(self.deepest, -pair.gap)
                 self.any_touch = pair.a.touches = pair.b.touches = True
                 pair.next_touch, pair.a.first_touch = pair.a.first_touch, pair
+
+    @cython.cfunc
+    def find_flush(self) -> cython.void:
+        """Find the bodies that lie flush, for the solver."""
+        room: cython.double = 2 * self.accuracy.entry
+        pair: Pair
+        for pair in self.flush:
+            pair.lift()
+        del self.flush[:]
+        for pair in self.pairs:
+            if pair.gap < room and not pair.is_wall and pair.lay(room):
+                self.flush.append(pair)
 
     @cython.cfunc
     def hold_back(self) -> cython.void:

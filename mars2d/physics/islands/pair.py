@@ -12,6 +12,8 @@ from typing import Any
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body, Corner, Edge, Piece
+from mars2d.physics.islands.chipmunk import join
+from mars2d.physics.islands.flush import PARALLEL, lay
 from mars2d.physics.islands.seams import Seams
 
 __all__ = ["DiscPair", "DiscWall", "Pair", "PiecePair", "Wall"]
@@ -165,6 +167,15 @@ class Pair:
         soon after an impact that it could not stop at once.
         """
         raise NotImplementedError
+
+    @cython.cfunc
+    def lay(self, room: cython.double) -> cython.bint:
+        """Note at their corners which faces of two pieces lie flush; return whether any do."""
+        return False
+
+    @cython.cfunc
+    def lift(self) -> cython.void:
+        """Forget that again."""
 
     @cython.cfunc
     def meet(self) -> cython.void:
@@ -507,6 +518,33 @@ class PiecePair(Pair):
                 place = place + speed * h - turn * half
             back = min(back, place)
         return back - front + room >= 0.0
+
+    @cython.cfunc
+    def lay(self, room: cython.double) -> cython.bint:
+        """Note at their corners which faces of two pieces lie flush; return whether any do."""
+        other: Piece = self.p if self.of_second else self.q
+        edge: Edge
+        for edge in other.edges:
+            if edge.x * self.edge_x + edge.y * self.edge_y < -PARALLEL:
+                x: cython.double = self.between_x
+                y: cython.double = self.between_y
+                first: cython.bint = lay(self.p, self.q, x, y, self.b.number, room)
+                if first:
+                    join(self.p.shape)
+                if lay(self.q, self.p, -x, -y, self.a.number, room):
+                    join(self.q.shape)
+                    return True
+                return first
+        return False
+
+    @cython.cfunc
+    def lift(self) -> cython.void:
+        """Forget that again."""
+        corner: Corner
+        for corner in self.p.corners:
+            corner.part(self.a.number)
+        for corner in self.q.corners:
+            corner.part(self.b.number)
 
     @cython.cfunc
     def meet(self) -> cython.void:

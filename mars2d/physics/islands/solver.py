@@ -21,13 +21,13 @@ from mars2d.physics.islands.chipmunk import (
     add_shape,
     aim,
     angle_of,
-    ask_in,
     drag_of,
     free_body,
     free_joint,
     free_shape,
     free_space,
     ground_of,
+    join,
     make_joint,
     new_body,
     new_control,
@@ -36,7 +36,6 @@ from mars2d.physics.islands.chipmunk import (
     new_polygon,
     new_segment,
     new_space,
-    number_shape,
     position_of,
     push,
     put,
@@ -49,9 +48,9 @@ from mars2d.physics.islands.chipmunk import (
     set_max_bias,
     set_max_force,
     sew,
+    show,
     spin_of,
     step,
-    straighten_in,
     twist_of,
     used_of,
     velocity_of,
@@ -59,7 +58,7 @@ from mars2d.physics.islands.chipmunk import (
     weight_at,
 )
 from mars2d.physics.islands.floor import hold
-from mars2d.physics.islands.flush import Flush
+from mars2d.physics.islands.flush import Flush, lay
 from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.tie import Tie
 
@@ -100,28 +99,25 @@ class Solver:
     mend: cython.double  # what the engine is told for steps as long as the last one
     joint_mend: cython.double
     surfaces: object  # kept for the space, which knows its address
-    flush: Flush
-    crowded: cython.bint  # whether a piece may meet two things at once
+    room: cython.double
 
     def __init__(
-        self, slop: float, flush: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
+        self, slop: float, room: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
     ) -> None:
         """Make an empty one.
 
-        slop: the overlap that is left in steady contact, metres. flush: that up to which a body
-        slides over what it meets there. mend_rate, joint_mend_rate: how
-        what is beyond decays, and what joints are off by, 1/s. surfaces: what settles friction and
-        restitution; None: they are products.
+        slop: the overlap that is left in steady contact, metres. room: up to which a step
+        between faces is not felt. mend_rate, joint_mend_rate: how what is beyond decays, and what
+        joints are off by, 1/s. surfaces: what settles friction and restitution; None: they are
+        products.
         """
-        self.space = new_space(slop)
+        self.space, self.room = new_space(slop), room
         self.mend_rate, self.joint_mend_rate = mend_rate, joint_mend_rate
         self.mend = self.joint_mend = 0.0
         self.surfaces = surfaces
         if surfaces is not None:
             watch(self.space, surfaces)
         self.bodies, self.walls, self.ties = [], {}, []
-        self.flush, self.crowded = Flush(self.bodies, flush), False
-        straighten_in(self.space, self.flush)
         self.arbiters = Arbiters()
         self.last_step, self.used, self.stale, self.idle = 1e300, False, False, False
 
@@ -151,6 +147,7 @@ class Solver:
         if body.lead != 0.0:
             weight_at(body.handle, body.lead)
         piece: Piece
+        other: Piece
         for piece in body.pieces:
             points = [(corner.local_x, corner.local_y) for corner in piece.corners]
             shape = Held()
@@ -160,7 +157,11 @@ class Solver:
                 shape.handle = new_disc(body.handle, piece.radius, x, y, body.surface)
             else:
                 shape.handle = new_polygon(body.handle, points, body.surface)
-            number_shape(shape.handle, len(body.shapes) - 1)
+            piece.shape, piece.flush = shape.handle, Flush(piece, self.room)
+            show(piece.shape, piece.flush)
+            for other in body.pieces:
+                if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room):
+                    join(piece.shape)
         if body.is_robot:
             body.control = new_control()
             self.hold_by(body, body.control)
@@ -423,10 +424,7 @@ class Solver:
                 self.rebound(tie, h)
         for body in self.bodies:
             self.prepare(body, h)
-        body = self.bodies[0]
-        ask_in(body.handle, self.crowded)
         step(self.space, h, self.mend)
-        ask_in(body.handle, False)
         self.used = True
         for body in self.bodies:
             where: Vector = position_of(body.handle)
