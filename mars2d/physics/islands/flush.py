@@ -31,6 +31,12 @@ __all__ = ["Flush", "lay"]
 PARALLEL = 0.9999
 """The cosine from which on two faces are parallel."""
 
+UPRIGHT = 0.999
+"""The cosine from which on a normal counts as that of a face."""
+
+ACROSS = 0.1
+"""The sine from which on two faces ask for different normals."""
+
 LEANS = 1e-9
 """The sine from which on a normal leans over the end of a face."""
 
@@ -88,33 +94,64 @@ class Flush:
     piece: Piece
     room: cython.double
     handle: object  # by which the engine finds it, in Python
+    # what a face asks for: its normal, how deep the deepest corner is in it, and where that is
+    x: cython.double
+    y: cython.double
+    leans: cython.bint  # whether the contact is not its own
+    deepest: cython.double
+    px: cython.double
+    py: cython.double
 
     def __init__(self, piece: Piece, room: float) -> None:
         """Take the piece, and `room`."""
         self.piece, self.room, self.handle = piece, room, None
+        self.x = self.y = self.deepest = self.px = self.py = 0.0
+        self.leans = False
 
     @cython.cfunc
     def straighten(self, arbiter: Handle) -> cython.void:
-        """Look at a contact of two bodies before it is solved. It is that of the first shape."""
+        """Look at a contact of two bodies before it is solved. It is that of the first shape.
+
+        Where three corners meet, faces of both may ask for it. Then it is left out, since both
+        bodies are held by the third.
+        """
         other: Flush = flush_of(arbiter, True)
-        self.look(arbiter, other.piece, False)
-        other.look(arbiter, self.piece, True)
+        if is_void(arbiter):
+            return
+        asks: cython.bint = self.look(arbiter, other.piece, False)
+        if not other.look(arbiter, self.piece, True):
+            if asks:
+                self.mend(arbiter, other.piece, False)
+        elif not asks:
+            other.mend(arbiter, self.piece, True)
+        elif abs(self.x * other.y - self.y * other.x) > ACROSS:
+            leave_out(arbiter)
+        else:
+            self.mend(arbiter, other.piece, False)
 
     @cython.cfunc
-    def look(self, arbiter: Handle, slider: Piece, second: cython.bint) -> cython.void:
-        """Look at the faces that go on elsewhere. second: whether it is the second shape."""
+    def look(self, arbiter: Handle, slider: Piece, second: cython.bint) -> cython.bint:
+        """Return whether a face that goes on elsewhere asks for a contact.
+
+        second: whether it is the second shape.
+        """
         by: cython.int = first_of(arbiter) if second else second_of(arbiter)
         k: cython.int
         count: cython.int = len(self.piece.corners)
         for k in range(count):
             corner: Corner = self.piece.corners[k]
+            start: Corner = self.piece.corners[(k + count - 1) % count]
             if corner.ends_in >= 0 and corner.ends_in != by:
-                self.mend(arbiter, slider, second, self.piece.corners[(k + count - 1) % count], corner, 1.0)
+                if self.asks(arbiter, slider, second, start, corner, 1.0):
+                    return True
+            start = self.piece.corners[(k + 1) % count]
             if corner.starts_in >= 0 and corner.starts_in != by:
-                self.mend(arbiter, slider, second, self.piece.corners[(k + 1) % count], corner, -1.0)
+                if self.asks(arbiter, slider, second, start, corner, -1.0):
+                    return True
+        return False
 
     @cython.cfunc
-    def mend(
+    def asks(
         self,
         arbiter: Handle,
         slider: Piece,
@@ -122,10 +159,11 @@ class Flush:
         start: Corner,
         end: Corner,
         turn: cython.double,
-    ) -> cython.void:
-        """Let a face push what leans over its end. turn: 1 if it is on the way's right, else -1."""
-        if is_void(arbiter):
-            return
+    ) -> cython.bint:
+        """Return whether a contact leans over a face's end, or is its own.
+
+        turn: 1 if the face is on the right of the way to its end, else -1.
+        """
         shape: Handle = shape_of(arbiter, second)
         a: Vector = place_of(shape, start.local_x, start.local_y)
         b: Vector = place_of(shape, end.local_x, end.local_y)
@@ -134,33 +172,44 @@ class Flush:
         uy: cython.double = (b.y - a.y) / far
         normal: Vector = normal_of(arbiter)
         sign: cython.double = -1.0 if second else 1.0
-        if sign * (normal.x * ux + normal.y * uy) <= LEANS:
-            return
-        fx: cython.double = turn * uy
-        fy: cython.double = -turn * ux
+        self.x, self.y = turn * uy, -turn * ux
+        self.leans = sign * (normal.x * ux + normal.y * uy) > LEANS
+        if not self.leans and sign * (normal.x * self.x + normal.y * self.y) < UPRIGHT:
+            return False
         shape = shape_of(arbiter, not second)
         lowest: cython.double = -1e300
-        deepest: cython.double = -1.0
-        px: cython.double = 0.0
-        py: cython.double = 0.0
+        self.deepest = -1.0
         corner: Corner
         for corner in slider.corners:
             at: Vector = place_of(shape, corner.local_x, corner.local_y)
-            x: cython.double = at.x - slider.radius * fx
-            y: cython.double = at.y - slider.radius * fy
-            depth: cython.double = (b.x - x) * fx + (b.y - y) * fy
+            x: cython.double = at.x - slider.radius * self.x
+            y: cython.double = at.y - slider.radius * self.y
+            depth: cython.double = (b.x - x) * self.x + (b.y - y) * self.y
             along: cython.double = (x - a.x) * ux + (y - a.y) * uy
             lowest = max(lowest, depth)
-            if depth > deepest and depth >= 0.0 and 0.0 <= along <= far + self.room:
-                deepest, px, py = depth, x, y
-        if lowest > self.room:
+            if depth > self.deepest and depth >= 0.0 and 0.0 <= along <= far + self.room / 8:
+                self.deepest, self.px, self.py = depth, x, y
+        return lowest <= self.room
+
+    @cython.cfunc
+    def mend(self, arbiter: Handle, slider: Piece, second: cython.bint) -> cython.void:
+        """Let the face that has asked for a contact push, or leave it out."""
+        if not self.leans:
             return
-        if deepest < 0.0:
+        normal: Vector = normal_of(arbiter)
+        sign: cython.double = -1.0 if second else 1.0
+        nx: cython.double = sign * self.x
+        ny: cython.double = sign * self.y
+        upright: cython.bint = normal.x * nx + normal.y * ny > UPRIGHT and slider.radius == 0.0
+        if self.deepest < 0.0 and not upright:
             leave_out(arbiter)
             return
-        set_normal(arbiter, sign * fx, sign * fy)
-        x, y = px + deepest * fx, py + deepest * fy
+        set_normal(arbiter, nx, ny)
+        if upright:
+            return
+        x: cython.double = self.px + self.deepest * self.x
+        y: cython.double = self.py + self.deepest * self.y
         if second:
-            put_point(arbiter, px, py, x, y)
+            put_point(arbiter, self.px, self.py, x, y)
         else:
-            put_point(arbiter, x, y, px, py)
+            put_point(arbiter, x, y, self.px, self.py)

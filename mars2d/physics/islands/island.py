@@ -69,6 +69,7 @@ class Accuracy:
     iterations_ties: cython.int
     spring_step: cython.double
     graze: cython.double
+    mend: cython.double
 
     def __init__(self, numbers: dict[str, Any]) -> None:
         """Take the numbers by name."""
@@ -86,7 +87,7 @@ class Accuracy:
         self.push_depth, self.spring_step = numbers["push_depth"], numbers["spring_step"]
         self.push_room, self.strained = numbers["push_room"], numbers["strained"]
         self.strain_growth, self.strain_fade = numbers["strain_growth"], numbers["strain_fade"]
-        self.toil, self.graze = numbers["toil"], numbers["graze"]
+        self.toil, self.graze, self.mend = numbers["toil"], numbers["graze"], numbers["mend"]
         self.iterations, self.iterations_unequal, self.iterations_ties = (
             numbers["iterations"], numbers["iterations_unequal"], numbers["iterations_ties"],
         )  # fmt: skip
@@ -276,7 +277,7 @@ class Island:
         else:
             solver = Solver(
                 self.accuracy.slop,
-                2 * self.accuracy.entry,
+                self.accuracy.mend,
                 self.accuracy.mend_rate,
                 self.accuracy.joint_mend_rate,
                 self.surfaces,
@@ -356,7 +357,7 @@ class Island:
     @cython.cfunc
     def find_flush(self) -> cython.void:
         """Find the bodies that lie flush, for the solver."""
-        room: cython.double = 2 * self.accuracy.entry
+        room: cython.double = self.accuracy.mend / 8
         pair: Pair
         for pair in self.flush:
             pair.lift()

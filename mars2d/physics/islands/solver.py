@@ -160,7 +160,7 @@ class Solver:
             piece.shape, piece.flush = shape.handle, Flush(piece, self.room)
             show(piece.shape, piece.flush)
             for other in body.pieces:
-                if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room):
+                if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room / 8):
                     join(piece.shape)
         if body.is_robot:
             body.control = new_control()
