@@ -138,17 +138,20 @@ class Flush:
         by: cython.int = first_of(arbiter) if second else second_of(arbiter)
         k: cython.int
         count: cython.int = len(self.piece.corners)
+        found: cython.bint = False
         for k in range(count):
             corner: Corner = self.piece.corners[k]
             start: Corner = self.piece.corners[(k + count - 1) % count]
             if corner.ends_in >= 0 and corner.ends_in != by:
-                if self.asks(arbiter, slider, second, start, corner, 1.0):
+                found = self.asks(arbiter, slider, second, start, corner, 1.0) or found
+                if found and self.leans:
                     return True
             start = self.piece.corners[(k + 1) % count]
             if corner.starts_in >= 0 and corner.starts_in != by:
-                if self.asks(arbiter, slider, second, start, corner, -1.0):
+                found = self.asks(arbiter, slider, second, start, corner, -1.0) or found
+                if found and self.leans:
                     return True
-        return False
+        return found
 
     @cython.cfunc
     def asks(
@@ -172,24 +175,31 @@ class Flush:
         uy: cython.double = (b.y - a.y) / far
         normal: Vector = normal_of(arbiter)
         sign: cython.double = -1.0 if second else 1.0
-        self.x, self.y = turn * uy, -turn * ux
-        self.leans = sign * (normal.x * ux + normal.y * uy) > LEANS
-        if not self.leans and sign * (normal.x * self.x + normal.y * self.y) < UPRIGHT:
+        fx: cython.double = turn * uy
+        fy: cython.double = -turn * ux
+        leans: cython.bint = sign * (normal.x * ux + normal.y * uy) > LEANS
+        if not leans and sign * (normal.x * fx + normal.y * fy) < UPRIGHT:
             return False
         shape = shape_of(arbiter, not second)
         lowest: cython.double = -1e300
-        self.deepest = -1.0
+        deepest: cython.double = -1.0
+        px: cython.double = 0.0
+        py: cython.double = 0.0
         corner: Corner
         for corner in slider.corners:
             at: Vector = place_of(shape, corner.local_x, corner.local_y)
-            x: cython.double = at.x - slider.radius * self.x
-            y: cython.double = at.y - slider.radius * self.y
-            depth: cython.double = (b.x - x) * self.x + (b.y - y) * self.y
+            x: cython.double = at.x - slider.radius * fx
+            y: cython.double = at.y - slider.radius * fy
+            depth: cython.double = (b.x - x) * fx + (b.y - y) * fy
             along: cython.double = (x - a.x) * ux + (y - a.y) * uy
             lowest = max(lowest, depth)
-            if depth > self.deepest and depth >= 0.0 and 0.0 <= along <= far + self.room / 8:
-                self.deepest, self.px, self.py = depth, x, y
-        return lowest <= self.room
+            if depth > deepest and depth >= 0.0 and 0.0 <= along <= far + self.room / 8:
+                deepest, px, py = depth, x, y
+        if lowest > self.room:
+            return False
+        self.leans, self.x, self.y = leans, fx, fy
+        self.deepest, self.px, self.py = deepest, px, py
+        return True
 
     @cython.cfunc
     def mend(self, arbiter: Handle, slider: Piece, second: cython.bint) -> cython.void:
