@@ -136,21 +136,17 @@ class Flush:
         second: whether it is the second shape.
         """
         by: cython.int = first_of(arbiter) if second else second_of(arbiter)
-        k: cython.int
-        count: cython.int = len(self.piece.corners)
         found: cython.bint = False
-        for k in range(count):
-            corner: Corner = self.piece.corners[k]
-            start: Corner = self.piece.corners[(k + count - 1) % count]
+        corner: Corner
+        k: cython.int = 0
+        for corner in self.piece.corners:
             if corner.ends_in >= 0 and corner.ends_in != by:
-                found = self.asks(arbiter, slider, second, start, corner, 1.0) or found
-                if found and self.leans:
-                    return True
-            start = self.piece.corners[(k + 1) % count]
-            if corner.starts_in >= 0 and corner.starts_in != by:
-                found = self.asks(arbiter, slider, second, start, corner, -1.0) or found
-                if found and self.leans:
-                    return True
+                found = self.asks(arbiter, slider, second, k, False) or found
+            if corner.starts_in >= 0 and corner.starts_in != by and not (found and self.leans):
+                found = self.asks(arbiter, slider, second, k, True) or found
+            if found and self.leans:
+                return True
+            k += 1
         return found
 
     @cython.cfunc
@@ -159,14 +155,17 @@ class Flush:
         arbiter: Handle,
         slider: Piece,
         second: cython.bint,
-        start: Corner,
-        end: Corner,
-        turn: cython.double,
+        k: cython.int,
+        starts: cython.bint,
     ) -> cython.bint:
         """Return whether a contact leans over a face's end, or is its own.
 
-        turn: 1 if the face is on the right of the way to its end, else -1.
+        k: the number of the corner at its end. starts: whether it starts there.
         """
+        count: cython.int = len(self.piece.corners)
+        turn: cython.double = -1.0 if starts else 1.0
+        end: Corner = self.piece.corners[k]
+        start: Corner = self.piece.corners[(k + 1 if starts else k + count - 1) % count]
         shape: Handle = shape_of(arbiter, second)
         a: Vector = place_of(shape, start.local_x, start.local_y)
         b: Vector = place_of(shape, end.local_x, end.local_y)

@@ -362,6 +362,8 @@ class Island:
         for pair in self.flush:
             pair.lift()
         del self.flush[:]
+        if len(self.bodies) < 3:
+            return
         for pair in self.pairs:
             if pair.gap < room and not pair.is_wall and pair.lay(room):
                 self.flush.append(pair)

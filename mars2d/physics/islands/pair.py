@@ -522,19 +522,35 @@ class PiecePair(Pair):
     @cython.cfunc
     def lay(self, room: cython.double) -> cython.bint:
         """Note at their corners which faces of two pieces lie flush; return whether any do."""
-        other: Piece = self.p if self.of_second else self.q
+        if not self.meet_at_corners(2 * room):
+            return False
+        x: cython.double = self.between_x
+        y: cython.double = self.between_y
+        first: cython.bint = lay(self.p, self.q, x, y, self.b.number, room)
+        second: cython.bint = lay(self.q, self.p, -x, -y, self.a.number, room)
+        if first:
+            join(self.p.shape)
+        if second:
+            join(self.q.shape)
+        return first or second
+
+    @cython.cfunc
+    def meet_at_corners(self, room: cython.double) -> cython.bint:
+        """Return whether edges lie against each other, and corners by corners."""
         edge: Edge
-        for edge in other.edges:
-            if edge.x * self.edge_x + edge.y * self.edge_y < -PARALLEL:
-                x: cython.double = self.between_x
-                y: cython.double = self.between_y
-                first: cython.bint = lay(self.p, self.q, x, y, self.b.number, room)
-                if first:
-                    join(self.p.shape)
-                if lay(self.q, self.p, -x, -y, self.a.number, room):
-                    join(self.q.shape)
+        corner: Corner
+        other: Corner
+        opposed: cython.bint = False
+        for edge in self.p.edges if self.of_second else self.q.edges:
+            opposed = opposed or edge.x * self.edge_x + edge.y * self.edge_y < -PARALLEL
+        if not opposed:
+            return False
+        for corner in self.p.corners:
+            x: cython.double = corner.x - self.between_x
+            y: cython.double = corner.y - self.between_y
+            for other in self.q.corners:
+                if abs(other.x - x) < room and abs(other.y - y) < room:
                     return True
-                return first
         return False
 
     @cython.cfunc
