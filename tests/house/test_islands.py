@@ -74,7 +74,7 @@ def test_chipmunk_is_the_same_in_python_and_in_c():
     assert set(chipmunk.__all__) <= set(dir(chipmunk))
     alone = {"connect", "surfaced", "new_joint", "Found", "note_arbiter", "number_of", "Engine_"}
     alone |= {"Contact_", "Arbiter_", "settle_contact", "mend_contact", "move", "pull"}
-    alone |= {"twist_back", "straighten_contacts"}
+    alone |= {"twist_back", "straighten_contact"}
     assert {"engine", "vector"} <= set(helpers())
     assert set(offered()) - alone == set(chipmunk.__all__)
 

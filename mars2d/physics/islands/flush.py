@@ -137,16 +137,15 @@ class Flush:
         """
         by: cython.int = first_of(arbiter) if second else second_of(arbiter)
         found: cython.bint = False
-        corner: Corner
-        k: cython.int = 0
-        for corner in self.piece.corners:
+        k: cython.int
+        for k in range(len(self.piece.corners)):
+            corner: Corner = self.piece.corners[k]
             if corner.ends_in >= 0 and corner.ends_in != by:
                 found = self.asks(arbiter, slider, second, k, False) or found
             if corner.starts_in >= 0 and corner.starts_in != by and not (found and self.leans):
                 found = self.asks(arbiter, slider, second, k, True) or found
             if found and self.leans:
                 return True
-            k += 1
         return found
 
     @cython.cfunc

@@ -171,7 +171,7 @@ class Pair:
     @cython.cfunc
     def lay(self, room: cython.double) -> cython.bint:
         """Note at their corners which faces of two pieces lie flush; return whether any do."""
-        return False
+        return room < 0.0
 
     @cython.cfunc
     def lift(self) -> cython.void:
