@@ -32,12 +32,6 @@ class Corner:
         self.local_y = self.y = y
         self.lever = length(x, y)
 
-    @cython.cfunc
-    def part(self, number: cython.int) -> cython.void:
-        """Forget that faces go on in bodies other than its own, which has this number."""
-        self.ends_in = number if self.ends_in == number else -1
-        self.starts_in = number if self.starts_in == number else -1
-
 
 @cython.final
 @cython.cclass
@@ -99,6 +93,7 @@ class Body:
     number: cython.int
     is_robot: cython.bint
     is_disc: cython.bint  # a single one, about the pose
+    laid: cython.bint  # whether faces go on in other bodies
     mass: cython.double
     moment: cython.double  # about the centre of mass
     lead: cython.double  # m, from the pose ahead to the centre of mass
@@ -279,6 +274,7 @@ class Body:
         self.number, self.is_robot, self.pieces, self.surface = number, is_robot, pieces, surface
         self.mass = self.moment = self.lead = 0.0
         self.is_disc = self.slips = self.solved = self.in_robot_frame = self.holds = self.engaged = False
+        self.laid = False
         self.pulled = self.touches = self.near = self.done = self.placed = self.made = False
         self.stopped = self.limited = self.gathers = False
         self.radius = self.offset_x = self.offset_y = self.offset = self.reach = 0.0
@@ -373,6 +369,17 @@ class Body:
         piece: Piece
         for piece in self.pieces:
             piece.turn(c, s)
+
+    @cython.cfunc
+    def lift(self) -> cython.void:
+        """Forget that its faces go on in other bodies."""
+        piece: Piece
+        corner: Corner
+        self.laid = False
+        for piece in self.pieces:
+            for corner in piece.corners:
+                corner.ends_in = self.number if corner.ends_in == self.number else -1
+                corner.starts_in = self.number if corner.starts_in == self.number else -1
 
     # -- how it moves -------------------------------------------------------------------------
 

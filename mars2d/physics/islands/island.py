@@ -121,7 +121,6 @@ class Island:
     limit: cython.double  # m, how far a body may go
     any_solved: cython.bint
     any_touch: cython.bint
-    flush: list[Pair]  # those that lie flush
     impact: Impact
 
     def __init__(
@@ -137,7 +136,7 @@ class Island:
         self.accuracy, self.glide, self.numbers = accuracy, glide, numbers
         self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
         self.thrust = Thrust()
-        self.bodies, self.pairs, self.ties, self.flush = [], [], [], []
+        self.bodies, self.pairs, self.ties = [], [], []
         self.solved = self.any_solved = self.any_touch = False
         self.contact_step = self.push_step = 1e300
         self.strain = self.least_strain = self.most_strain = 1.0
@@ -358,15 +357,16 @@ class Island:
     def find_flush(self) -> cython.void:
         """Find the bodies that lie flush, for the solver."""
         room: cython.double = self.accuracy.mend / 8
+        body: Body
         pair: Pair
-        for pair in self.flush:
-            pair.lift()
-        del self.flush[:]
+        for body in self.bodies:
+            if body.laid:
+                body.lift()
         if len(self.bodies) < 3:
             return
         for pair in self.pairs:
-            if pair.gap < room and not pair.is_wall and pair.lay(room):
-                self.flush.append(pair)
+            if pair.gap < room and not pair.is_wall:
+                pair.lay(room)
 
     @cython.cfunc
     def hold_back(self) -> cython.void:

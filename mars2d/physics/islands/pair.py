@@ -169,13 +169,8 @@ class Pair:
         raise NotImplementedError
 
     @cython.cfunc
-    def lay(self, room: cython.double) -> cython.bint:
-        """Note at their corners which faces of two pieces lie flush; return whether any do."""
-        return room < 0.0
-
-    @cython.cfunc
-    def lift(self) -> cython.void:
-        """Forget that again."""
+    def lay(self, room: cython.double) -> cython.void:
+        """Note at corners which faces of two pieces go on in each other, but for this room."""
 
     @cython.cfunc
     def meet(self) -> cython.void:
@@ -520,19 +515,18 @@ class PiecePair(Pair):
         return back - front + room >= 0.0
 
     @cython.cfunc
-    def lay(self, room: cython.double) -> cython.bint:
-        """Note at their corners which faces of two pieces lie flush; return whether any do."""
-        if not self.meet_at_corners(2 * room):
-            return False
+    def lay(self, room: cython.double) -> cython.void:
+        """Note at corners which faces of two pieces go on in each other, but for this room."""
         x: cython.double = self.between_x
         y: cython.double = self.between_y
-        first: cython.bint = lay(self.p, self.q, x, y, self.b.number, room)
-        second: cython.bint = lay(self.q, self.p, -x, -y, self.a.number, room)
-        if first:
+        if not self.meet_at_corners(2 * room):
+            return
+        if lay(self.p, self.q, x, y, self.b.number, room):
             join(self.p.shape)
-        if second:
+            self.a.laid = True
+        if lay(self.q, self.p, -x, -y, self.a.number, room):
             join(self.q.shape)
-        return first or second
+            self.b.laid = True
 
     @cython.cfunc
     def meet_at_corners(self, room: cython.double) -> cython.bint:
@@ -552,15 +546,6 @@ class PiecePair(Pair):
                 if abs(other.x - x) < room and abs(other.y - y) < room:
                     return True
         return False
-
-    @cython.cfunc
-    def lift(self) -> cython.void:
-        """Forget that again."""
-        corner: Corner
-        for corner in self.p.corners:
-            corner.part(self.a.number)
-        for corner in self.q.corners:
-            corner.part(self.b.number)
 
     @cython.cfunc
     def meet(self) -> cython.void:
