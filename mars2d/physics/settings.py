@@ -19,7 +19,7 @@ SLOP = 1e-4
 
 ITERATIONS = 15
 ITERATIONS_UNEQUAL = 21  # with masses more than three times apart
-ITERATIONS_JOINTS = 61  # with joints: several may hold the same bodies
+ITERATIONS_JOINTS = 31  # with joints: several may hold the same bodies
 """Odd numbers: where friction is large, the solver may swing between a push and none.
 
 With an even number it can end with none each time, and bodies go through each other.
@@ -67,7 +67,7 @@ MEETING = 1 / 256
 It has gathered speed over this way too: as small a part of it as substeps allow.
 """
 
-STRAINED = 1.05
+STRAINED = 0.9
 """How deep it is, in parts of how deep bodies may enter, where more pushes add up than thought."""
 
 STRAIN_GROWTH, STRAIN_FADE = 2.0, 0.98

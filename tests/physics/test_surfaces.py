@@ -374,6 +374,7 @@ def test_a_wall_of_several_obstacles_has_their_surface():
     slider = Robot(pose=(-1, 0.15, -0.6), drive=Unicycle(max_torque=1000), friction=0.9)
     scenario = Scenario(robots=[slider], addons=walls, workspace=None, friction_rule="minimum")
     rows = run(scenario, [[0.5], [0.0]], 8.0).contacts
-    ratio = np.abs(rows["tangential_impulse"]) / rows["normal_impulse"]
     assert set(rows["b"].tolist()) == {-1, -2, -3}
+    rows = rows[rows["normal_impulse"] > 0]
+    ratio = np.abs(rows["tangential_impulse"]) / rows["normal_impulse"]
     assert ratio[2:] == pytest.approx(0.25, rel=1e-6)

@@ -223,7 +223,9 @@ def test_a_file_moves_what_its_forces_can_and_nothing_else(n, gap, force_limited
         world = endless(team, [Box(length=0.4, width=0.4, mass=mass, ground_friction=friction)])
         drive(world, [[8.0] * n, [0.0] * n], 3.0)
         a = max(1 - share, 0) * n * force / (mass + n * m)
-        assert world.prop_pose[0, 0] == pytest.approx(a * 4.5, abs=1e-3 + 0.02 * a * 4.5)
+        # In gaps robots gather speed before they push: up to 3 % of the way.
+        tolerance = 0.02 if gap < 1e-9 else 0.03
+        assert world.prop_pose[0, 0] == pytest.approx(a * 4.5, abs=1e-3 + tolerance * a * 4.5)
 
 
 def test_it_comes_back_after_a_bounce_at_force_over_mass():

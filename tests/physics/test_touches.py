@@ -106,6 +106,7 @@ def test_began_and_ended_go_by_the_last_substep_of_a_step():
     assert step(True, False) == [(False, True)]
     assert step(True, False) == [(True, True)]
     assert step(True, True) == [(True, False)]
+    assert step(False) == [(False, True)]  # it touched at the start
     assert step(False) == []
     assert step(True) == [(True, False)]
 
@@ -151,7 +152,7 @@ def test_rows_come_by_time_and_then_by_pair_and_what_has_parted_is_forgotten():
         (0.1, 1, 2), (0.1, 2, -1), (0.2, 0, 2),
     ]  # fmt: skip
     for body in bodies[:2]:
-        part(body)
+        part(body, 0.1)
     take(bodies)
     assert [len(body.contacts) for body in bodies] == [0, 0, 1]
 
@@ -468,7 +469,7 @@ def let_touch(island, a: int, b: int) -> None:
 def test_the_impulse_is_that_on_b_whatever_the_solvers_sign_and_order(told, bodies, sign):
     let_touch(told, 0, 1)
     a, b = told.numbers[:2]
-    (a.aim_x, a.aim_y), (b.aim_x, b.aim_y) = (0.1, 0.0), (-0.2, 0.2)
+    (a.before_x, a.before_y), (b.before_x, b.before_y) = (0.1, 0.0), (-0.2, 0.2)
     turned = -1.0 if bodies == (1, 0) else 1.0
     told.note_one(contact(bodies, (sign * 2.0, sign * -1.0), (turned, 0.0)))
     told.close(0.1, 0.1)
@@ -494,7 +495,7 @@ def test_an_obstacle_is_always_second_and_the_point_is_the_middle_of_two(told):
     let_touch(told, 2, -3)
     let_touch(told, 2, -1)
     points = {"first": ((9, 9), (9, 9)), "second": ((2.1, 0.0), (2.1, 0.4))}
-    told.numbers[2].aim_x, told.numbers[2].aim_spin = 0.5, 2.0
+    told.numbers[2].before_x, told.numbers[2].before_spin = 0.5, 2.0
     told.note_one(contact((-1, 2), (-4.0, 0.0), (-1.0, 0.0), **points))
     told.close(0.1, 0.1)
     [row] = take(told.numbers)

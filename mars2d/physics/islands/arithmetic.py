@@ -10,7 +10,16 @@ from math import floor, fmod, sqrt
 
 from mars2d.physics.islands import shadow as cython
 
-__all__ = ["chord_share", "cosine_sine", "decay_base", "exponential", "length", "power", "sine"]
+__all__ = [
+    "chord_share",
+    "cosine_sine",
+    "decay_base",
+    "exponential",
+    "length",
+    "power",
+    "sine",
+    "surge",
+]
 
 
 @cython.cfunc
@@ -139,6 +148,15 @@ def decay_base(rate: cython.double, h: cython.double) -> cython.double:
     near: cython.double = 1.0 + high
     beside: cython.double = (high - (near - 1.0)) + low
     return power(0.36787944117144233, rate) * (1.0 - beside / near / h)
+
+
+@cython.cfunc
+def surge(x: cython.double) -> cython.double:
+    """Return (e^x - 1) / x, for 0 <= x <= 1; for larger ones, that of 1."""
+    if x < 1e-5:
+        return 1.0 + x / 2.0
+    x = min(x, 1.0)
+    return (1.0 / exponential(-x) - 1.0) / x
 
 
 @cython.cfunc

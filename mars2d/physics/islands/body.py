@@ -128,8 +128,14 @@ class Body:
     no_load_speed: cython.double  # m/s, where that has fallen to nothing
     grip_ahead: cython.double  # N, what its wheels bear
     grip_across: cython.double
+    wheeled: cython.bint  # whether these wheels roll ahead only
     strength: cython.double  # N, the largest force in any direction, at any speed
     bound: cython.double  # N, and in the direction and at the speed of now
+    bound_ahead: cython.double  # N, that of its motors on its wheels now
+    bound_across: cython.double  # N, and of what the wheels hold
+    skid: cython.double  # how much more they would have to bear than they can, a factor
+    tread_ahead: cython.double  # N, what they have borne in the last substep
+    tread_across: cython.double
     limited: cython.bint  # whether its force and torque bound its acceleration in the open, too
     gathers: cython.bint  # whether it has yet to reach its command, and nothing touches it
     since: cython.int  # substeps since it slipped
@@ -265,7 +271,8 @@ class Body:
     made: cython.bint
     handle: Handle
     control: Handle
-    pivot: Handle
+    pivot: Handle  # of a robot with wheels, its motors
+    side: Handle  # what holds its wheels across
     gear: Handle
     shapes: list[Any]
 
@@ -273,17 +280,19 @@ class Body:
         """Take its number, its pieces, its friction and restitution; `describe` does the rest."""
         self.number, self.is_robot, self.pieces, self.surface = number, is_robot, pieces, surface
         self.mass = self.moment = self.lead = 0.0
-        self.is_disc = self.slips = self.solved = self.in_robot_frame = self.holds = self.engaged = False
-        self.laid = False
+        self.is_disc = self.slips = self.solved = self.in_robot_frame = self.holds = (
+            self.engaged
+        ) = False
         self.pulled = self.touches = self.near = self.done = self.placed = self.made = False
-        self.stopped = self.limited = self.gathers = False
+        self.stopped = self.limited = self.gathers = self.ahead = self.laid = False
         self.radius = self.offset_x = self.offset_y = self.offset = self.reach = 0.0
         self.x = self.y = self.angle = self.vx = self.vy = self.spin = 0.0
         self.center_x = self.center_y = 0.0
         self.forward = self.left = self.turning = self.force = self.torque = self.rim = 0.0
-        self.grips, self.no_load_speed = False, 1e300
+        self.grips, self.wheeled, self.no_load_speed = False, False, 1e300
         self.grip_ahead = self.grip_across = 1e300
-        self.strength = self.bound = 0.0
+        self.strength = self.bound = self.bound_ahead = self.bound_across = 0.0
+        self.tread_ahead = self.tread_across = self.skid = 0.0
         self.since, self.effort = 1 << 20, 0.0
         self.grip = self.twist_grip = self.lever = self.slows = self.stops = 0.0
         self.rest_grip = self.rest_twist_grip = 0.0
@@ -291,7 +300,6 @@ class Body:
         self.pull_x = self.pull_y = self.pull_torque = 0.0
         self.bend = 0.0
         self.moved_x = self.moved_y = self.moved_angle = 0.0
-        self.ahead = False
         self.aim_x = self.aim_y = self.aim_spin = 0.0
         self.end_x = self.end_y = self.end_spin = self.lead_x = self.lead_y = 0.0
         self.back_x = self.back_y = self.back_angle = self.gone = 0.0
@@ -319,7 +327,7 @@ class Body:
         self.moved, self.wall_pairs, self.wall_gap, self.wall_skin = 0.0, [], -1.0, -1.0
         self.cell = self.next = -1
         self.contacts, self.first_touch = [], None
-        self.handle = self.control = self.pivot = self.gear = NOTHING
+        self.handle = self.control = self.pivot = self.side = self.gear = NOTHING
         self.shapes = []
 
     def describe(self, what: dict[str, Any]) -> None:
@@ -343,6 +351,7 @@ class Body:
         self.strength = self.bound = self.force
         if self.grip_across < 1e300:
             self.strength = max(min(self.force, self.grip_ahead), self.grip_across)
+            self.wheeled = self.in_robot_frame
         self.limited = what.get("limited", False)
 
     def move(self, state: list[float], slips: bool) -> None:
@@ -402,6 +411,28 @@ class Body:
         self.aim_spin = self.turning
 
     @cython.cfunc
+    def advance_half(self, h: cython.double) -> cython.void:
+        """Go on for half of h s at the velocity that its centre of mass had before the step."""
+        if self.lead != 0.0:
+            self.lean(self.angle)
+            self.x, self.y = self.x + self.lead_x, self.y + self.lead_y
+        self.x += h / 2 * self.before_x
+        self.y += h / 2 * self.before_y
+        self.angle += h / 2 * self.before_spin
+        if self.lead != 0.0:
+            self.lean(self.angle)
+            self.x, self.y = self.x - self.lead_x, self.y - self.lead_y
+
+    @cython.cfunc
+    def part(self, h: cython.double) -> cython.void:
+        """Go as far as the engine moved it in h s to mend overlaps, beyond its velocity's way."""
+        x: cython.double = self.moved_x - (self.back_x + h * self.back_vx)
+        y: cython.double = self.moved_y - (self.back_y + h * self.back_vy)
+        turn: cython.double = self.moved_angle - (self.back_angle + h * self.back_spin)
+        if length(x, y) + self.reach * abs(turn) > 1e-12:  # no rounding error
+            self.x, self.y, self.angle = self.x + x, self.y + y, self.angle + turn
+
+    @cython.cfunc
     def remember(self) -> cython.void:
         """Note where and how it is before a substep."""
         self.back_x, self.back_y, self.back_angle = self.x, self.y, self.angle
@@ -441,7 +472,9 @@ class Body:
 
         Impulses that are rounding errors do not count.
         """
-        fast: cython.double = length(self.before_x, self.before_y) + self.reach * abs(self.before_spin)
+        fast: cython.double = length(self.before_x, self.before_y) + self.reach * abs(
+            self.before_spin
+        )
         return self.tied or self.pulled or self.pressure > 1e-12 * self.mass * fast
 
     @cython.cfunc
@@ -511,6 +544,16 @@ class Body:
     # -- its drive ----------------------------------------------------------------------------
 
     @cython.cfunc
+    def time_to_brake(self, turned: cython.double) -> cython.double:
+        """Return when its drive stops the spin that a blow has given a robot: there a substep ends.
+
+        It has a lower bound, in which its rim turns by `turned`, too little to be seen.
+        """
+        spin: cython.double = abs(self.spin - self.turning)
+        moment: cython.double = self.moment + self.mass * self.lead * self.lead
+        return max(spin * moment / self.torque, turned / max(spin * self.rim, 1e-300))
+
+    @cython.cfunc
     def out_of_reach(self, h: cython.double) -> cython.bint:
         """Return whether its drive can't bring it back to its command within h seconds."""
         self.follow(self.angle, h)
@@ -553,16 +596,40 @@ class Body:
         c, s = cosine_sine(angle)
         ahead: cython.double = (c * x + s * y) / far
         across: cython.double = (c * y - s * x) / far
-        speed: cython.double = c * vx + s * vy
-        motors: cython.double = self.force
-        if speed * ahead > 0.0:
-            motors = motors * max(1.0 - abs(speed) / self.no_load_speed, 0.0)
+        motors: cython.double = self.motors(ahead, c * vx + s * vy)
         if self.grip_across >= 1e300:
             self.bound = motors
             return
         self.bound = 1.0 / length(ahead / self.grip_ahead, across / self.grip_across)
         if self.bound * abs(ahead) > motors:
             self.bound = motors / abs(ahead)
+
+    @cython.cfunc
+    def motors(self, ahead: cython.double, speed: cython.double) -> cython.double:
+        """Return the force of its motors, N, at a speed ahead, in the direction of `ahead`."""
+        if speed * ahead > 0.0:
+            return self.force * max(1.0 - abs(speed) / self.no_load_speed, 0.0)
+        return self.force
+
+    @cython.cfunc
+    def divide(
+        self, ahead: cython.double, across: cython.double, speed: cython.double
+    ) -> cython.void:
+        """Bound the forces on its wheels, where it takes these two, N, to move as commanded.
+
+        speed: its own, ahead, m/s.
+
+        Within the ellipse each bound is what the other force leaves. Beyond it wheels skid, and
+        their force opposes their slip, unless motors are weaker: then they roll.
+        """
+        motors: cython.double = self.motors(ahead, speed)
+        a: cython.double = abs(ahead) / self.grip_ahead
+        b: cython.double = abs(across) / self.grip_across
+        off: cython.double = max(length(a, b), 1.0)
+        self.skid = off
+        a, b = min(a / off, motors / self.grip_ahead), b / off
+        self.bound_across = self.grip_across * sqrt(max(1.0 - a * a, 0.0))
+        self.bound_ahead = min(motors, self.grip_ahead * sqrt(max(1.0 - b * b, 0.0)))
 
     @cython.cfunc
     def takes_more(self, h: cython.double) -> cython.bint:
@@ -577,6 +644,8 @@ class Body:
         spin: cython.double = self.turning - self.spin
         push_x: cython.double = self.mass * (self.aim_x - self.vx - spin * y)
         push_y: cython.double = self.mass * (self.aim_y - self.vy + spin * x)
+        if self.grip_across < 1e300:
+            self.bear(push_x, push_y, self.angle, self.vx, self.vy)
         if length(push_x, push_y) > self.bound * h:
             return True
         return abs(self.moment * spin + x * push_y - y * push_x) > self.torque * h
@@ -615,8 +684,13 @@ class Body:
     @cython.cfunc
     def is_flung(self, spin: cython.double) -> cython.bint:
         """Return whether its force can't hold it on its command's arc."""
-        most: cython.double = self.force if self.grip_across >= 1e300 else self.grip_across
+        most: cython.double = self.force_across()
         return self.pull_on_arc(max(abs(spin), abs(self.turning))) > most * (1 + 1e-9)
+
+    @cython.cfunc
+    def force_across(self) -> cython.double:
+        """Return the largest force that it bears across its heading, N."""
+        return self.force if self.grip_across >= 1e300 else self.grip_across
 
     @cython.cfunc
     def lags(self, spin: cython.double) -> cython.bint:

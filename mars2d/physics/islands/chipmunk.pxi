@@ -50,6 +50,8 @@ cdef extern from *:
         void (*cpBodySetTorque)(void *, double);
         void *(*cpPivotJointAlloc)(void);
         void *(*cpPivotJointInit)(void *, void *, void *, Vector, Vector);
+        void *(*cpGrooveJointAlloc)(void);
+        void *(*cpGrooveJointInit)(void *, void *, void *, Vector, Vector, Vector);
         void *(*cpGearJointAlloc)(void);
         void *(*cpGearJointInit)(void *, void *, void *, double, double);
         void *(*cpSlideJointAlloc)(void);
@@ -149,6 +151,10 @@ cdef extern from *:
         n[CENTER + 1] = (s * n[LEAD] + c * n[LEAD + 1]) + y;
         turn_to(body, angle, c, s);
     }
+    static void forget_mending(void *body) {
+        double *n = body;
+        n[MENDED] = n[MENDED + 1] = n[TURNED] = 0.0;
+    }
     static double move_by(void *body, double h) {
         double *n = body;
         for (int k = 0; k < 2; k++) {
@@ -164,19 +170,21 @@ cdef extern from *:
     static double fading(void *spring, int rest, int felt) {
         void *space = engine.cpConstraintGetSpace(spring);
         double *n = spring, h = engine.cpSpaceGetCurrentTimeStep(space);
-        return -(n[rest + 2] * h) / n[felt];
+        return n[rest + 2] * h / n[felt];
     }
-    static double pull_of(void *spring, double length, double lost) {
+    static double pull_of(void *spring, double length, double lost, double surge) {
         double *n = spring;
         n[LOST] = lost;
-        return (n[REST] - length) * n[REST + 1];
+        return (n[REST] - length) * n[REST + 1] * surge;
     }
-    static double twist_to(void *spring, double angle, double lost) {
+    static double twist_to(void *spring, double angle, double lost, double surge) {
         double *n = spring;
         n[LOST_TURNING] = lost;
-        return (angle - n[REST_ANGLE]) * n[REST_ANGLE + 1];
+        return (angle - n[REST_ANGLE]) * n[REST_ANGLE + 1] * surge;
     }
-    static Vector drag(void *joint) { return vector(((double *)joint)[25], ((double *)joint)[26]); }
+    static Vector drag(void *joint, int at) {
+        return vector(((double *)joint)[at], ((double *)joint)[at + 1]);
+    }
     static double twist(void *joint) { return ((double *)joint)[18]; }
     """
     ctypedef struct Vector:
@@ -234,6 +242,8 @@ cdef extern from *:
         void (*cpBodySetTorque)(void *, double) noexcept
         void *(*cpPivotJointAlloc)() noexcept
         void *(*cpPivotJointInit)(void *, void *, void *, Vector, Vector) noexcept
+        void *(*cpGrooveJointAlloc)() noexcept
+        void *(*cpGrooveJointInit)(void *, void *, void *, Vector, Vector, Vector) noexcept
         void *(*cpGearJointAlloc)() noexcept
         void *(*cpGearJointInit)(void *, void *, void *, double, double) noexcept
         void *(*cpSlideJointAlloc)() noexcept
@@ -297,11 +307,12 @@ cdef extern from *:
     void turn_to(void *, double, double, double) noexcept
     void put_at(void *, double, double, double, double, double) noexcept
     double move_by(void *, double) noexcept
+    void forget_mending(void *) noexcept
     enum: REST, REST_ANGLE, FELT, FELT_TURNING, CENTER, SEWN, JOINED
     double fading(void *, int, int) noexcept
-    double pull_of(void *, double, double) noexcept
-    double twist_to(void *, double, double) noexcept
-    Vector drag(void *) noexcept
+    double pull_of(void *, double, double, double) noexcept
+    double twist_to(void *, double, double, double) noexcept
+    Vector drag(void *, int) noexcept
     double twist(void *) noexcept
 
 
@@ -315,7 +326,7 @@ def connect(addresses):
 
 cdef Handle NOTHING = NULL
 cdef enum:
-    PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING
+    PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING, GROOVE
 
 # -- spaces -----------------------------------------------------------------------------------
 
@@ -425,6 +436,9 @@ cdef inline void aim(Handle body, double vx, double vy, double spin) noexcept:
     engine.cpBodySetVelocity(body, vector(vx, vy))
     engine.cpBodySetAngularVelocity(body, spin)
 
+cdef inline void settle_down(Handle body) noexcept:
+    forget_mending(body)
+
 cdef inline void push(Handle body, double x, double y, double torque) noexcept:
     engine.cpBodySetForce(body, vector(x, y))
     engine.cpBodySetTorque(body, torque)
@@ -456,6 +470,8 @@ cdef Handle new_joint(int kind) noexcept:
         return engine.cpDampedSpringAlloc()
     if kind == ROTARY_LIMIT:
         return engine.cpRotaryLimitJointAlloc()
+    if kind == GROOVE:
+        return engine.cpGrooveJointAlloc()
     return engine.cpDampedRotarySpringAlloc()
 
 cdef Handle make_joint(
@@ -472,6 +488,8 @@ cdef Handle make_joint(
         engine.cpGearJointInit(joint, a, b, p, q)
     elif kind == ROTARY_LIMIT:
         engine.cpRotaryLimitJointInit(joint, a, b, p, q)
+    elif kind == GROOVE:
+        engine.cpGrooveJointInit(joint, a, b, vector(-p, -q), vector(p, q), on_b)
     elif kind == SLIDE:
         engine.cpSlideJointInit(joint, a, b, on_a, on_b, p, q)
     elif kind == PIN:
@@ -488,10 +506,12 @@ cdef Handle make_joint(
     return joint
 
 cdef double pull(void *spring, double length) noexcept:
-    return pull_of(spring, length, 1.0 - exponential(fading(spring, REST, FELT)))
+    cdef double fades = fading(spring, REST, FELT)
+    return pull_of(spring, length, 1.0 - exponential(-fades), surge(fades))
 
 cdef double twist_back(void *spring, double angle) noexcept:
-    return twist_to(spring, angle, 1.0 - exponential(fading(spring, REST_ANGLE, FELT_TURNING)))
+    cdef double fades = fading(spring, REST_ANGLE, FELT_TURNING)
+    return twist_to(spring, angle, 1.0 - exponential(-fades), surge(fades))
 
 cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
     engine.cpConstraintSetErrorBias(joint, bias)
@@ -516,8 +536,8 @@ cdef inline void remove_joint(Handle space, Handle joint) noexcept:
 cdef inline void free_joint(Handle joint) noexcept:
     engine.cpConstraintFree(joint)
 
-cdef inline Vector drag_of(Handle joint) noexcept:
-    return drag(joint)
+cdef inline Vector drag_of(Handle joint, int kind) noexcept:
+    return drag(joint, 32 if kind == GROOVE else 25)
 
 cdef inline double twist_of(Handle joint) noexcept:
     return twist(joint)

@@ -13,19 +13,20 @@ from typing import Any, TypeAlias
 
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.physics.islands.arithmetic import cosine_sine, exponential
+from mars2d.physics.islands.arithmetic import cosine_sine, exponential, surge
 
 __all__ = [
-    "DAMPED_SPRING", "GEAR", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT", "ROTARY_SPRING", "SLIDE",
-    "Arbiters", "Handle", "Vector", "add_body", "add_joint", "add_shape", "aim", "angle_of",
-    "arm_of", "bounce_of", "check_signals", "corner_of", "corners_of", "count_of", "depth_of",
-    "drag_of", "first_of", "flush_of", "free_body", "free_joint", "free_shape", "free_space",
-    "ground_of", "impulse_of", "is_void", "join", "leave_out", "make_joint", "new_body",
-    "new_control", "new_disc", "new_ground", "new_polygon", "new_segment", "new_space",
-    "normal_of", "place_of", "point_of", "position_of", "push", "push_of", "put", "put_point",
-    "remove_body", "remove_joint", "remove_shape", "rub_of", "scale", "second_of",
-    "set_iterations", "set_joint", "set_limits", "set_max_bias", "set_max_force", "set_normal",
-    "set_surface", "sew", "shape_of", "show", "spin_of", "step", "twist_of", "used_of",
+    "DAMPED_SPRING", "GEAR", "GROOVE", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT",
+    "ROTARY_SPRING", "SLIDE", "Arbiters", "Handle", "Vector", "add_body", "add_joint",
+    "add_shape", "aim", "angle_of", "arm_of", "bounce_of", "check_signals", "corner_of",
+    "corners_of", "count_of", "depth_of", "drag_of", "first_of", "flush_of", "free_body",
+    "free_joint", "free_shape", "free_space", "ground_of", "impulse_of", "is_void", "join",
+    "leave_out", "make_joint", "new_body", "new_control", "new_disc", "new_ground",
+    "new_polygon", "new_segment", "new_space", "normal_of", "place_of", "point_of",
+    "position_of", "push", "push_of", "put", "put_point", "remove_body", "remove_joint",
+    "remove_shape", "rub_of", "scale", "second_of", "set_iterations", "set_joint", "set_limits",
+    "set_max_bias", "set_max_force", "set_normal", "set_surface", "settle_down", "sew",
+    "shape_of", "show", "spin_of", "step", "twist_of", "used_of",
     "velocity_of", "watch", "weight_at",
 ]  # fmt: skip
 
@@ -37,12 +38,13 @@ Vector: TypeAlias = Any
 
 NOTHING: Handle = None
 
-PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING = range(7)
+PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING, GROOVE = range(8)
 """The kinds of joints."""
 
 _KINDS = (
     ("Pivot", "Joint"), ("Gear", "Joint"), ("Slide", "Joint"), ("Pin", "Joint"),
     ("Damped", "Spring"), ("RotaryLimit", "Joint"), ("DampedRotary", "Spring"),
+    ("Groove", "Joint"),
 )  # fmt: skip
 _ALLOC = [getattr(lib, f"cp{a}{b}Alloc") for a, b in _KINDS]
 _INIT = [getattr(lib, f"cp{a}{b}Init") for a, b in _KINDS]
@@ -56,7 +58,7 @@ _JOINT = (24 + 10 * _POINTER) // 8
 Three numbers, nine pointers, and a truth that is as long as one stand before them.
 """
 
-PIVOT_IMPULSE, GEAR_IMPULSE = _JOINT + 12, _JOINT + 5
+PIVOT_IMPULSE, GEAR_IMPULSE, GROOVE_IMPULSE = _JOINT + 12, _JOINT + 5, _JOINT + 19
 """Where the engine's structs of these joints have their impulses, in numbers of eight bytes."""
 
 _BASE = ffi.typeof("cpConstraint *")
@@ -236,6 +238,12 @@ def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
     lib.cpBodySetAngularVelocity(body, spin)
 
 
+def settle_down(body: Handle) -> None:
+    """Let a body forget the velocity by which the engine would mend its overlaps in the next step."""
+    numbers = ffi.cast("double *", body)
+    numbers[MENDED] = numbers[MENDED + 1] = numbers[TURNED] = 0.0
+
+
 def push(body: Handle, x: float, y: float, torque: float) -> None:
     """Let a force and a torque act on a body in the next step."""
     lib.cpBodySetForce(body, (x, y))
@@ -254,7 +262,8 @@ def make_joint(
     """Return a joint that has not held anything yet, in the memory of one outside of spaces.
 
     joint: that one, or NOTHING. ends: the anchors in the frames of a and b, and where none are
-    needed, any. p, q, r: the kind's numbers, in the order in which the engine takes them.
+    needed, any. p, q, r: the kind's numbers, in the order in which the engine takes them. A groove
+    of a goes from (-p, -q) to (p, q).
     """
     made = _made(kind, joint, a, b, ends, p, q, r)
     if kind in (DAMPED_SPRING, ROTARY_SPRING) and r > 0.0 and springs_are_as_thought():
@@ -271,6 +280,8 @@ def _made(
         _INIT[kind](itself, a, b, ends[0], ends[1])
     elif kind in (GEAR, ROTARY_LIMIT):
         _INIT[kind](itself, a, b, p, q)
+    elif kind == GROOVE:
+        _INIT[kind](itself, a, b, (-p, -q), (p, q), ends[1])
     elif kind == SLIDE:
         _INIT[kind](itself, a, b, ends[0], ends[1], p, q)
     elif kind == PIN:
@@ -314,20 +325,27 @@ everywhere.
 
 @ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _PULL(spring: Handle, length: float) -> float:  # noqa: N802
-    numbers = ffi.cast("double *", spring)
-    h = lib.cpSpaceGetCurrentTimeStep(lib.cpConstraintGetSpace(spring))
-    numbers[LOST] = 1.0 - exponential(-(numbers[REST + 2] * h) / numbers[FELT])
-    return float((numbers[REST] - length) * numbers[REST + 1])
+    rest = float(ffi.cast("double *", spring)[REST])
+    return _pulled(rest - length, spring, REST, LOST, FELT)
 
 
 @ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _TWIST(spring: Handle, angle: float) -> float:  # noqa: N802
+    rest = float(ffi.cast("double *", spring)[REST_ANGLE])
+    return _pulled(angle - rest, spring, REST_ANGLE, LOST_TURNING, FELT_TURNING)
+
+
+def _pulled(off: float, spring: Handle, rest: int, lost: int, felt: int) -> float:
+    """Return the force of a spring that is off its rest, and set the speed that its damper takes.
+
+    The engine lets the force act at once, and the damper after it. So the force is larger by as
+    much as the damper takes of it, too much: it should take of it as it comes.
+    """
     numbers = ffi.cast("double *", spring)
     h = lib.cpSpaceGetCurrentTimeStep(lib.cpConstraintGetSpace(spring))
-    numbers[LOST_TURNING] = 1.0 - exponential(
-        -(numbers[REST_ANGLE + 2] * h) / numbers[FELT_TURNING]
-    )
-    return float((angle - numbers[REST_ANGLE]) * numbers[REST_ANGLE + 1])
+    fades = float(numbers[rest + 2]) * h / float(numbers[felt])
+    numbers[lost] = 1.0 - exponential(-fades)
+    return off * float(numbers[rest + 1]) * surge(fades)
 
 
 def _damp(kind: int, spring: Handle) -> None:
@@ -372,14 +390,17 @@ def impulses_are_where_thought() -> bool:
     ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
     pivot = make_joint(PIVOT, NOTHING, ground, body, ends, 0.0, 0.0, 0.0)
     gear = make_joint(GEAR, NOTHING, ground, body, ends, 0.0, 1.0, 0.0)
+    groove = make_joint(GROOVE, NOTHING, ground, body, ends, 0.0, 1.0, 0.0)
+    set_max_force(groove, 1.0)
     add_body(space, body)
-    add_joint(space, pivot)
-    add_joint(space, gear)
+    for joint in (groove, pivot, gear):
+        add_joint(space, joint)
     aim(body, 1.5, -2.0, 4.0)
     step(space, 0.0625, 0.5)
     x, y, turn = *_numbers(pivot, PIVOT_IMPULSE, 2), *_numbers(gear, GEAR_IMPULSE, 1)
     known = used_of(pivot) == sqrt(x * x + y * y) and used_of(gear) == abs(turn)
-    for joint in (pivot, gear):
+    known = known and _numbers(groove, GROOVE_IMPULSE, 2) == [-used_of(groove), 0.0] != [0.0, 0.0]
+    for joint in (groove, pivot, gear):
         remove_joint(space, joint)
         free_joint(joint)
     remove_body(space, body)
@@ -393,14 +414,15 @@ def _numbers(joint: Handle, place: int, count: int) -> list[float]:
     return [float(numbers[place + k]) for k in range(count)]
 
 
-def drag_of(joint: Handle) -> Vector:
-    """Return the impulse of a joint of the kind PIVOT on its second body in the last step.
+def drag_of(joint: Handle, kind: int) -> Vector:
+    """Return the impulse of a joint, PIVOT or GROOVE, on its second body in the last step.
 
     It is zero with an engine that has it elsewhere: then a joint's work has that of drives in it.
     """
     if not impulses_are_where_thought():
         return ffi.new("cpVect *")[0]
-    return ffi.new("cpVect *", _numbers(joint, PIVOT_IMPULSE, 2))[0]
+    place = GROOVE_IMPULSE if kind == GROOVE else PIVOT_IMPULSE
+    return ffi.new("cpVect *", _numbers(joint, place, 2))[0]
 
 
 def twist_of(joint: Handle) -> float:

@@ -152,7 +152,7 @@ class Touch:
         passes_on: whether the pair touches by another normal alone: this one lasted until then.
         """
         if self.now is None and not passes_on:
-            self.goes_on = False
+            self.end(time - h)
             return
         if self.now is not None:
             self.last = self.now
@@ -162,6 +162,13 @@ class Touch:
         if self.goes_on:
             self.held += h
         self.goes_on = self.now is not None
+
+    @cython.cfunc
+    def end(self, time: cython.double) -> cython.void:
+        """End it; one that lasted until a control step's start, `time`, has a row of that instant."""
+        if self.goes_on and not self.any:
+            self.any, self.first, self.time = True, self.last, time
+        self.goes_on = False
 
     def start(self) -> float:
         """Return when it began, or the control step."""
@@ -251,11 +258,11 @@ def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.v
 
 
 @cython.cfunc
-def part(body: Body) -> cython.void:
-    """Note that a body touches nothing of larger number, and no obstacle, any more."""
+def part(body: Body, time: cython.double) -> cython.void:
+    """Note that a body touches nothing of larger number, and no obstacle, from `time` on."""
     touch: Touch
     for touch in body.contacts:
-        touch.goes_on = False
+        touch.end(time)
 
 
 @cython.cfunc

@@ -22,7 +22,6 @@ from mars2d.physics.islands.chipmunk import (
     rub_of,
     scale,
     second_of,
-    used_of,
 )
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.tie import Tie
@@ -253,12 +252,12 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     for tie in solver.ties:
         group = group_of(tie.a)
         group.held_by += solver.pull_of(tie)
-        if tie.is_rope and tie.slack > 0.0 and solver.pull_of(tie) > 0.0:
+        if tie.hits and solver.pull_of(tie) > 0.0:
             group.lasting = False
     for body in solver.bodies:
         group = group_of(body)
         if body.engaged:
-            group.held_by += used_of(body.pivot)
+            group.held_by += solver.used_by(body)
         if body.pulled:
             group.held_by += length(body.pull_x, body.pull_y) * h
     for body in solver.bodies:
@@ -268,19 +267,20 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
         )
         if gained > group.held_by * (1 + 1e-9):
             group.lasting = False
+    middle: cython.double = h / 2 if solver.ties else 0.0
     for body in solver.bodies:
         group = group_of(body)
-        body.shift = 0.0
+        body.lasting = group.lasting or group.hit_power == 0.0
         if group.lasting:
             body.shift = h / 2
         elif group.hit_power > 0.0:
-            body.shift = group.hit_depth / group.hit_power
+            body.shift = middle + group.hit_depth / group.hit_power
+        else:
+            body.shift = middle
 
 
 @cython.cfunc
-def take_hits(
-    solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
-) -> cython.void:
+def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
     """Find the groups that touch, the impulses on each body, and how they work."""
     i: cython.int
     k: cython.int

@@ -12,6 +12,7 @@ from math import ceil, sqrt
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
+from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.chipmunk import (
     Handle,
@@ -298,12 +299,13 @@ class Island:
         count: cython.int = 0
         body: Body
         self.set_accuracy()
+        self.measure()
         for body in self.bodies:
             body.gone = 0.0
-            self.any_solved = self.any_solved or body.solver is not None
+            if body.solver is not None and (self.any_touch or self.ties or body.pulled):
+                self.any_solved = True
         if self.any_solved:
             self.land()
-        self.measure()
         while elapsed < duration:
             if self.any_touch:
                 self.press()
@@ -463,8 +465,10 @@ class Island:
         for body in self.bodies:
             body.touches = body.touches or body.pulled
             body.slips = body.slips or body.touches
-            # Where others touch, a robot that has just lost touch stays with them for a while.
+            # Where others touch, a robot that has just lost touch stays with them for a while, and
+            # so does one at a rope that has just gone slack.
             lately: cython.bint = self.any_touch and body.since <= accuracy.linger
+            lately = lately or len(self.ties) > 0
             body.solved = body.touches or (
                 body.is_robot and body.slips and (body.lead != 0.0 or lately)
             )
@@ -481,6 +485,13 @@ class Island:
         for body in self.bodies:
             if body.solved and body.limited and not body.touches:
                 h = min(h, accuracy.swaying)
+            if body.is_robot and body.solved and body.since > accuracy.linger:
+                h = min(h, body.time_to_brake(accuracy.turned))
+            if body.touches and body.slows > 0.0 and self.push_step >= 1e300:
+                # Where no drive pushes it on the floor stops it: there the substep ends.
+                stop: cython.double = length(body.vx, body.vy) / body.slows
+                if 0.0 < stop < h:
+                    h = max(stop, min(h, accuracy.swaying))
         self.any_solved = False
         for body in self.bodies:
             if body.solved and not body.touches:
@@ -551,15 +562,24 @@ class Island:
         """
         body.ahead = body.is_pushed() or body.solved
         if body.is_pushed() or (body.solved and body.lead != 0.0):
-            self.solver.share_out(body, h, body.shift)
+            self.solver.share_out(body, h, body.shift, body.lasting)
             body.slips = True
+            if not body.solved and body.shift > 0.0 and not body.tied:
+                # From the blow on its drive, or the floor, has acted: as in the open.
+                body.x -= body.shift * body.vx
+                body.y -= body.shift * body.vy
+                body.angle -= body.shift * body.spin
+                self.foresee(body, body.shift)
+                body.advance(body.shift)
+                body.account_now()
             return
-        if body.solved:
-            body.go_back()
+        solved: cython.bint = body.solved
+        body.go_back()
+        if solved:
             self.foresee(body, h)
-        else:
-            body.x, body.y, body.angle = body.back_x, body.back_y, body.back_angle
         body.advance(h)
+        if solved:
+            body.part(h)
         self.arrive(body)
 
     # -- without forces -----------------------------------------------------------------------
@@ -740,12 +760,17 @@ def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cyth
 
 @cython.cfunc
 def draw_together(pair: Pair, way: cython.double) -> cython.void:
-    """Move the bodies of a pair towards each other; their common centre of mass stays."""
+    """Move the bodies of a pair towards each other; their common centre of mass stays.
+
+    A prop stays where it is: its way is measured more finely than that of what pushes it.
+    """
     a: Body = pair.a
     b: Body = pair.b
     share: cython.double = 1.0
     if not pair.is_wall:
         share = b.mass / (a.mass + b.mass)
+        if a.is_robot != b.is_robot:
+            share = 1.0 if a.is_robot else 0.0
         b.x += (share - 1) * way * pair.normal_x
         b.y += (share - 1) * way * pair.normal_y
         b.placed = True

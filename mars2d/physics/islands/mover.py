@@ -84,6 +84,7 @@ class Mover:
         self.neighbours.advance()
         for body in self.bodies:
             if not body.near:
+                part(body, time)
                 self.carry(body, duration)
             body.account_now()
         self.clear_up()
@@ -107,6 +108,7 @@ class Mover:
         self.neighbours.advance()
         for body in self.bodies:
             if not body.near:
+                part(body, time)
                 self.carry(body, duration)
             body.account_now()
 
@@ -350,8 +352,6 @@ class Mover:
         if body.solver is not None:
             solver = body.solver
             solver.leave(body)
-        if body.contacts:
-            part(body)
         body.slack, body.strain = self.accuracy.slack, 1.0
         if body.is_robot:
             body.since = 1 << 20

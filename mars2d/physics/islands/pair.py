@@ -458,9 +458,7 @@ class PiecePair(Pair):
         other: Corner
         for corner in self.p.corners:
             place: cython.double = nx * corner.x + ny * corner.y
-            speed: cython.double = (
-                nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
-            )
+            speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
             turn: cython.double = a.bend + a.spin * a.spin * corner.lever
             for other in self.q.corners:
                 room: cython.double = nx * other.x + ny * other.y - place + base + depth
@@ -500,9 +498,7 @@ class PiecePair(Pair):
         back: cython.double = 1e300
         corner: Corner
         for corner in self.p.corners:
-            speed: cython.double = (
-                nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
-            )
+            speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
             turn: cython.double = a.bend + a.spin * a.spin * corner.lever
             front = max(front, nx * corner.x + ny * corner.y + speed * h + turn * half)
         for corner in self.q.corners:

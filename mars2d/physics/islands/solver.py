@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.arithmetic import decay_base, length
+from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, length
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.chipmunk import (
     GEAR,
+    GROOVE,
     NOTHING,
     PIVOT,
     ROTARY_LIMIT,
@@ -47,6 +48,7 @@ from mars2d.physics.islands.chipmunk import (
     set_limits,
     set_max_bias,
     set_max_force,
+    settle_down,
     sew,
     show,
     spin_of,
@@ -169,7 +171,14 @@ class Solver:
     @cython.cfunc
     def hold_by(self, body: Body, holder: Handle) -> cython.void:
         """Make the joints of a body start again: they make it move as its holder does."""
-        body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
+        if body.wheeled:  # grooves are free along
+            body.pivot = make_joint(GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
+            body.side = make_joint(GROOVE, body.side, holder, body.handle, ENDS, 1.0, 0.0, 0.0)
+            set_joint(body.side, 0.0, True)
+            set_max_bias(body.side, 0.0)
+            body.tread_ahead = body.tread_across = 0.0
+        else:
+            body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
         body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
         set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
         set_joint(body.gear, 0.0, True)
@@ -190,6 +199,8 @@ class Solver:
     def engage(self, body: Body) -> cython.void:
         """Let its joints act."""
         add_joint(self.space, body.pivot)
+        if body.wheeled:
+            add_joint(self.space, body.side)
         add_joint(self.space, body.gear)
         body.engaged = True
 
@@ -197,6 +208,8 @@ class Solver:
     def disengage(self, body: Body) -> cython.void:
         """Take its joints out."""
         remove_joint(self.space, body.pivot)
+        if body.wheeled:
+            remove_joint(self.space, body.side)
         remove_joint(self.space, body.gear)
         body.engaged = False
 
@@ -334,13 +347,16 @@ class Solver:
         The engine turns back what is beyond a limit, at a bounded speed, and at none does nothing.
         """
         speed: cython.double = max(tie.rebound * abs(tie.turning), 1e-9)
-        beyond: cython.double = 2 * speed * h
+        beyond: cython.double = (2 * speed + abs(tie.turning)) * h
         least: cython.double = tie.least
         largest: cython.double = tie.largest
+        tie.hits = True
         if tie.angle + tie.turning * h >= largest:
             largest -= beyond
         elif tie.angle + tie.turning * h <= least:
             least += beyond
+        else:
+            tie.hits = False
         k: cython.int
         part: Held
         for k in range(len(tie.parts)):
@@ -420,6 +436,7 @@ class Solver:
         for tie in self.ties:
             if tie.is_rope:
                 self.draw_in(tie, tie.turn * h)
+            tie.hits = tie.is_rope and tie.slack > 0.0
             if tie.largest < 1e300:
                 self.rebound(tie, h)
         for body in self.bodies:
@@ -430,13 +447,17 @@ class Solver:
             where: Vector = position_of(body.handle)
             fast: Vector = velocity_of(body.handle)
             body.x, body.y, body.angle = where.x, where.y, angle_of(body.handle)
+            if self.ties:
+                body.advance_half(h)
             body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, spin_of(body.handle)
             if not body.is_robot and body.engaged:
                 body.held = used_of(body.pivot) / h
                 body.twist_held = used_of(body.gear) / h
+            if body.is_robot and body.engaged and body.grip_across < 1e300:
+                self.feel(body, h)
             if body.is_robot and body.solved:
-                share: cython.double = used_of(body.pivot) / max(body.bound * h, 1e-300)
+                share: cython.double = self.used_by(body) / max(body.bound * h, 1e-300)
                 body.effort = max(body.effort, share)
                 share = used_of(body.gear) / (body.torque * h)
                 body.effort = max(body.effort, share)
@@ -444,18 +465,47 @@ class Solver:
     @cython.cfunc
     def take_drag(self, body: Body) -> cython.void:
         """Find the impulse on a body of its drive, or of the floor under it."""
-        drag: Vector = drag_of(body.pivot)
+        drag: Vector = drag_of(body.pivot, GROOVE if body.wheeled else PIVOT)
+        body.drag_x, body.drag_y = drag.x, drag.y
+        if body.wheeled:
+            drag = drag_of(body.side, GROOVE)
+            body.drag_x, body.drag_y = body.drag_x + drag.x, body.drag_y + drag.y
         if body.lead != 0.0:
             body.lean(body.angle)
-        body.drag_x, body.drag_y = drag.x, drag.y
-        body.drag_turn = twist_of(body.gear) - body.lead_x * drag.y + body.lead_y * drag.x
+        body.drag_turn = twist_of(body.gear) - body.lead_x * body.drag_y + body.lead_y * body.drag_x
 
     @cython.cfunc
-    def share_out(self, body: Body, h: cython.double, shift: cython.double) -> cython.void:
+    def used_by(self, body: Body) -> cython.double:
+        """Return how large the impulse on a body of its drive, or of the floor, was, N s."""
+        used: cython.double = used_of(body.pivot)
+        return length(used, used_of(body.side)) if body.wheeled else used
+
+    @cython.cfunc
+    def lag(self, h: cython.double) -> cython.double:
+        """Return how long after a step of h s begins joints find bodies where they are."""
+        return h / 2 if self.ties else h
+
+    @cython.cfunc
+    def feel(self, body: Body, h: cython.double) -> cython.void:
+        """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
+        c: cython.double
+        s: cython.double
+        angle: cython.double = body.back_angle + self.lag(h) * body.back_spin
+        c, s = cosine_sine(angle)
+        self.take_drag(body)
+        body.tread_ahead = (c * body.drag_x + s * body.drag_y) / h
+        body.tread_across = (c * body.drag_y - s * body.drag_x) / h
+        body.bear(body.drag_x, body.drag_y, angle, body.vx, body.vy)
+
+    @cython.cfunc
+    def share_out(
+        self, body: Body, h: cython.double, shift: cython.double, lasting: cython.bint
+    ) -> cython.void:
         """Take over a body's motion, and the change of its kinetic energy in the step.
 
         shift: s, since when its impulses have acted, in the mean: it has gone as much further as
-        they have changed its velocity.
+        they have changed its velocity. lasting: whether they go on; else they have put it back out
+        of what it hit, and the engine need not mend that.
 
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
@@ -467,6 +517,8 @@ class Solver:
         body.y += shift * (body.after_y - body.before_y)
         body.angle += shift * (body.spin - body.before_spin)
         body.vx, body.vy, body.placed = body.after_x, body.after_y, True
+        if not lasting:
+            settle_down(body.handle)
         if body.lead != 0.0:
             body.lean(body.angle)
             body.x, body.y = body.x - body.lead_x, body.y - body.lead_y
@@ -480,9 +532,7 @@ class Solver:
         body.energy += gained
         gained -= body.hit_x * x + body.hit_y * y + body.hit_turn * spin
         if body.pulled:
-            by_hand: cython.double = (
-                body.pull_x * x + body.pull_y * y + body.pull_turn * spin
-            ) * h
+            by_hand: cython.double = (body.pull_x * x + body.pull_y * y + body.pull_turn * spin) * h
             body.by_hand += by_hand
             gained -= by_hand
         if body.tied:
@@ -509,24 +559,24 @@ class Solver:
             x: cython.double = body.aim_x
             y: cython.double = body.aim_y
             turning: cython.double = body.aim_spin
-            body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
-            aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
-            if body.grips:
-                self.grasp(body, h)
+            if body.wheeled:
+                self.tread(body, vx, vy, h)
+            else:
+                body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
+                aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+                if body.grips:
+                    self.grasp(body, h)
             body.aim_x, body.aim_y, body.aim_spin = x, y, turning
         if not body.is_robot and body.rest_grip > 0.0:
             self.brake(body, h)
         body.pull_turn = body.pull_torque
         if body.lead != 0.0:  # the engine's velocities and forces are those at the centre of mass
-            body.lean(body.angle)
-            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
             if not body.solved:
                 body.lean(body.angle + h * body.aim_spin)
             vx, vy = vx - spin * body.lead_y, vy + spin * body.lead_x
-        if not body.solved:
-            self.set_off(body, vx, vy, spin, h)
-        elif body.placed:
-            put(body.handle, body.x, body.y, body.angle)
+            body.lean(body.angle)
+            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
+        self.set_off(body, vx, vy, spin, h)
         body.placed = False
         if body.pulled:
             push(body.handle, body.pull_x, body.pull_y, body.pull_turn)
@@ -543,15 +593,26 @@ class Solver:
         spin: cython.double,
         h: cython.double,
     ) -> cython.void:
-        """Put a body that moves in closed form where it gets to its place in h s at its end's velocity.
+        """Put a body where the engine begins with it, which then moves it at a velocity for h s.
 
-        So what it hits meets it as fast as it is then. vx, vy: of its centre of mass.
+        One that moves in closed form gets to its place at the velocity that it has there, so what
+        it hits meets it as fast as it is then. In the solver with joints each begins half a step
+        behind, since these are to act on it in the middle. vx, vy: of its centre of mass.
         """
-        if not body.placed and body.aim_x == vx and body.aim_y == vy and body.aim_spin == spin:
+        goes: cython.bint = vx != 0.0 or vy != 0.0 or spin != 0.0
+        x: cython.double = body.x + body.lead_x
+        y: cython.double = body.y + body.lead_y
+        angle: cython.double = body.angle
+        if not body.solved and (body.aim_x != vx or body.aim_y != vy or body.aim_spin != spin):
+            if body.lead != 0.0:
+                body.lean(angle + h * body.aim_spin)
+                x, y = body.x + body.lead_x, body.y + body.lead_y
+            x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
+            angle += h * (body.aim_spin - spin)
+        elif not body.placed and not (goes and self.ties):
             return
-        x: cython.double = body.x + h * body.aim_x + body.lead_x - h * vx
-        y: cython.double = body.y + h * body.aim_y + body.lead_y - h * vy
-        angle: cython.double = body.angle + h * body.aim_spin - h * spin
+        if self.ties:
+            x, y, angle = x - h / 2 * vx, y - h / 2 * vy, angle - h / 2 * spin
         if body.lead != 0.0:
             body.lean(angle)
             x, y = x - body.lead_x, y - body.lead_y
@@ -563,7 +624,7 @@ class Solver:
 
         That is where it has pushed in the step before, or where its command is.
         """
-        drag: Vector = drag_of(body.pivot)
+        drag: Vector = drag_of(body.pivot, PIVOT)
         if length(drag.x, drag.y) > 1e-9 * body.strength * h:
             body.bear(drag.x, drag.y, body.angle, body.vx, body.vy)
         else:
@@ -571,6 +632,46 @@ class Solver:
             y: cython.double = body.aim_y - body.vy
             body.bear(x, y, body.angle, body.vx, body.vy)
         set_max_force(body.pivot, body.bound)
+
+    @cython.cfunc
+    def tread(
+        self, body: Body, vx: cython.double, vy: cython.double, h: cython.double
+    ) -> cython.void:
+        """Put the joints of a robot's wheels where it will be, and bound their forces.
+
+        vx, vy: its velocity. What it takes to move as commanded is what the wheels bore in the step
+        before, and what was lacking then.
+        """
+        c: cython.double
+        s: cython.double
+        late: cython.double = self.lag(h)
+        angle: cython.double = body.angle + late * (body.spin if body.solved else body.turning)
+        c, s = cosine_sine(angle)
+        x: cython.double = body.x + late * vx
+        y: cython.double = body.y + late * vy
+        if not body.solved:
+            x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
+        if body.solved and body.lead != 0.0:  # it goes round its centre of mass
+            body.lean(body.angle)
+            x += body.lead_x - late * body.spin * body.lead_y - body.lead * c
+            y += body.lead_y + late * body.spin * body.lead_x - body.lead * s
+        put(body.control, x, y, angle)
+        body.follow(angle, 0.0)
+        if late < h:  # it is to roll along its heading at the end, as fast as it does
+            turned: cython.double = (h - late) * (body.spin if body.solved else body.turning)
+            body.follow(angle + turned, 0.0)
+            x, y = cosine_sine(body.angle)
+            speed: cython.double = x * vx + y * vy if body.solved else body.forward
+            x, y = cosine_sine(turned)
+            body.aim_x -= s * y * (speed - body.forward)
+            body.aim_y += c * y * (speed - body.forward)
+        aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+        x, y = body.aim_x - vx, body.aim_y - vy
+        rate: cython.double = body.mass / h
+        ahead: cython.double = body.tread_ahead + rate * (c * x + s * y)
+        body.divide(ahead, body.tread_across + rate * (c * y - s * x), c * vx + s * vy)
+        set_max_force(body.pivot, body.bound_ahead)
+        set_max_force(body.side, body.bound_across)
 
     @cython.cfunc
     def brake(self, body: Body, h: cython.double) -> cython.void:
@@ -617,6 +718,8 @@ def free_things_of(body: Body) -> cython.void:
     body.shapes = []
     if body.is_robot or body.rest_grip > 0.0:
         free_joint(body.pivot)
+        if body.wheeled:
+            free_joint(body.side)
         free_joint(body.gear)
     if body.is_robot:
         free_body(body.control)

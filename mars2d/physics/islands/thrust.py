@@ -11,7 +11,7 @@ the heading, and v is stepped by the midpoint rule, in parts in which c turns by
 from __future__ import annotations
 
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.arithmetic import length
+from mars2d.physics.islands.arithmetic import cosine_sine, length
 from mars2d.physics.islands.body import Body
 
 __all__ = ["Thrust"]
@@ -64,7 +64,8 @@ class Thrust:
         if self.strains:
             body.effort = 1.0
         elif body.limited:
-            body.effort = max(body.effort, body.pull_on_arc(body.turning) / body.force)
+            share: cython.double = body.pull_on_arc(body.turning) / body.force_across()
+            body.effort = max(body.effort, share)
         body.aim_x, body.aim_y = self.way_x / h, self.way_y / h
         body.aim_spin = (self.angle - body.angle) / h
         body.end_x, body.end_y, body.end_spin = self.vx, self.vy, self.spin
@@ -79,7 +80,8 @@ class Thrust:
         body.follow(body.angle, 0.0)
         self.keeps = body.vx == body.aim_x and body.vy == body.aim_y
         self.bent = body.in_robot_frame and (body.spin != 0.0 or body.turning != 0.0)
-        self.bent = self.bent and (body.forward != 0.0 or body.left != 0.0)
+        moves: cython.bint = body.wheeled and (body.vx != 0.0 or body.vy != 0.0)
+        self.bent = self.bent and (moves or body.forward != 0.0 or body.left != 0.0)
         self.strains = False
 
     @cython.cfunc
@@ -158,6 +160,9 @@ class Thrust:
         self.keeps = off <= most
         if self.keeps:
             part = off / max(self.quickens, 1e-300)
+        elif body.wheeled:
+            self.roll(body, part, part * (self.spin + rate * part / 2))
+            return part
         else:
             body.follow(self.angle + part / 2 * (self.spin + rate * part / 4), 0.0)
             x, y = body.aim_x - self.vx, body.aim_y - self.vy
@@ -171,3 +176,48 @@ class Thrust:
         self.vx += x
         self.vy += y
         return part
+
+    @cython.cfunc
+    def roll(self, body: Body, part: cython.double, turn: cython.double) -> cython.void:
+        """Do so for wheels, which its motors drive ahead, and which hold it across if they can.
+
+        turn: rad, by how much it turns. `aim` is the velocity that is commanded at the end. Forces
+        along and across its heading half-way turn its velocity as it turns.
+        """
+        c: cython.double
+        s: cython.double
+        near: cython.double
+        aside: cython.double
+        c, s = cosine_sine(self.angle + turn / 2)
+        near, aside = cosine_sine(turn / 2)
+        x: cython.double = body.aim_x - self.vx
+        y: cython.double = body.aim_y - self.vy
+        rate: cython.double = body.mass / part
+        speed: cython.double = c * self.vx + s * self.vy
+        lack: cython.double = c * x + s * y
+        hold: cython.double = c * y - s * x
+        body.divide(rate * lack, rate * hold, speed)
+        push: cython.double = within(lack, body.bound_ahead / rate)
+        slip_x: cython.double = lack
+        slip_y: cython.double = hold
+        if body.skid > 2.0:  # slip changes by little: its mean gives the direction
+            slip_x = 2 * (lack + aside * body.left) - push
+            slip_y = 2 * (hold - aside * body.forward) - within(hold, body.bound_across / rate)
+        body.divide(rate * slip_x, rate * slip_y, speed + push / 2)
+        push = within(lack, body.bound_ahead / rate)
+        hold -= (lack - push) * aside / max(near, 0.1)
+        most: cython.double = body.bound_across / rate
+        hold = within(hold, most)
+        share: cython.double = 0.5
+        if not self.bent and most > 0.0:  # it stops to skid within the part
+            share = 1.0 - 0.5 * abs(hold) / most
+        self.way_x += part * (self.vx + c * push / 2 - s * hold * share)
+        self.way_y += part * (self.vy + s * push / 2 + c * hold * share)
+        self.vx += c * push - s * hold
+        self.vy += s * push + c * hold
+
+
+@cython.cfunc
+def within(x: cython.double, most: cython.double) -> cython.double:
+    """Return the number nearest to x that is no larger than a bound."""
+    return min(max(x, -most), most)

@@ -50,6 +50,7 @@ class Tie:
     turn: cython.double
     angle: cython.double
     turning: cython.double  # rad/s, how fast the angle changes
+    hits: cython.bint  # whether a rope goes taut in this substep, or a limit is reached
 
     def __init__(
         self,
@@ -76,6 +77,7 @@ class Tie:
         self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
         self.normal_x = self.normal_y = self.apart = self.slack = self.turn = 0.0
         self.angle = self.turning = 0.0
+        self.hits = False
 
     @cython.cfunc
     def measure(self) -> cython.void:
