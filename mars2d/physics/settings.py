@@ -25,7 +25,7 @@ ITERATIONS_JOINTS = 31  # with joints: several may hold the same bodies
 With an even number it can end with none each time, and bodies go through each other.
 """
 
-TOIL = 3
+TOIL = 5
 """How many times as many iterations an island has while bodies are too deep in each other. Odd."""
 
 MEND_RATE = 6.32163094
