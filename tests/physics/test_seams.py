@@ -1,9 +1,9 @@
-"""Nothing trips over the seams of walls: what goes straight on is one wall, and ends are behind."""
+"""Nothing trips over seams: of walls in one line, of pieces of a body, of bodies that lie flush."""
 
 from __future__ import annotations
 
 from itertools import pairwise
-from math import cos, hypot, pi, radians, sin
+from math import ceil, cos, hypot, pi, radians, sin
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,8 +12,9 @@ import pytest
 from mars2d import Holonomic, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Box, Prop, Puck, Solid
-from mars2d.geometry.shapes import Polygon
+from mars2d.geometry.shapes import Compound, Polygon
 from mars2d.physics import translation, walls
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.walls import MEET, walls_of
 from tests.islands import plainly
 
@@ -332,6 +333,285 @@ def test_nothing_is_pressed_through_a_seam(bend, tip, off):
                 deepest = max(deepest, top - py + radius)
     assert deepest > 0 or bend == "corner"  # it was pressed, or slid off
     assert deepest < 1.6e-3 if bend == "steep" else deepest < 1.1e-3
+
+
+def test_points_at_seams_have_their_arms_from_the_centre_of_mass():
+    """That of a robot may be ahead of its pose: here by 0.1 m."""
+    arms = []
+
+    def mend(arbiter, is_first):
+        chipmunk.put_point(arbiter, 0.3, 0.0, 0.3, -0.001)
+        arms.extend(chipmunk.arm_of(arbiter, 0, second) for second in (not is_first, is_first))
+
+    space, ground = chipmunk.new_space(0.0), chipmunk.new_ground(-1)
+    seams = SimpleNamespace(handle=None, mend=mend)
+    body = chipmunk.new_body(1.0, 1.0, 0)
+    chipmunk.weight_at(body, 0.1)
+    wall = chipmunk.new_segment(ground, ((-1.0, 0.0), (1.0, 0.0)), (0.0, 0.0))
+    box = [(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)]
+    shape = chipmunk.new_polygon(body, box, (0.0, 0.0))
+    chipmunk.sew(wall, seams)
+    for each in (ground, body):
+        chipmunk.add_body(space, each)
+    for each in (wall, shape):
+        chipmunk.add_shape(space, each)
+    chipmunk.put(body, 0.1, 0.199, 0.0)
+    chipmunk.step(space, 1e-3, 0.5)
+    assert (arms[0].x, arms[0].y) == pytest.approx((0.3, 0.0), abs=1e-9)
+    assert (arms[1].x, arms[1].y) == pytest.approx((0.1, -0.2), abs=1e-9)
+    for each in (wall, shape):
+        chipmunk.remove_shape(space, each)
+        chipmunk.free_shape(each)
+    for each in (ground, body):
+        chipmunk.remove_body(space, each)
+        chipmunk.free_body(each)
+    chipmunk.free_space(space)
+
+
+# -- bodies that lie flush --------------------------------------------------------------------
+
+FIRM = {"friction": 0.0, "restitution": 0.0, "ground_friction": 5.0, "mass": 9.0}
+"""A smooth crate that the floor holds."""
+
+ROWS = {
+    "two crates": [(-1, 0), (0, 1)],
+    "three crates": [(-1, -0.2), (-0.2, 0.3), (0.3, 1)],
+    "two pieces": [(-1, 0, 1)],
+    "three pieces": [(-1, -0.2, 0.3, 1)],
+}
+"""Bodies in a row from -1 m to 1 m along the x axis: the ends of the pieces of each."""
+
+
+def slab(*ends: float, middle: float, image: Image, **what) -> Solid:
+    """A body of pieces side by side, 0.5 m wide, with its middle at this height."""
+    pieces = [rectangle_of(a, b, -0.25, 0.25) for a, b in pairwise(ends)]
+    pose = (*at(((ends[0] + ends[-1]) / 2, middle), image), image[0])
+    return Solid(Compound(pieces), pose=pose, **{**FIRM, **what})
+
+
+def rectangle_of(left: float, right: float, low: float, high: float) -> Polygon:
+    return Polygon([(left, low), (right, low), (right, high), (left, high)])
+
+
+def row(name: str, image: Image, top: float = 0.0) -> list[Solid]:
+    """A row whose upper side is at this height; its lower side if that is above 0."""
+    middle = top + 0.25 if top else -0.25
+    return [slab(*ends, middle=middle, image=image) for ends in ROWS[name]]
+
+
+def slider(k: int, image: Image) -> tuple[Prop, float]:
+    """A box, polygon or disc that is thrown along a row, and the time until it is near its end."""
+    rng = np.random.default_rng(k)
+    radius, speed, down = rng.uniform(0.05, 0.2), rng.uniform(0.5, 5), rng.uniform(0.05, 0.6)
+    angle, spin = (0.0, 0.0) if k % 2 else (rng.uniform(-3, 3), rng.uniform(-2, 2))
+    wide = radius * rng.uniform(0.5, 1.5)
+    high = radius if k % 4 > 1 else hypot(radius, wide / 2) if angle else wide / 2
+    start = rng.uniform(-0.8, -0.4)
+    what = {
+        "pose": (*at((start, high + rng.uniform(5e-4, 0.02)), image), image[0] + angle),
+        "velocity": (*seen((speed, -down), image), spin), **SMOOTH,
+    }  # fmt: skip
+    time = (0.6 - start) / speed
+    if k % 4 < 2:
+        return Box(length=2 * radius, width=wide, mass=1.0, **what), time
+    if k % 4 == 2:
+        return Solid(shape=ngon(3 + k % 6, radius), mass=1.0, **what), time
+    return Puck(diameter=2 * radius, mass=1.0, **what), time
+
+
+def after(props: list[Prop], image: Image, time: float, step: float = 0.05) -> np.ndarray:
+    """The velocity of the first prop after some time, as in the scene and not its image."""
+    time = ceil(time / step) * step
+    scenario = Scenario(
+        robots=[Robot(pose=(40, 40, 0))], props=props, workspace=None, stop_time=time,
+        sampling_time=step,
+    )  # fmt: skip
+    world = World(scenario)
+    while not world.over:
+        world.step()
+    x, y, spin = world.prop_velocity[:, 0]
+    c, s = cos(image[0]), sin(image[0])
+    return np.array([c * x + s * y, c * y - s * x, spin])
+
+
+def speed_along(prop: Prop, image: Image) -> float:
+    return float(np.array(seen((1, 0), image)) @ prop.velocity[:2])
+
+
+TURNED: list[Image] = [(0.0, 1), (0.37, 1), (2.0, 1)]
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_sixty_throws_keep_their_speed_along_bodies_that_lie_flush(name):
+    """There is no friction: a row has nothing that could push along it."""
+    failed = {}
+    for k in range(60):
+        image, step = TURNED[k % 3], (0.005, 0.02, 0.05, 0.1, 0.5)[k % 5]
+        prop, time = slider(k, image)
+        found = after([prop, *row(name, image)], image, time, step)
+        if abs(found[0] - speed_along(prop, image)) > 1e-3:
+            failed[k] = found
+    assert not failed
+
+
+def test_sixty_throws_between_two_rows_go_straight_on():
+    failed = {}
+    for k in range(60):
+        rng = np.random.default_rng(k)
+        image, step = TURNED[k % 3], (0.005, 0.02, 0.05, 0.1, 0.5)[k % 5]
+        high, speed, play = rng.uniform(0.1, 0.4), rng.uniform(0.5, 5), rng.uniform(1e-4, 2e-3)
+        what = {
+            "pose": (*at((-0.7, (high + play) / 2), image), image[0]), "mass": 1.0, **SMOOTH,
+            "velocity": (*seen((speed, rng.uniform(-0.05, 0.05)), image), 0.0),
+        }  # fmt: skip
+        prop = Box(length=0.3, width=high, **what) if k % 2 else Puck(diameter=high, **what)
+        below, above = list(ROWS)[k % 4], list(ROWS)[k // 4 % 4]
+        rows = [*row(below, image), *row(above, image, top=high + play)]
+        found = after([prop, *rows], image, 1.2 / speed, step)
+        if abs(found - [speed, 0, 0]).max() > 6e-3 or abs(found[0] - speed) > 1e-3:
+            failed[k] = found
+    assert not failed
+
+
+def test_sixty_sliders_of_several_pieces_keep_their_speed():
+    failed = {}
+    for k in range(60):
+        image = TURNED[k % 3]
+        box, time = slider(4 * k + 1, image)
+        half, high = box.length / 2, box.width / 2
+        ends = (-half, 0, half) if k % 2 else (-half, -half / 3, half / 2, half)
+        pieces = [rectangle_of(a, b, -high, high) for a, b in pairwise(ends)]
+        prop = Solid(Compound(pieces), pose=box.pose, velocity=box.velocity, mass=1.0, **SMOOTH)
+        found = after([prop, *row(list(ROWS)[k // 3 % 4], image)], image, time)
+        if abs(found[0] - speed_along(prop, image)) > 1e-3:
+            failed[k] = found
+    assert not failed
+
+
+def test_pieces_of_one_body_are_as_one_block():
+    """A box that glides at 2 m/s; the rest is how far the floor lets the body be pushed."""
+    velocities = []
+    for ends in ((-1, 1), (-1, 0, 1), (-1, -0.2, 0.3, 1)):
+        box = Box(
+            length=0.4, width=0.3, pose=(*at((-0.6, 0.1505), (0.0, 1)), 0.0),
+            velocity=(2.0, -0.05, 0.0), mass=1.0, **SMOOTH,
+        )  # fmt: skip
+        floor = slab(*ends, middle=-0.25, image=(0.0, 1))
+        velocities.append(after([box, floor], (0.0, 1), 0.5))
+    for found in velocities:
+        assert found == pytest.approx([2, 0, 0], abs=5e-4)
+    for found in velocities[1:]:
+        assert found[0] == pytest.approx(velocities[0][0], abs=1e-8)
+        assert found == pytest.approx(velocities[0], abs=2e-5)
+
+
+def test_momentum_is_kept_over_crates_that_slide_too():
+    for k in range(20):
+        prop, _ = slider(k, (0.0, 1))
+        floor = [
+            slab(*ends, middle=-0.25, image=(0.0, 1), ground_friction=0.0)
+            for ends in ROWS["three crates"]
+        ]
+        scenario = Scenario(
+            robots=[Robot(pose=(40, 40, 0))], props=[prop, *floor], workspace=None, stop_time=0.5,
+            sampling_time=0.05,
+        )  # fmt: skip
+        world = World(scenario)
+        while not world.over:
+            world.step()
+        momentum = world.prop_velocity[:2] @ [1.0, 9.0, 9.0, 9.0]
+        assert momentum == pytest.approx(prop.velocity[:2], abs=1e-9), k
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_a_square_robot_that_presses_on_a_row_drives_along_it(name):
+    """With friction, as along one block; on two crates it stood for good."""
+    poses = []
+    for ends in ([(-1, 1)], ROWS[name]):
+        robot = Robot(
+            shape=Polygon([(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)]),
+            drive=Holonomic(), friction=0.4, pose=(*at((-0.7, 0.21), (0.0, 1)), 0.0),
+        )  # fmt: skip
+        floor = [
+            slab(*each, middle=-0.25, image=(0.0, 1), friction=0.4, ground_friction=9.0)
+            for each in ends
+        ]
+        scenario = Scenario(
+            robots=[robot], props=floor, workspace=None, stop_time=4, sampling_time=0.05
+        )
+        world = World(scenario)
+        while not world.over:
+            world.step(np.array([[0.3], [-0.1]]))
+        poses.append(world.pose[:, 0])
+    assert poses[0][0] > 0.5
+    assert poses[1] == pytest.approx(poses[0], abs=1e-3)
+
+
+@pytest.mark.parametrize("step", [5e-3, 3e-3])
+def test_a_step_of_crates_is_felt(step):
+    """A plate that is thin beside its length is stopped by it, and turns no more."""
+    plate = Box(
+        length=0.3, width=0.006, pose=(*at((-0.4, 0.0035), (0.0, 1)), 0.0),
+        velocity=(2.0, -0.05, 0.0), mass=1.0, **SMOOTH,
+    )  # fmt: skip
+    low = slab(-1, 0, middle=-0.25, image=(0.0, 1))
+    high = slab(0, 1, middle=-0.25 + step, image=(0.0, 1))
+    found = after([plate, low, high], (0.0, 1), 0.4)
+    assert found == pytest.approx([0, 0, 0], abs=0.25)
+    assert found[0] == pytest.approx(0, abs=1e-2)
+
+
+def test_a_crate_that_stands_on_another_stops_a_box():
+    box = Box(
+        length=0.3, width=0.3, pose=(*at((-0.4, 0.1505), (0.0, 1)), 0.0),
+        velocity=(2.0, -0.05, 0.0), mass=1.0, **SMOOTH,
+    )  # fmt: skip
+    props = [box, *row("two crates", (0.0, 1)), slab(0, 1, middle=0.25, image=(0.0, 1))]
+    found = after(props, (0.0, 1), 0.4)
+    assert found[[0, 2]] == pytest.approx([0, 0], abs=1e-3)
+    assert found[1] == pytest.approx(0, abs=5e-3)  # an overlap is mended
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-5, -3e-4, 1e-3])
+def test_no_needle_is_pressed_into_a_seam_of_bodies(off):
+    """A robot presses it there for seconds; it gets no deeper than bodies may."""
+    needle = Solid(shape=TIPS["needle"]["shape"], pose=(off, 0.105, 0), mass=1.0, **SMOOTH)
+    robot = Robot(
+        shape=Polygon([(-0.2, -0.3), (0.2, -0.3), (0.2, 0.3), (-0.2, 0.3)]), drive=Holonomic(),
+        pose=(0, 0.46, 0),
+    )  # fmt: skip
+    floor = [
+        Solid(
+            Compound([rectangle_of(a, b, -0.25, 0.25) for a, b in pairwise(ends)]),
+            pose=((ends[0] + ends[-1]) / 2, -0.25, 0), **{**FIRM, "ground_friction": 20.0},
+        )
+        for ends in ROWS["two crates"]
+    ]  # fmt: skip
+    scenario = Scenario(
+        robots=[robot], props=[needle, *floor], workspace=None, stop_time=2, sampling_time=0.05
+    )
+    world = World(scenario)
+    deepest = 0.0
+    while not world.over:
+        world.step(np.array([[0.0], [-0.3]]))
+        _, y, angle = world.prop_pose[:, 0]
+        tip = min(y + u * sin(angle) + v * cos(angle) for u, v in needle.shape.pieces[0].vertices)
+        deepest = max(deepest, world.prop_pose[1, 1:].max() + 0.25 - tip)
+    assert 0 < deepest < 1.1e-3
+
+
+def test_rows_give_the_same_bits_where_nothing_is_compiled():
+    def velocities() -> list[bytes]:
+        found = []
+        for k in range(8):
+            prop, _ = slider(k, TURNED[k % 3])
+            props = [prop, *row(list(ROWS)[k % 4], TURNED[k % 3])]
+            found.append(after(props, TURNED[k % 3], 0.4).tobytes())
+        return found
+
+    quick = velocities()
+    with plainly():
+        assert velocities() == quick
 
 
 # -- whose a wall is --------------------------------------------------------------------------

@@ -22,9 +22,12 @@ class Corner:
     x: cython.double
     y: cython.double
     lever: cython.double
+    ends_in: cython.int  # the number of the body in which the face that ends here goes on, or -1
+    starts_in: cython.int  # and that which starts here
 
     def __init__(self, x: float, y: float) -> None:
         """Take its place in the frame of its body, metres."""
+        self.ends_in = self.starts_in = -1
         self.local_x = self.x = x
         self.local_y = self.y = y
         self.lever = length(x, y)
@@ -59,12 +62,14 @@ class Piece:
     corners: list[Corner]
     edges: list[Edge]
     radius: cython.double
+    shape: Handle  # the engine's
+    flush: object  # what the engine knows by its address
 
     def __init__(self, corners: list[Any], directions: list[Any], radius: float) -> None:
         """Take corners (x, y) counter-clockwise, directions (x, y) in which it ends, a radius."""
         self.corners = [Corner(x, y) for x, y in corners]
         self.edges = [Edge(u, v, max([u * x + v * y for x, y in corners])) for u, v in directions]
-        self.radius = radius
+        self.radius, self.shape, self.flush = radius, NOTHING, None
 
     @cython.cfunc
     def turn(self, c: cython.double, s: cython.double) -> cython.void:
@@ -88,6 +93,7 @@ class Body:
     number: cython.int
     is_robot: cython.bint
     is_disc: cython.bint  # a single one, about the pose
+    laid: cython.bint  # whether faces go on in other bodies
     mass: cython.double
     moment: cython.double  # about the centre of mass
     lead: cython.double  # m, from the pose ahead to the centre of mass
@@ -278,7 +284,7 @@ class Body:
             self.engaged
         ) = False
         self.pulled = self.touches = self.near = self.done = self.placed = self.made = False
-        self.stopped = self.limited = self.gathers = self.ahead = False
+        self.stopped = self.limited = self.gathers = self.ahead = self.laid = False
         self.radius = self.offset_x = self.offset_y = self.offset = self.reach = 0.0
         self.x = self.y = self.angle = self.vx = self.vy = self.spin = 0.0
         self.center_x = self.center_y = 0.0
@@ -372,6 +378,17 @@ class Body:
         piece: Piece
         for piece in self.pieces:
             piece.turn(c, s)
+
+    @cython.cfunc
+    def lift(self) -> cython.void:
+        """Forget that its faces go on in other bodies."""
+        piece: Piece
+        corner: Corner
+        self.laid = False
+        for piece in self.pieces:
+            for corner in piece.corners:
+                corner.ends_in = self.number if corner.ends_in == self.number else -1
+                corner.starts_in = self.number if corner.starts_in == self.number else -1
 
     # -- how it moves -------------------------------------------------------------------------
 

@@ -19,8 +19,8 @@ __all__ = ["compile_into", "fingerprint", "functions", "joined"]
 HERE = Path(__file__).parent
 
 MODULES = (
-    "arithmetic", "body", "floor", "surfaces", "thrust", "pair", "tie", "solver", "contacts",
-    "impact", "island", "neighbours", "mover",
+    "arithmetic", "body", "floor", "flush", "seams", "surfaces", "thrust", "pair", "tie", "solver",
+    "contacts", "impact", "island", "neighbours", "mover",
 )  # fmt: skip
 """The modules, each after those that it imports."""
 

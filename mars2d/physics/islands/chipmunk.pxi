@@ -78,7 +78,6 @@ cdef extern from *:
         double (*cpConstraintGetImpulse)(void *);
         void (*cpBodyEachArbiter)(void *, void (*)(void *, void *, void *), void *);
         Vector (*cpArbiterTotalImpulse)(void *);
-        Vector (*cpArbiterGetNormal)(void *);
         int (*cpArbiterGetCount)(void *);
         double (*cpArbiterGetDepth)(void *, int);
         Vector (*cpArbiterGetPointA)(void *, int);
@@ -120,114 +119,7 @@ cdef extern from *:
         void *post_solve, *separate, *data;
     } Handler_;
 
-    /* See Seams in chipmunk.py. Sums and products stand in the same order there. */
-    enum { SEWN = 1, FREE = 0, BULGES = 1, MOST_CORNERS = 64 };
-    static const double STRAIGHT = 1e-9, NEARLY = 0.999;
-    typedef struct { double x, y, ux, uy, far, reach, met[12]; } Seams_;
-
-    static int holds(const double *met, double turn, Vector own, Vector d) {
-        int past_own = turn * (own.x * d.y - own.y * d.x) >= 0.0;
-        int before_other = turn * (d.x * met[2] - d.y * met[1]) >= 0.0;
-        return met[0] == BULGES ? past_own || before_other : past_own && before_other;
-    }
-    static int corners_of(void *shape, Vector *corners) {
-        void *body = engine.cpShapeGetBody(shape);
-        int count = engine.cpPolyShapeGetCount(shape);
-        for (int k = 0; k < count && k < MOST_CORNERS; k++)
-            corners[k] = engine.cpBodyLocalToWorld(body, engine.cpPolyShapeGetVert(shape, k));
-        return count < MOST_CORNERS ? count : MOST_CORNERS;
-    }
-    static void mend_contact(Arbiter_ *arbiter, const Seams_ *s, int is_first) {
-        Vector n = arbiter->n, corners[MOST_CORNERS];
-        int count = is_first ? corners_of(arbiter->b, corners) : 0;
-        if (!is_first) n = vector(-n.x, -n.y);
-        double along = n.x * s->ux + n.y * s->uy;
-        Vector d = n;
-        double low = 1e300, high = -1e300;
-        if (count) {
-            d = vector(0.0, 0.0);
-            Vector last = corners[count - 1];
-            double above = (last.y - s->y) * s->ux - (last.x - s->x) * s->uy;
-            double at = (last.x - s->x) * s->ux + (last.y - s->y) * s->uy;
-            for (int k = 0; k < count; k++) {
-                Vector corner = corners[k];
-                double before = above, last_at = at;
-                d.x += (corner.x - s->x) / count;
-                d.y += (corner.y - s->y) / count;
-                above = (corner.y - s->y) * s->ux - (corner.x - s->x) * s->uy;
-                at = (corner.x - s->x) * s->ux + (corner.y - s->y) * s->uy;
-                if ((before < 0.0) != (above < 0.0)) {
-                    double crossed = last_at + before / (before - above) * (at - last_at);
-                    low = crossed < low ? crossed : low;
-                    high = crossed > high ? crossed : high;
-                }
-            }
-        }
-        int upright = -STRAIGHT <= along && along <= STRAIGHT;
-        int at_start = low < high && high < s->reach;
-        int at_end = s->far - s->reach < low && low < high;
-        if (at_start && at_end && upright) {
-            at_end = d.x * s->ux + d.y * s->uy > s->far / 2;
-        } else if (at_start == at_end) {
-            if (upright) return;
-            at_end = along > 0.0;
-        }
-        if (count && at_end) d = vector(d.x - s->far * s->ux, d.y - s->far * s->uy);
-        const double *met = s->met + (at_end ? 6 : 0);
-        if (met[0] == FREE) return;
-        Vector own = at_end ? vector(-s->ux, -s->uy) : vector(s->ux, s->uy);
-        double turn = at_end ? -1.0 : 1.0;
-        int right = !holds(met, turn, own, d);
-        if (right && !holds(met + 3, -turn, own, d)) {
-            arbiter->count = 0;
-            return;
-        }
-        met += right ? 3 : 0;
-        Vector f = right ? vector(s->uy, -s->ux) : vector(-s->uy, s->ux);
-        if (upright) {
-            if (n.x * f.x + n.y * f.y > 0.0) return;
-        } else if (met[0] == BULGES && n.x * met[1] + n.y * met[2] <= STRAIGHT) {
-            return;
-        } else if (met[0] != BULGES && n.x * f.x + n.y * f.y > NEARLY && count) {
-            arbiter->n = f;
-            return;
-        }
-        double least = s->met[right ? 3 : 0] > BULGES ? -s->reach : 0.0;
-        double most = s->met[right ? 9 : 6] > BULGES ? s->far + s->reach : s->far;
-        double deepest = -1.0;
-        Vector p = {0.0, 0.0};
-        for (int k = 0; k < count; k++) {
-            double at = (corners[k].x - s->x) * s->ux + (corners[k].y - s->y) * s->uy;
-            double depth = (s->x - corners[k].x) * f.x + (s->y - corners[k].y) * f.y;
-            if (least <= at && at <= most && deepest < depth && depth <= s->reach && depth >= 0.0) {
-                deepest = depth;
-                p = corners[k];
-            }
-        }
-        if (deepest < 0.0) {
-            arbiter->count = 0;
-            return;
-        }
-        Contact_ *contact = arbiter->contacts;
-        arbiter->count = 1;
-        arbiter->n = f;
-        Vector wall = engine.cpBodyGetPosition(arbiter->body_a);
-        Vector body = engine.cpBodyGetPosition(arbiter->body_b);
-        contact->r1 = vector(p.x + deepest * f.x - wall.x, p.y + deepest * f.y - wall.y);
-        contact->r2 = vector(p.x - body.x, p.y - body.y);
-        contact->normal_impulse = contact->tangent_impulse = 0.0;
-    }
-    static void mend(void *arbiter, void *space, void *data) {
-        Arbiter_ *itself = arbiter;
-        Seams_ *first = engine.cpShapeGetUserData(itself->a);
-        mend_contact(itself, first ? first : engine.cpShapeGetUserData(itself->b), first != 0);
-    }
-    static void mend_in(void *space) {
-        Handler_ *handler = engine.cpSpaceAddWildcardHandler(space, SEWN);
-        handler->pre_solve = mend;
-    }
-    static int count_kept(void *arbiter) { return ((Arbiter_ *)arbiter)->count; }
-
+    enum { SEWN = 1, JOINED = 2 };  /* the engine's collision types: see chipmunk.py */
     static void connect_function(int k, uintptr_t address) {
         ((void (**)(void))&engine)[k] = (void (*)(void))address;
     }
@@ -273,8 +165,6 @@ cdef extern from *:
         n[TURNED] = 0.0;
         return angle;
     }
-    static void *first_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_a; }
-    static void *second_body(void *arbiter) { return ((Arbiter_ *)arbiter)->body_b; }
     /* Springs: the numbers are where springs_are_as_thought in chipmunk.py finds them. */
     enum { REST = 17, REST_ANGLE = 13, LOST = 22, LOST_TURNING = 18, FELT = 27, FELT_TURNING = 19 };
     static double fading(void *spring, int rest, int felt) {
@@ -296,7 +186,6 @@ cdef extern from *:
         return vector(((double *)joint)[at], ((double *)joint)[at + 1]);
     }
     static double twist(void *joint) { return ((double *)joint)[18]; }
-    static Contact_ *contact_at(void *arbiter, int k) { return ((Arbiter_ *)arbiter)->contacts + k; }
     """
     ctypedef struct Vector:
         double x
@@ -304,9 +193,12 @@ cdef extern from *:
     ctypedef struct Contact_:
         Vector r1
         Vector r2
+        double normal_mass
+        double tangent_mass
         double bounce
         double normal_impulse
         double tangent_impulse
+        double bias
     ctypedef void *Handle
     ctypedef struct Engine_:
         void *(*cpSpaceNew)() noexcept
@@ -382,7 +274,6 @@ cdef extern from *:
         void (*cpBodyEachArbiter)(
             void *, void (*)(void *, void *, void *) noexcept, void *) noexcept
         Vector (*cpArbiterTotalImpulse)(void *) noexcept
-        Vector (*cpArbiterGetNormal)(void *) noexcept
         int (*cpArbiterGetCount)(void *) noexcept
         double (*cpArbiterGetDepth)(void *, int) noexcept
         Vector (*cpArbiterGetPointA)(void *, int) noexcept
@@ -398,29 +289,31 @@ cdef extern from *:
         int (*cpPolyShapeGetCount)(void *) noexcept
         Vector (*cpPolyShapeGetVert)(void *, int) noexcept
         Vector (*cpBodyLocalToWorld)(void *, Vector) noexcept
-    ctypedef struct Seams_:
-        pass
+    ctypedef struct Arbiter_:
+        double e
+        void *a
+        void *b
+        void *body_a
+        void *body_b
+        int count
+        Contact_ *contacts
+        Vector n
     Engine_ engine
     void connect_function(int, uintptr_t) noexcept
     size_t count_functions() noexcept
     Vector vector(double, double) noexcept
     void scale_contacts(void *, double) noexcept
     void set_handler(void *, void (*)(void *, void *, void *) noexcept, void *) noexcept
-    Contact_ *contact_at(void *, int) noexcept
     void turn_to(void *, double, double, double) noexcept
     void put_at(void *, double, double, double, double, double) noexcept
     double move_by(void *, double) noexcept
     void forget_mending(void *) noexcept
-    void *first_body(void *) noexcept
-    void *second_body(void *) noexcept
-    enum: REST, REST_ANGLE, FELT, FELT_TURNING
+    enum: REST, REST_ANGLE, FELT, FELT_TURNING, CENTER, SEWN, JOINED
     double fading(void *, int, int) noexcept
     double pull_of(void *, double, double, double) noexcept
     double twist_to(void *, double, double, double) noexcept
     Vector drag(void *, int) noexcept
     double twist(void *) noexcept
-    void mend_in(void *) noexcept
-    int count_kept(void *) noexcept
 
 
 def connect(addresses):
@@ -443,7 +336,8 @@ cdef Handle new_space(double slop) except NULL:
         raise MemoryError
     engine.cpSpaceSetCollisionSlop(space, slop)
     engine.cpSpaceSetCollisionPersistence(space, 1)
-    mend_in(space)
+    set_handler(engine.cpSpaceAddWildcardHandler(space, SEWN), mend_contact, NULL)
+    set_handler(engine.cpSpaceAddWildcardHandler(space, JOINED), straighten_contact, NULL)
     return space
 
 cdef inline void set_iterations(Handle space, int count) noexcept:
@@ -664,7 +558,7 @@ cdef int number_of(Handle body) noexcept:
 
 cdef void note_arbiter(void *body, void *arbiter, void *data) noexcept:
     cdef Found *found = <Found *>data
-    cdef Handle first = first_body(arbiter)
+    cdef Handle first = (<Arbiter_ *>arbiter).body_a
     cdef Handle *more
     if first != body and number_of(first) >= 0:
         return
@@ -701,10 +595,10 @@ cdef class Arbiters:
         return self.found.arbiters[k]
 
 cdef int first_of(Handle arbiter) noexcept:
-    return number_of(first_body(arbiter))
+    return number_of((<Arbiter_ *>arbiter).body_a)
 
 cdef int second_of(Handle arbiter) noexcept:
-    return number_of(second_body(arbiter))
+    return number_of((<Arbiter_ *>arbiter).body_b)
 
 cdef inline void scale(Handle arbiter, double ratio) noexcept:
     scale_contacts(arbiter, ratio)
@@ -726,7 +620,25 @@ cdef inline Vector impulse_of(Handle arbiter) noexcept:
     return engine.cpArbiterTotalImpulse(arbiter)
 
 cdef inline Vector normal_of(Handle arbiter) noexcept:
-    return engine.cpArbiterGetNormal(arbiter)
+    return (<Arbiter_ *>arbiter).n
+
+cdef inline void set_normal(Handle arbiter, double x, double y) noexcept:
+    (<Arbiter_ *>arbiter).n = vector(x, y)
+
+cdef inline void put_point(Handle arbiter, double ax, double ay, double bx, double by) noexcept:
+    cdef double *a = <double *>(<Arbiter_ *>arbiter).body_a
+    cdef double *b = <double *>(<Arbiter_ *>arbiter).body_b
+    cdef Contact_ *contact = (<Arbiter_ *>arbiter).contacts
+    (<Arbiter_ *>arbiter).count = 1
+    contact.r1 = vector(ax - a[CENTER], ay - a[CENTER + 1])
+    contact.r2 = vector(bx - b[CENTER], by - b[CENTER + 1])
+    contact.normal_impulse = contact.tangent_impulse = 0.0
+
+cdef inline void leave_out(Handle arbiter) noexcept:
+    (<Arbiter_ *>arbiter).count = 0
+
+cdef inline Handle shape_of(Handle arbiter, bint second) noexcept:
+    return (<Arbiter_ *>arbiter).b if second else (<Arbiter_ *>arbiter).a
 
 cdef inline Vector point_of(Handle arbiter, int k, bint second) noexcept:
     if second:
@@ -734,38 +646,55 @@ cdef inline Vector point_of(Handle arbiter, int k, bint second) noexcept:
     return engine.cpArbiterGetPointA(arbiter, k)
 
 cdef inline Vector arm_of(Handle arbiter, int k, bint second) noexcept:
-    return contact_at(arbiter, k).r2 if second else contact_at(arbiter, k).r1
+    return (<Arbiter_ *>arbiter).contacts[k].r2 if second else (<Arbiter_ *>arbiter).contacts[k].r1
 
 cdef inline double push_of(Handle arbiter, int k) noexcept:
-    return contact_at(arbiter, k).normal_impulse
+    return (<Arbiter_ *>arbiter).contacts[k].normal_impulse
 
 cdef inline double depth_of(Handle arbiter, int k) noexcept:
     return -engine.cpArbiterGetDepth(arbiter, k)
 
 cdef inline double rub_of(Handle arbiter, int k) noexcept:
-    return contact_at(arbiter, k).tangent_impulse
+    return (<Arbiter_ *>arbiter).contacts[k].tangent_impulse
 
 cdef inline double bounce_of(Handle arbiter, int k) noexcept:
-    return contact_at(arbiter, k).bounce
+    return (<Arbiter_ *>arbiter).contacts[k].bounce
 
 cdef inline bint is_void(Handle arbiter) noexcept:
-    return count_kept(arbiter) == 0
+    return (<Arbiter_ *>arbiter).count == 0
 
 cdef inline int check_signals() except -1:
     return PyErr_CheckSignals()
 
 # -- seams ------------------------------------------------------------------------------------
 
-cdef class Seams:
-    cdef Seams_ numbers
+cdef void mend_contact(void *arbiter, void *space, void *data) noexcept:
+    cdef bint first = first_of(arbiter) < 0
+    (<Seams>engine.cpShapeGetUserData(shape_of(arbiter, not first))).mend(arbiter, first)
 
-    def __init__(self, numbers):
-        cdef double *to = <double *>&self.numbers
-        if len(numbers) != 18:
-            raise ValueError(f"{len(numbers)} numbers, expected 18")
-        for k, number in enumerate(numbers):
-            to[k] = number
+cdef inline void sew(Handle segment, seams) noexcept:
+    engine.cpShapeSetUserData(segment, <void *>seams)
+    engine.cpShapeSetCollisionType(segment, SEWN)
 
-cdef inline void sew(Handle segment, Seams seams) noexcept:
-    engine.cpShapeSetUserData(segment, &seams.numbers)
-    engine.cpShapeSetCollisionType(segment, 1)
+cdef inline int corners_of(Handle shape) noexcept:
+    return engine.cpPolyShapeGetCount(shape)
+
+cdef inline Vector corner_of(Handle shape, int k) noexcept:
+    return engine.cpBodyLocalToWorld(
+        engine.cpShapeGetBody(shape), engine.cpPolyShapeGetVert(shape, k))
+
+cdef void straighten_contact(void *arbiter, void *space, void *data) noexcept:
+    if first_of(arbiter) >= 0 and second_of(arbiter) >= 0:
+        flush_of(arbiter, False).straighten(arbiter)
+
+cdef inline void show(Handle shape, flush) noexcept:
+    engine.cpShapeSetUserData(shape, <void *>flush)
+
+cdef inline void join(Handle shape) noexcept:
+    engine.cpShapeSetCollisionType(shape, JOINED)
+
+cdef inline Flush flush_of(Handle arbiter, bint second):
+    return <Flush>engine.cpShapeGetUserData(shape_of(arbiter, second))
+
+cdef inline Vector place_of(Handle shape, double x, double y) noexcept:
+    return engine.cpBodyLocalToWorld(engine.cpShapeGetBody(shape), vector(x, y))

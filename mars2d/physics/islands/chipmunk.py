@@ -17,14 +17,16 @@ from mars2d.physics.islands.arithmetic import cosine_sine, exponential, surge
 
 __all__ = [
     "DAMPED_SPRING", "GEAR", "GROOVE", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT",
-    "ROTARY_SPRING", "SLIDE", "Arbiters", "Handle", "Seams", "Vector", "add_body", "add_joint",
-    "add_shape", "aim", "angle_of", "arm_of", "bounce_of", "check_signals", "count_of",
-    "depth_of", "drag_of", "first_of", "free_body", "free_joint", "free_shape", "free_space",
-    "ground_of", "impulse_of", "is_void", "make_joint", "new_body", "new_control", "new_disc",
-    "new_ground", "new_polygon", "new_segment", "new_space", "normal_of", "point_of",
-    "position_of", "push", "push_of", "put", "remove_body", "remove_joint", "remove_shape",
-    "rub_of", "scale", "second_of", "set_iterations", "set_joint", "set_limits", "set_max_bias",
-    "set_max_force", "set_surface", "settle_down", "sew", "spin_of", "step", "twist_of", "used_of",
+    "ROTARY_SPRING", "SLIDE", "Arbiters", "Handle", "Vector", "add_body", "add_joint",
+    "add_shape", "aim", "angle_of", "arm_of", "bounce_of", "check_signals", "corner_of",
+    "corners_of", "count_of", "depth_of", "drag_of", "first_of", "flush_of", "free_body",
+    "free_joint", "free_shape", "free_space", "ground_of", "impulse_of", "is_void", "join",
+    "leave_out", "make_joint", "new_body", "new_control", "new_disc", "new_ground",
+    "new_polygon", "new_segment", "new_space", "normal_of", "place_of", "point_of",
+    "position_of", "push", "push_of", "put", "put_point", "remove_body", "remove_joint",
+    "remove_shape", "rub_of", "scale", "second_of", "set_iterations", "set_joint", "set_limits",
+    "set_max_bias", "set_max_force", "set_normal", "set_surface", "settle_down", "sew",
+    "shape_of", "show", "spin_of", "step", "twist_of", "used_of",
     "velocity_of", "watch", "weight_at",
 ]  # fmt: skip
 
@@ -82,6 +84,7 @@ def new_space(slop: float) -> Handle:
     lib.cpSpaceSetCollisionSlop(space, slop)
     lib.cpSpaceSetCollisionPersistence(space, 1)
     lib.cpSpaceAddWildcardHandler(space, _SEWN).preSolveFunc = _MEND
+    lib.cpSpaceAddWildcardHandler(space, _JOINED).preSolveFunc = _STRAIGHTEN
     return space
 
 
@@ -512,7 +515,35 @@ def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
 
 
 count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse
-normal_of = lib.cpArbiterGetNormal
+
+
+def shape_of(arbiter: Handle, second: bool) -> Handle:
+    """Return a contact's first or second shape."""
+    return arbiter.b if second else arbiter.a
+
+
+def normal_of(arbiter: Handle) -> Vector:
+    """Return a contact's normal, from its first to its second body."""
+    return arbiter.n
+
+
+def set_normal(arbiter: Handle, x: float, y: float) -> None:
+    """Set it, before the contact is solved."""
+    arbiter.n.x, arbiter.n.y = x, y
+
+
+def put_point(arbiter: Handle, ax: float, ay: float, bx: float, by: float) -> None:
+    """Let a contact have one point, at these places on its bodies, without impulses so far."""
+    a, b = ffi.cast("double *", arbiter.body_a), ffi.cast("double *", arbiter.body_b)
+    contact, arbiter.count = arbiter.contacts[0], 1
+    contact.r1.x, contact.r1.y = ax - a[CENTER], ay - a[CENTER + 1]
+    contact.r2.x, contact.r2.y = bx - b[CENTER], by - b[CENTER + 1]
+    contact.jnAcc = contact.jtAcc = 0.0
+
+
+def leave_out(arbiter: Handle) -> None:
+    """Let a contact be none in this step."""
+    arbiter.count = 0
 
 
 def point_of(arbiter: Handle, k: int, second: bool) -> Vector:
@@ -547,7 +578,7 @@ def bounce_of(arbiter: Handle, k: int) -> float:
 
 
 def is_void(arbiter: Handle) -> bool:
-    """Return whether a contact at a seam is none; see `Seams`."""
+    """Return whether a contact was made none."""
     return bool(arbiter.count == 0)
 
 
@@ -557,166 +588,55 @@ def check_signals() -> None:
 
 # -- seams ------------------------------------------------------------------------------------
 
-_SEWN = 1
-"""The engine's collision type of walls that meet others."""
-
-_STRAIGHT = 1e-9
-"""The sine up to which a contact's normal stands upright on a wall."""
-
-_NEARLY = 0.999
-"""The cosine from which on it counts as that of the wall's face in a corner."""
-
-_FREE, _BULGES = 0.0, 1.0
-"""What there is at an end of a wall on one side: nothing, a corner that bulges; 2 is any other."""
+_SEWN, _JOINED = 1, 2
+"""The engine's collision types: of walls that meet others, and of pieces that lie flush."""
 
 
-class Seams:
-    """What contacts with a wall must know of its ends, so that nothing trips over them.
-
-    A contact at an end is real only if its normal points to where none of the walls that meet there
-    is nearer: it lies between the normals of both if their corner bulges, and else is that of the
-    wall's face. Another one is made that of the face, with the body's corner that is deepest in
-    the wall there. If no corner is, the contact is void: the other wall has one.
-
-    Source of the normals that are real: the Voronoi regions of a polygon's corner and edges, as in
-    C. Ericson, Real-Time Collision Detection, section 9.5.1 (2005).
-    """
-
-    def __init__(self, numbers: list[float]) -> None:
-        """Take numbers: x, y of the start, the direction, the length, how deep a corner may be.
-
-        Then three numbers each for the start, to the left and to the right, and for the end: what
-        is there, 0 for nothing, 1 for a corner that bulges, else 2; and the direction of the wall
-        that is met there.
-        """
-        self._numbers = numbers
-        self._handle = ffi.new_handle(self)
-
-    def _mend(self, arbiter: Handle, is_first: bool) -> None:
-        """Look at a contact before it is solved. is_first: whether the wall is its first shape."""
-        ux, uy, far, reach = self._numbers[2:6]
-        nx, ny = arbiter.n.x, arbiter.n.y
-        if not is_first:
-            nx, ny = -nx, -ny
-        corners = _corners_of(arbiter.b) if is_first else []
-        (dx, dy), low, high = self._passed(corners) if corners else ((nx, ny), 1e300, -1e300)
-        along = nx * ux + ny * uy
-        upright = -_STRAIGHT <= along <= _STRAIGHT
-        at_start = low < high < reach
-        at_end = far - reach < low < high
-        if at_start and at_end and upright:
-            at_end = dx * ux + dy * uy > far / 2
-        elif at_start == at_end:
-            if upright:
-                return
-            at_end = along > 0.0
-        if corners and at_end:  # as seen from the end where they touch
-            dx, dy = dx - far * ux, dy - far * uy
-        side = self._side(at_end, dx, dy)
-        if side < 0:
-            return
-        if side > 1:
-            arbiter.count = 0
-            return
-        kind, tx, ty = self._numbers[6 + 6 * at_end + 3 * side : 9 + 6 * at_end + 3 * side]
-        fx, fy = (uy, -ux) if side else (-uy, ux)
-        if upright:
-            if nx * fx + ny * fy > 0.0:
-                return
-        elif kind == _BULGES and nx * tx + ny * ty <= _STRAIGHT:
-            return
-        elif kind != _BULGES and nx * fx + ny * fy > _NEARLY and corners:
-            arbiter.n.x, arbiter.n.y = fx, fy
-            return
-        self._put_out(arbiter, corners, side, fx, fy)
-
-    def _passed(self, corners: list[Vector]) -> tuple[tuple[float, float], float, float]:
-        """Return the middle of a polygon as seen from the start, and where the line is in it."""
-        x, y, ux, uy = self._numbers[:4]
-        dx = dy = 0.0
-        low, high = 1e300, -1e300
-        last = corners[-1]
-        above = (last.y - y) * ux - (last.x - x) * uy
-        at = (last.x - x) * ux + (last.y - y) * uy
-        for corner in corners:
-            dx += (corner.x - x) / len(corners)
-            dy += (corner.y - y) / len(corners)
-            before, above = above, (corner.y - y) * ux - (corner.x - x) * uy
-            last_at, at = at, (corner.x - x) * ux + (corner.y - y) * uy
-            if (before < 0.0) != (above < 0.0):
-                crossed = last_at + before / (before - above) * (at - last_at)
-                low, high = min(low, crossed), max(high, crossed)
-        return (dx, dy), low, high
-
-    def _side(self, at_end: bool, dx: float, dy: float) -> int:
-        """Return on which side of the wall a body is, as seen from one of its ends.
-
-        0 is left and 1 right, between the wall and what it meets there; 2 is beyond that, and -1
-        says that it meets nothing.
-        """
-        ux, uy = self._numbers[2:4]
-        end = 12 if at_end else 6
-        if self._numbers[end] == _FREE:
-            return -1
-        own_x, own_y = (-ux, -uy) if at_end else (ux, uy)
-        turn = -1.0 if at_end else 1.0
-        if self._holds(end, turn, own_x, own_y, dx, dy):
-            return 0
-        return 1 if self._holds(end + 3, -turn, own_x, own_y, dx, dy) else 2
-
-    def _put_out(
-        self, arbiter: Handle, corners: list[Vector], side: int, fx: float, fy: float
-    ) -> None:
-        """Let the wall's face push the corner that is deepest in it, or nothing.
-
-        In a corner that does not bulge, what is behind the wall that is met there counts as well.
-        """
-        x, y, ux, uy, far, reach = self._numbers[:6]
-        least = -reach if self._numbers[6 + 3 * side] > _BULGES else 0.0
-        most = far + reach if self._numbers[12 + 3 * side] > _BULGES else far
-        deepest, px, py = -1.0, 0.0, 0.0
-        for corner in corners:
-            at = (corner.x - x) * ux + (corner.y - y) * uy
-            depth = (x - corner.x) * fx + (y - corner.y) * fy
-            if least <= at <= most and deepest < depth <= reach and depth >= 0.0:
-                deepest, px, py = depth, corner.x, corner.y
-        if deepest < 0.0:
-            arbiter.count = 0
-            return
-        contact = arbiter.contacts[0]
-        arbiter.count = 1
-        arbiter.n.x, arbiter.n.y = fx, fy
-        wall, body = lib.cpBodyGetPosition(arbiter.body_a), lib.cpBodyGetPosition(arbiter.body_b)
-        contact.r1.x, contact.r1.y = px + deepest * fx - wall.x, py + deepest * fy - wall.y
-        contact.r2.x, contact.r2.y = px - body.x, py - body.y
-        contact.jnAcc = contact.jtAcc = 0.0
-
-    def _holds(
-        self, end: int, turn: float, own_x: float, own_y: float, dx: float, dy: float
-    ) -> bool:
-        """Return whether a direction lies between the wall and its neighbour on one side."""
-        kind, tx, ty = self._numbers[end : end + 3]
-        past_own = turn * (own_x * dy - own_y * dx) >= 0.0
-        before_other = turn * (dx * ty - dy * tx) >= 0.0
-        return past_own or before_other if kind == _BULGES else past_own and before_other
-
-
-def _corners_of(shape: Handle) -> list[Vector]:
-    """Return where the corners of a polygon are."""
-    body = lib.cpShapeGetBody(shape)
-    count = lib.cpPolyShapeGetCount(shape)
-    return [lib.cpBodyLocalToWorld(body, lib.cpPolyShapeGetVert(shape, k)) for k in range(count)]
-
-
-@ffi.callback(  # type: ignore[untyped-decorator]
-    "void(cpArbiter *, cpSpace *, void *)", onerror=_catch
-)
+@ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _MEND(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
-    first, second = (lib.cpShapeGetUserData(shape) for shape in (arbiter.a, arbiter.b))
-    ffi.from_handle(first or second)._mend(arbiter, bool(first))
+    first = first_of(arbiter) < 0
+    data = lib.cpShapeGetUserData(arbiter.a if first else arbiter.b)
+    ffi.from_handle(data).mend(arbiter, first)
 
 
-def sew(segment: Handle, seams: Seams) -> None:
+def sew(segment: Handle, seams: Any) -> None:
     """Let contacts with a wall be mended at its seams."""
-    lib.cpShapeSetUserData(segment, seams._handle)
+    if seams.handle is None:
+        seams.handle = ffi.new_handle(seams)
+    lib.cpShapeSetUserData(segment, seams.handle)
     lib.cpShapeSetCollisionType(segment, _SEWN)
+
+
+corners_of = lib.cpPolyShapeGetCount
+
+
+def corner_of(shape: Handle, k: int) -> Vector:
+    """Return where a corner of a polygon is."""
+    return lib.cpBodyLocalToWorld(lib.cpShapeGetBody(shape), lib.cpPolyShapeGetVert(shape, k))
+
+
+@ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
+def _STRAIGHTEN(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
+    if first_of(arbiter) >= 0 and second_of(arbiter) >= 0:
+        flush_of(arbiter, False).straighten(arbiter)
+
+
+def show(shape: Handle, flush: Any) -> None:
+    """Say what is to straighten contacts with a shape of a body, once it is joined."""
+    flush.handle = ffi.new_handle(flush)
+    lib.cpShapeSetUserData(shape, flush.handle)
+
+
+def join(shape: Handle) -> None:
+    """Let contacts with a shape of a body be straightened."""
+    lib.cpShapeSetCollisionType(shape, _JOINED)
+
+
+def flush_of(arbiter: Handle, second: bool) -> Any:
+    """Return what was shown of a contact's first or second shape."""
+    return ffi.from_handle(lib.cpShapeGetUserData(shape_of(arbiter, second)))
+
+
+def place_of(shape: Handle, x: float, y: float) -> Vector:
+    """Return where a point in the frame of a shape's body is."""
+    return lib.cpBodyLocalToWorld(lib.cpShapeGetBody(shape), (x, y))

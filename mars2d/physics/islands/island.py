@@ -70,6 +70,7 @@ class Accuracy:
     iterations_ties: cython.int
     spring_step: cython.double
     graze: cython.double
+    mend: cython.double
 
     def __init__(self, numbers: dict[str, Any]) -> None:
         """Take the numbers by name."""
@@ -87,7 +88,7 @@ class Accuracy:
         self.push_depth, self.spring_step = numbers["push_depth"], numbers["spring_step"]
         self.push_room, self.strained = numbers["push_room"], numbers["strained"]
         self.strain_growth, self.strain_fade = numbers["strain_growth"], numbers["strain_fade"]
-        self.toil, self.graze = numbers["toil"], numbers["graze"]
+        self.toil, self.graze, self.mend = numbers["toil"], numbers["graze"], numbers["mend"]
         self.iterations, self.iterations_unequal, self.iterations_ties = (
             numbers["iterations"], numbers["iterations_unequal"], numbers["iterations_ties"],
         )  # fmt: skip
@@ -276,6 +277,7 @@ class Island:
         else:
             solver = Solver(
                 self.accuracy.slop,
+                self.accuracy.mend,
                 self.accuracy.mend_rate,
                 self.accuracy.joint_mend_rate,
                 self.surfaces,
@@ -322,6 +324,7 @@ class Island:
             if self.any_solved or not self.glide_on(h):
                 if not self.solved:
                     self.land()
+                self.find_flush()
                 self.solver.go(h, self.accuracy.growth)
                 settle(self.solver, self.numbers, self.impact, h)
                 for body in self.bodies:
@@ -351,6 +354,21 @@ class Island:
                 self.deepest = max(self.deepest, -pair.gap)
                 self.any_touch = pair.a.touches = pair.b.touches = True
                 pair.next_touch, pair.a.first_touch = pair.a.first_touch, pair
+
+    @cython.cfunc
+    def find_flush(self) -> cython.void:
+        """Find the bodies that lie flush, for the solver."""
+        room: cython.double = self.accuracy.mend / 8
+        body: Body
+        pair: Pair
+        for body in self.bodies:
+            if body.laid:
+                body.lift()
+        if len(self.bodies) < 3:
+            return
+        for pair in self.pairs:
+            if pair.gap < room and not pair.is_wall:
+                pair.lay(room)
 
     @cython.cfunc
     def hold_back(self) -> cython.void:

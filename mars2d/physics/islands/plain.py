@@ -1,11 +1,11 @@
 """The islands in Python, where there is no compiler."""
 
 from mars2d.physics.islands.body import Body, Piece
-from mars2d.physics.islands.chipmunk import Seams
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.island import Accuracy
 from mars2d.physics.islands.mover import Mover
 from mars2d.physics.islands.pair import Wall
+from mars2d.physics.islands.seams import Seams
 from mars2d.physics.islands.surfaces import Surface, Surfaces
 from mars2d.physics.islands.tie import Tie
 

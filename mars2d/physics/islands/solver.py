@@ -28,6 +28,7 @@ from mars2d.physics.islands.chipmunk import (
     free_shape,
     free_space,
     ground_of,
+    join,
     make_joint,
     new_body,
     new_control,
@@ -49,6 +50,7 @@ from mars2d.physics.islands.chipmunk import (
     set_max_force,
     settle_down,
     sew,
+    show,
     spin_of,
     step,
     twist_of,
@@ -58,6 +60,7 @@ from mars2d.physics.islands.chipmunk import (
     weight_at,
 )
 from mars2d.physics.islands.floor import hold
+from mars2d.physics.islands.flush import Flush, lay
 from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.tie import Tie
 
@@ -98,17 +101,19 @@ class Solver:
     mend: cython.double  # what the engine is told for steps as long as the last one
     joint_mend: cython.double
     surfaces: object  # kept for the space, which knows its address
+    room: cython.double
 
     def __init__(
-        self, slop: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
+        self, slop: float, room: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
     ) -> None:
         """Make an empty one.
 
-        slop: the overlap that is left in steady contact, metres. mend_rate, joint_mend_rate: how
-        what is beyond decays, and what joints are off by, 1/s. surfaces: what settles friction and
-        restitution; None: they are products.
+        slop: the overlap that is left in steady contact, metres. room: up to which a step
+        between faces is not felt. mend_rate, joint_mend_rate: how what is beyond decays, and what
+        joints are off by, 1/s. surfaces: what settles friction and restitution; None: they are
+        products.
         """
-        self.space = new_space(slop)
+        self.space, self.room = new_space(slop), room
         self.mend_rate, self.joint_mend_rate = mend_rate, joint_mend_rate
         self.mend = self.joint_mend = 0.0
         self.surfaces = surfaces
@@ -144,6 +149,7 @@ class Solver:
         if body.lead != 0.0:
             weight_at(body.handle, body.lead)
         piece: Piece
+        other: Piece
         for piece in body.pieces:
             points = [(corner.local_x, corner.local_y) for corner in piece.corners]
             shape = Held()
@@ -153,6 +159,11 @@ class Solver:
                 shape.handle = new_disc(body.handle, piece.radius, x, y, body.surface)
             else:
                 shape.handle = new_polygon(body.handle, points, body.surface)
+            piece.shape, piece.flush = shape.handle, Flush(piece, self.room)
+            show(piece.shape, piece.flush)
+            for other in body.pieces:
+                if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room / 8):
+                    join(piece.shape)
         if body.is_robot:
             body.control = new_control()
             self.hold_by(body, body.control)
