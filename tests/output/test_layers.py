@@ -15,7 +15,7 @@ import mars2d
 from mars2d import Animation, Robot, Scenario, World
 from mars2d.addons import Addon, Communication, Map
 from mars2d.bodies.joints import Rope, Spring
-from mars2d.bodies.props import Box, Puck
+from mars2d.bodies.props import Ball, Box, Puck
 from mars2d.core.scene import Circle, Scene
 from mars2d.output.figures.figure import plot_paths
 from mars2d.output.layers import rings
@@ -65,6 +65,13 @@ def law(world):
     return np.array([[0.5, 0.3, 0.3, 0.1], [0.0, 0.0, 0.4, 0.3]])
 
 
+BETWEEN = [[(3, 4.5), (3, 5)], [(3.5, 4.5), (3.5, 5)]]
+BOUNCING = Ball(
+    pose=(3.2, 4.7, 0), diameter=0.2, velocity=(1, 0, 0), restitution=1.0, ground_friction=0.0
+)
+"""It flies to and fro between two walls, so that there always is a blow to be seen."""
+
+
 def scenario():
     return Scenario(
         robots=[
@@ -75,10 +82,13 @@ def scenario():
         ],
         props=[
             Box(pose=(-3.3, -2, 0)), Puck(pose=(1.5, -3, 0)), Box(pose=(-4, 3, 0)),
-            Box(pose=(-3, 3, 0)),
+            Box(pose=(-3, 3, 0)), BOUNCING,
         ],
         joints=[Rope(a="robot2", b="puck1", length=3), Spring(a="box2", b="box3", rest_length=1)],
-        addons=[Communication(delay=0.2), Painted(), Map(outlines=[[(-1, 4), (0, 4), (0, 5)]])],
+        addons=[
+            Communication(delay=0.2), Painted(),
+            Map(outlines=[[(-1, 4), (0, 4), (0, 5)]], walls=BETWEEN, restitution=1.0),
+        ],
         neighbours=Within(5.0),
         animation=Animation(forces=True, theory=True),
         workspace=[(-6, -6), (6, -6), (6, 6), (-6, 6)],

@@ -15,10 +15,10 @@ __all__ = [
     "cosine_sine",
     "decay_base",
     "exponential",
+    "implicitness",
     "length",
     "power",
     "sine",
-    "surge",
 ]
 
 
@@ -151,12 +151,11 @@ def decay_base(rate: cython.double, h: cython.double) -> cython.double:
 
 
 @cython.cfunc
-def surge(x: cython.double) -> cython.double:
-    """Return (e^x - 1) / x, for 0 <= x <= 1; for larger ones, that of 1."""
-    if x < 1e-5:
-        return 1.0 + x / 2.0
-    x = min(x, 1.0)
-    return (1.0 / exponential(-x) - 1.0) / x
+def implicitness(x: cython.double) -> cython.double:
+    """Return theta of v' = v - x ((1 - theta) v + theta v') with v' = v e^-x, for x >= 0."""
+    if x < 1e-3:
+        return 0.5 + x / 12.0
+    return 1.0 / (1.0 - exponential(-x)) - 1.0 / x
 
 
 @cython.cfunc

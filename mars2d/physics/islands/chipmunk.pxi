@@ -70,6 +70,8 @@ cdef extern from *:
         void (*cpDampedSpringSetSpringForceFunc)(void *, double (*)(void *, double));
         void (*cpDampedRotarySpringSetSpringTorqueFunc)(void *, double (*)(void *, double));
         void *(*cpConstraintGetSpace)(void *);
+        void *(*cpConstraintGetBodyA)(void *);
+        void *(*cpConstraintGetBodyB)(void *);
         double (*cpSpaceGetCurrentTimeStep)(void *);
         void (*cpConstraintSetMaxForce)(void *, double);
         void (*cpConstraintSetMaxBias)(void *, double);
@@ -172,15 +174,23 @@ cdef extern from *:
         double *n = spring, h = engine.cpSpaceGetCurrentTimeStep(space);
         return n[rest + 2] * h / n[felt];
     }
-    static double pull_of(void *spring, double length, double lost, double surge) {
-        double *n = spring;
-        n[LOST] = lost;
-        return (n[REST] - length) * n[REST + 1] * surge;
+    static void damp(double *n, int lost, double fades, double theta, double closing) {
+        n[lost - 1] = -closing * (1.0 - theta) / theta;
+        n[lost] = fades * theta / (1.0 + fades * theta);
     }
-    static double twist_to(void *spring, double angle, double lost, double surge) {
+    static double pull_of(void *spring, double length, double fades, double theta) {
+        double *n = spring, *r = n + LOST + 1, *u = n + FELT + 1;
+        double *a = engine.cpConstraintGetBodyA(spring), *b = engine.cpConstraintGetBodyB(spring);
+        double x = (b[FAST] - b[SPIN] * r[3]) - (a[FAST] - a[SPIN] * r[1]);
+        double y = (b[FAST + 1] + b[SPIN] * r[2]) - (a[FAST + 1] + a[SPIN] * r[0]);
+        damp(n, LOST, fades, theta, x * u[0] + y * u[1]);
+        return (n[REST] - length) * n[REST + 1];
+    }
+    static double twist_to(void *spring, double angle, double fades, double theta) {
         double *n = spring;
-        n[LOST_TURNING] = lost;
-        return (angle - n[REST_ANGLE]) * n[REST_ANGLE + 1] * surge;
+        double *a = engine.cpConstraintGetBodyA(spring), *b = engine.cpConstraintGetBodyB(spring);
+        damp(n, LOST_TURNING, fades, theta, a[SPIN] - b[SPIN]);
+        return (angle - n[REST_ANGLE]) * n[REST_ANGLE + 1];
     }
     static Vector drag(void *joint, int at) {
         return vector(((double *)joint)[at], ((double *)joint)[at + 1]);
@@ -265,6 +275,8 @@ cdef extern from *:
         void (*cpDampedRotarySpringSetSpringTorqueFunc)(
             void *, double (*)(void *, double) noexcept) noexcept
         void *(*cpConstraintGetSpace)(void *) noexcept
+        void *(*cpConstraintGetBodyA)(void *) noexcept
+        void *(*cpConstraintGetBodyB)(void *) noexcept
         double (*cpSpaceGetCurrentTimeStep)(void *) noexcept
         void (*cpConstraintSetMaxForce)(void *, double) noexcept
         void (*cpConstraintSetMaxBias)(void *, double) noexcept
@@ -507,11 +519,11 @@ cdef Handle make_joint(
 
 cdef double pull(void *spring, double length) noexcept:
     cdef double fades = fading(spring, REST, FELT)
-    return pull_of(spring, length, 1.0 - exponential(-fades), surge(fades))
+    return pull_of(spring, length, fades, implicitness(fades))
 
 cdef double twist_back(void *spring, double angle) noexcept:
     cdef double fades = fading(spring, REST_ANGLE, FELT_TURNING)
-    return twist_to(spring, angle, 1.0 - exponential(-fades), surge(fades))
+    return twist_to(spring, angle, fades, implicitness(fades))
 
 cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
     engine.cpConstraintSetErrorBias(joint, bias)

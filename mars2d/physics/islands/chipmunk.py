@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.physics.islands.arithmetic import cosine_sine, exponential, surge
+from mars2d.physics.islands.arithmetic import cosine_sine, exponential, implicitness
 
 __all__ = [
     "DAMPED_SPRING", "GEAR", "GROOVE", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT",
@@ -239,7 +239,7 @@ def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
 
 
 def settle_down(body: Handle) -> None:
-    """Let a body forget the velocity by which the engine would mend its overlaps in the next step."""
+    """Let a body forget by which velocity its overlaps are to be mended in the next step."""
     numbers = ffi.cast("double *", body)
     numbers[MENDED] = numbers[MENDED + 1] = numbers[TURNED] = 0.0
 
@@ -318,38 +318,52 @@ LOST, LOST_TURNING, FELT, FELT_TURNING = _JOINT + 9, _JOINT + 5, _JOINT + 14, _J
 """Where they have the share of speed that is lost in a step, and the mass or moment that is felt.
 
 The engine works out that share with the C library's exponential, and asks for the force right after
-it. So the functions below, which return the force, replace the share by one that rounds the same
-everywhere.
+it. So the functions below, which return the force, replace the share, and the speed in front of it
+that is drawn near.
 """
 
 
 @ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _PULL(spring: Handle, length: float) -> float:  # noqa: N802
-    rest = float(ffi.cast("double *", spring)[REST])
-    return _pulled(rest - length, spring, REST, LOST, FELT)
+    n = ffi.cast("double *", spring)
+    ax, ay, bx, by = (float(n[LOST + 1 + k]) for k in range(4))  # the arms to its ends
+    a, b = (ffi.cast("double *", body) for body in _ends_of(spring))
+    x = (b[FAST] - b[SPIN] * by) - (a[FAST] - a[SPIN] * ay)
+    y = (b[FAST + 1] + b[SPIN] * bx) - (a[FAST + 1] + a[SPIN] * ax)
+    closing = x * n[FELT + 1] + y * n[FELT + 2]
+    return float(n[REST] - length) * _damped(spring, REST, LOST, FELT, closing)
 
 
 @ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _TWIST(spring: Handle, angle: float) -> float:  # noqa: N802
-    rest = float(ffi.cast("double *", spring)[REST_ANGLE])
-    return _pulled(angle - rest, spring, REST_ANGLE, LOST_TURNING, FELT_TURNING)
+    a, b = (ffi.cast("double *", body) for body in _ends_of(spring))
+    stiffness = _damped(spring, REST_ANGLE, LOST_TURNING, FELT_TURNING, a[SPIN] - b[SPIN])
+    return float(angle - ffi.cast("double *", spring)[REST_ANGLE]) * stiffness
 
 
-def _pulled(off: float, spring: Handle, rest: int, lost: int, felt: int) -> float:
-    """Return the force of a spring that is off its rest, and set the speed that its damper takes.
+def _ends_of(spring: Handle) -> tuple[Handle, Handle]:
+    return lib.cpConstraintGetBodyA(spring), lib.cpConstraintGetBodyB(spring)
 
-    The engine lets the force act at once, and the damper after it. So the force is larger by as
-    much as the damper takes of it, too much: it should take of it as it comes.
+
+def _damped(spring: Handle, rest: int, lost: int, felt: int, closing: float) -> float:
+    """Return a spring's stiffness, and let its damper act on the speed all through the step.
+
+    closing: the speed before the step. The engine draws the speed v* that all forces lead to
+    towards the number in front of `lost`, by the share there. So it becomes
+    v' = v* - x ((1 - theta) v + theta v'), where x is what fades and theta is such that this is
+    exact with no other force, and at rest where forces hold the spring.
     """
-    numbers = ffi.cast("double *", spring)
+    n = ffi.cast("double *", spring)
     h = lib.cpSpaceGetCurrentTimeStep(lib.cpConstraintGetSpace(spring))
-    fades = float(numbers[rest + 2]) * h / float(numbers[felt])
-    numbers[lost] = 1.0 - exponential(-fades)
-    return off * float(numbers[rest + 1]) * surge(fades)
+    fades = float(n[rest + 2]) * h / float(n[felt])
+    theta = implicitness(fades)
+    n[lost - 1] = -closing * (1.0 - theta) / theta
+    n[lost] = fades * theta / (1.0 + fades * theta)
+    return float(n[rest + 1])
 
 
 def _damp(kind: int, spring: Handle) -> None:
-    """Let a spring be damped by our own exponential."""
+    """Let a spring be damped as we do."""
     if kind == DAMPED_SPRING:
         lib.cpDampedSpringSetSpringForceFunc(spring, _PULL)
     else:

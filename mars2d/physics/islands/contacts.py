@@ -165,7 +165,7 @@ class Touch:
 
     @cython.cfunc
     def end(self, time: cython.double) -> cython.void:
-        """End it; one that lasted until a control step's start, `time`, has a row of that instant."""
+        """End it; one that lasted until the control step's start, `time`, has a row of then."""
         if self.goes_on and not self.any:
             self.any, self.first, self.time = True, self.last, time
         self.goes_on = False

@@ -246,7 +246,6 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     body: Body
     group: Body
     tie: Tie
-    k: cython.int
     for body in solver.bodies:
         body.held_by, body.lasting = 0.0, True
     for tie in solver.ties:
