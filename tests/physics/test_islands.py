@@ -364,7 +364,7 @@ def file(n: int) -> tuple[World, np.ndarray]:
 
 
 @pytest.mark.parametrize(
-    ("crowd", "n", "most"), [(heap, 16, 7), (heap, 64, 10), (file, 12, 7), (file, 30, 15)]
+    ("crowd", "n", "most"), [(heap, 16, 7), (heap, 64, 11), (file, 12, 7), (file, 30, 16)]
 )
 def test_pushes_add_up_to_no_more_overlap_and_to_few_more_substeps(crowd, n, most):
     """As many as a heap needs, where a file of as many robots would need more."""

@@ -240,6 +240,7 @@ class Body:
     hit_depth: cython.double  # J, the same times how deep these are
     held_by: cython.double  # N s, the impulses of drives, floors, joints and pulls
     lasting: cython.bint  # whether no more than these has acted
+    eased: cython.bint  # whether a blow has put it back out of what it hit
     shift: cython.double  # s, since when the impulses have acted, in the mean
     push_work: cython.double
     rub_work: cython.double
@@ -320,7 +321,7 @@ class Body:
         self.drag_x = self.drag_y = self.drag_turn = self.pull_turn = 0.0
         self.hit_x = self.hit_y = self.hit_turn = self.pressure = 0.0
         self.shift = self.hit_power = self.hit_depth = self.held_by = 0.0
-        self.lasting = False
+        self.lasting = self.eased = False
         self.push_work = self.rub_work = self.excess = self.push_power = self.rub_power = 0.0
         self.share, self.crowd, self.springy, self.driven = 1.0, 1, False, False
         self.held_x = self.held_y = self.held_turn = self.hold_work = self.hold_energy = 0.0

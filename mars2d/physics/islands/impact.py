@@ -142,9 +142,9 @@ class Impact:
         ny: cython.double = self.normal_y
         parting: cython.double = after_x * nx + after_y * ny
         closing: cython.double = -(x * nx + y * ny)
-        if 0.0 < self.depth <= closing * h * (1 + 1e-9):
+        if closing > 0.0 and self.depth <= closing * h * (1 + 1e-9):
             group.hit_power += self.push * closing
-            group.hit_depth += self.push * self.depth
+            group.hit_depth += self.push * max(self.depth, 0.0)
         group.push_work += self.push * (parting - closing) / 2
         group.rub_work += self.rub * ((y + after_y) * nx - (x + after_x) * ny) / 2
         group.excess += self.push * (parting + bounce)
@@ -269,7 +269,7 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     middle: cython.double = h / 2 if solver.ties else 0.0
     for body in solver.bodies:
         group = group_of(body)
-        body.lasting = group.lasting or group.hit_power == 0.0
+        body.eased = not group.lasting and group.hit_power > 0.0
         if group.lasting:
             body.shift = h / 2
         elif group.hit_power > 0.0:

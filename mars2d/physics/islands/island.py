@@ -398,7 +398,7 @@ class Island:
         for body in self.bodies:
             body.back_x, body.back_y = body.x, body.y
         for pair in self.pairs:
-            if pair.gap > self.accuracy.closed or pair.gap <= -pressed / 8:
+            if pair.gap > self.accuracy.closed or pair.gap <= -pressed / 8 or pair.parts():
                 continue
             draw_together(pair, pressed)
             any_moved = True
@@ -562,7 +562,7 @@ class Island:
         """
         body.ahead = body.is_pushed() or body.solved
         if body.is_pushed() or (body.solved and body.lead != 0.0):
-            self.solver.share_out(body, h, body.shift, body.lasting)
+            self.solver.share_out(body, h, body.shift)
             body.slips = True
             if not body.solved and body.shift > 0.0 and not body.tied:
                 # From the blow on its drive, or the floor, has acted: as in the open.

@@ -155,6 +155,14 @@ class Pair:
         return wall.hidden(body.start_x, body.start_y, body.radius + body.way)
 
     @cython.cfunc
+    def parts(self) -> cython.bint:
+        """Return whether its bodies move apart, but for what they turn."""
+        apart: cython.double = -(self.a.vx * self.normal_x + self.a.vy * self.normal_y)
+        if not self.is_wall:
+            apart += self.b.vx * self.normal_x + self.b.vy * self.normal_y
+        return apart > 1e-9
+
+    @cython.cfunc
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
         raise NotImplementedError

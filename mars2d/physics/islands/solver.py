@@ -498,14 +498,11 @@ class Solver:
         body.bear(body.drag_x, body.drag_y, angle, body.vx, body.vy)
 
     @cython.cfunc
-    def share_out(
-        self, body: Body, h: cython.double, shift: cython.double, lasting: cython.bint
-    ) -> cython.void:
+    def share_out(self, body: Body, h: cython.double, shift: cython.double) -> cython.void:
         """Take over a body's motion, and the change of its kinetic energy in the step.
 
         shift: s, since when its impulses have acted, in the mean: it has gone as much further as
-        they have changed its velocity. lasting: whether they go on; else they have put it back out
-        of what it hit, and the engine need not mend that.
+        they have changed its velocity. What a blow has so put back out need not be mended.
 
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
@@ -517,7 +514,7 @@ class Solver:
         body.y += shift * (body.after_y - body.before_y)
         body.angle += shift * (body.spin - body.before_spin)
         body.vx, body.vy, body.placed = body.after_x, body.after_y, True
-        if not lasting:
+        if body.eased:
             settle_down(body.handle)
         if body.lead != 0.0:
             body.lean(body.angle)

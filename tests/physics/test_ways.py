@@ -1,0 +1,160 @@
+"""Ways in contact: what lasting forces do is of second order, whatever else is touched.
+
+Each formula stands beside a contact that does nothing, at several sampling times, and momentum and
+energy are looked at after each control step.
+"""
+
+from __future__ import annotations
+
+from math import exp, sin, sqrt
+
+import numpy as np
+import pytest
+
+from mars2d import Car, Differential, Robot, Scenario, Unicycle, World
+from mars2d.addons import Map
+from mars2d.bodies import Ball, Box, Puck, Spring
+
+FAR = Robot(pose=(0, -90, 0))
+GRAVITY = 9.81
+
+
+def world_of(robots=(FAR,), props=(), *, stop_time=4.0, sampling_time=0.1, **fields) -> World:
+    return World(
+        Scenario(
+            robots=list(robots), props=list(props), workspace=None, stop_time=stop_time,
+            sampling_time=sampling_time, **fields,
+        )
+    )  # fmt: skip
+
+
+def at_rest(world: World) -> World:
+    """Step to the end without commands."""
+    while not world.over:
+        world.step(np.zeros((2, len(world.robots))))
+    return world
+
+
+@pytest.mark.parametrize("sampling_time", [1.0, 0.5, 0.1, 0.02, 0.005])
+def test_what_slides_beside_a_smooth_wall_goes_as_far_as_in_the_open(sampling_time):
+    for angle in (0.0, 0.7):
+        c, s = np.cos(angle), sin(angle)
+        walls = Map(walls=[[(-c, -s), (30 * c, 30 * s)]])
+        place, way = np.array([-s, c]) * 0.1, np.array([c, s])
+        puck = Puck(
+            pose=(*place, 0), velocity=(*(2 * way), 0), ground_friction=0.6, friction=0.0
+        )  # fmt: skip
+        world = at_rest(world_of(props=[puck], addons=[walls], sampling_time=sampling_time))
+        gone = (world.prop_pose[:2, 0] - place) @ way
+        assert gone == pytest.approx(4 / (2 * 0.6 * GRAVITY), rel=1e-6)
+
+
+@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.005])
+def test_what_slides_and_spins_at_a_smooth_wall_does_as_in_the_open(sampling_time):
+    ends = []
+    for y in (0.1, 0.5):
+        puck = Puck(pose=(0, y, 0), velocity=(1.5, 0, 9), ground_friction=0.3, friction=0.0)
+        walls = Map(walls=[[(-1, 0), (30, 0)]])
+        world = at_rest(world_of(props=[puck], addons=[walls], sampling_time=sampling_time))
+        ends.append(world.prop_pose[[0, 2], 0])
+    assert ends[0] == pytest.approx(ends[1], abs=1e-9)
+
+
+def test_pucks_side_by_side_slide_as_each_alone():
+    pucks = [
+        Puck(pose=(0, y, 0), velocity=(2, 0, 0), ground_friction=mu, friction=0.0, diameter=0.2)
+        for y, mu in ((0.0, 0.6), (0.2, 0.3))
+    ]
+    world = at_rest(world_of(props=pucks, sampling_time=0.5))
+    ways = [4 / (2 * mu * GRAVITY) for mu in (0.6, 0.3)]
+    assert world.prop_pose[0] == pytest.approx(ways, rel=1e-6)
+
+
+@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.005])
+@pytest.mark.parametrize("max_overlap", [4e-3, 1e-3])
+def test_a_pushed_box_goes_half_a_t_squared(sampling_time, max_overlap):
+    robot = Robot(drive=Unicycle(max_force=5))
+    box = Box(pose=(0.35, 0, 0), length=0.4, width=0.4, mass=1.0, ground_friction=0.5)
+    world = world_of(
+        [robot], [box], sampling_time=sampling_time, stop_time=1.0, max_overlap=max_overlap
+    )
+    a = (5 - 0.5 * GRAVITY) / 2
+    while not world.over:
+        world.step([[0.2], [0.0]])
+        way = world.prop_pose[0, 0] - 0.35
+        assert way == pytest.approx(a * world.time**2 / 2, rel=1e-3, abs=1e-6)
+
+
+@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.005])
+def test_a_robot_that_was_hit_is_braked_over_its_way(sampling_time):
+    drive = Unicycle(max_force=5, max_torque=5)
+    ways = []
+    for k in range(12):
+        ball = Ball(pose=(0, -1 - 0.037 * k, 0), velocity=(0, 2.0, 0), mass=1.0, restitution=1.0)
+        robot = Robot(friction=0, restitution=1, drive=drive)
+        world = at_rest(world_of([robot], [ball], sampling_time=sampling_time))
+        ways.append(world.pose[1, 0])
+    assert ways == pytest.approx([4 / (2 * 5.0)] * 12, rel=1e-3)
+
+
+@pytest.mark.parametrize("damping", [0.0, 1.0, 5.0])
+@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.02])
+def test_a_spring_swings_as_the_formula_says_at_each_instant(damping, sampling_time):
+    mass, stiffness, amplitude = 1.0, 10.0, 0.3
+    puck = Puck(name="p", pose=(1 + amplitude, 0, 0), mass=mass, ground_friction=0.0)
+    spring = Spring(a="p", b=None, rest_length=1.0, stiffness=stiffness, damping=damping)
+    world = world_of(props=[puck], joints=[spring], sampling_time=sampling_time, stop_time=10)
+    fades = damping / (2 * mass)
+    omega = sqrt(stiffness / mass - fades**2)
+    while not world.over:
+        world.step([[0], [0]])
+        t = world.time
+        swing = np.cos(omega * t) + fades / omega * sin(omega * t)
+        assert world.prop_pose[0, 0] == pytest.approx(
+            1 + amplitude * exp(-fades * t) * swing, abs=5e-3 * amplitude
+        )
+
+
+def test_a_ball_between_two_walls_turns_where_it_touches():
+    ball = Ball(
+        diameter=0.2, velocity=(1.0, 0, 0), restitution=1.0, friction=0.0, ground_friction=0.0
+    )  # fmt: skip
+    walls = Map(walls=[[(x, -1), (x, 1)] for x in (-0.35, 0.35)], restitution=1.0)
+    for sampling_time in (0.5, 0.1, 0.01):
+        world = world_of(props=[ball], addons=[walls], sampling_time=sampling_time, stop_time=20.0)
+        while not world.over:
+            world.step([[0], [0]])
+            phase = (world.time + 0.25) % 1.0
+            expected = phase - 0.25 if phase < 0.5 else 0.75 - phase
+            assert world.prop_pose[0, 0] == pytest.approx(expected, abs=1e-6)
+
+
+def test_momentum_and_energy_hold_after_each_control_step_of_a_blow():
+    robot = Robot(restitution=1, friction=0, drive=Unicycle(max_force=1e-9, max_torque=1e-9))
+    for sampling_time in (0.5, 0.1, 0.005):
+        for k in range(20):
+            puck = Puck(
+                pose=(-0.55 - 0.037 * k, 0, 0), velocity=(1, 0, 0), ground_friction=0.0,
+                restitution=1.0, friction=0.0,
+            )  # fmt: skip
+            world = world_of([robot], [puck], sampling_time=sampling_time, stop_time=1.5)
+            while not world.over:
+                world.step([[0], [0]])
+                assert world.momentum.linear[0].sum() == pytest.approx(1.0, abs=1e-7)
+                assert world.energy.total == pytest.approx(0.5, abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("drive", "command"),
+    [
+        (Unicycle(max_acceleration=0.4, max_linear_speed=2), (1.5, 0.0)),
+        (Differential(max_acceleration=0.4, command="twist"), (0.4, 0.5)),
+        (Car(max_acceleration=0.4, max_linear_speed=2), (1.0, 0.3)),
+        (Car(max_steering_rate=0.3), (0.4, 0.5)),
+    ],
+)
+def test_on_ramps_works_are_the_kinetic_energy(drive, command):
+    world = world_of([Robot(mass=2.0, drive=drive)], stop_time=3)
+    while not world.over:
+        world.step(np.array([command]).T)
+        assert world.energy.work.sum() == pytest.approx(world.energy.total, rel=1e-9, abs=1e-12)
