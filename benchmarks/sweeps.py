@@ -21,7 +21,8 @@ from typing import NamedTuple
 from outcome import write
 
 import mars2d
-from mars2d.study.work import Failure, each_done
+from mars2d.study.work import each_done
+from mars2d.study.workers import Failure
 
 EXPERIMENT = "random_walk"
 

@@ -14,8 +14,6 @@ from mars2d.core.materials import check_static, surface_friction, surface_restit
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
 
-__all__ = ["HOOKS", "Addon", "Color", "hooks_of"]
-
 Color = tuple[float, float, float]
 """Red, green and blue from 0 to 1."""
 

@@ -15,8 +15,6 @@ from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene, color, faded
 
-__all__ = ["Beacon"]
-
 PATH = "at least two points, such as [(x, y), ...] in metres, or None"
 
 

@@ -12,8 +12,6 @@ from mars2d.core.checks import instance, optional
 from mars2d.core.description import Description, entry, flag, number
 from mars2d.core.errors import InputError
 
-__all__ = ["Burst", "Communication"]
-
 
 def _probability(default: Any, doc: str, *, above: float | None = None) -> Any:
     return number(

@@ -16,8 +16,6 @@ from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike
 from mars2d.core.scene import Scene
 
-__all__ = ["Capture", "Contest", "Outcome", "Teams", "listed", "mark", "robots_of"]
-
 Role = tuple[str, tuple[str | int, ...]]
 Teams = tuple[tuple[int, ...], tuple[int, ...]]
 """The indices of the robots of the first role, in a pursuit the hunters, and of the second."""

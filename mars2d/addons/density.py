@@ -27,8 +27,6 @@ from mars2d.core.scene import Scene, color, rgb
 from mars2d.core.usercode import called
 from mars2d.geometry.voronoi import Weight, density_at
 
-__all__ = ["Density"]
-
 Float = NDArray[np.float64]
 
 RASTER = 200

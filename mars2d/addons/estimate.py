@@ -17,8 +17,6 @@ from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene, color, faded
 from mars2d.geometry.dead_reckoning import covariance_after_arc
 
-__all__ = ["Estimate", "ellipse"]
-
 Float = NDArray[np.float64]
 
 CORNERS = 72

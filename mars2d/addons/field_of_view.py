@@ -11,8 +11,6 @@ from mars2d.core.errors import InputError, nearest
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, faded
 
-__all__ = ["FieldOfView"]
-
 FAR = 50.0
 """The range beyond which a field is drawn only if its sensor is named, metres."""
 

@@ -26,8 +26,6 @@ from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectang
 from mars2d.core.scene import Scene, rgb
 from mars2d.core.scene import color as checked_color
 
-__all__ = ["Floor"]
-
 
 @accepts({"type": "string"})
 def _opaque(name: str, value: object) -> str:

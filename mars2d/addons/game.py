@@ -16,8 +16,6 @@ from mars2d.core.interfaces import FrameLike, RecordLike, ScenarioLike, WorldLik
 from mars2d.core.plane import Outline, edges_of, outside_polygon
 from mars2d.core.scene import Scene, faded
 
-__all__ = ["Capture", "Game", "Outcome"]
-
 Float = NDArray[np.float64]
 CONTACT, SIGHT = "contact", "sight"
 GRASS = "#dcebdc"

@@ -14,8 +14,6 @@ from mars2d.core.errors import InputError
 from mars2d.core.files import file_beside
 from mars2d.core.plane import Outline
 
-__all__ = ["Map"]
-
 
 class Map(Addon):
     """Obstacles from lists of vertices [m]: two vertices make a wall, more a closed polygon.

@@ -13,8 +13,6 @@ from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import THEORY, Scene, faded
 from mars2d.geometry.potential_field import Goals, Potential
 
-__all__ = ["PotentialField"]
-
 CROSS = 0.4
 """Half the width of a cross at a local minimum, metres."""
 

@@ -16,8 +16,6 @@ from mars2d.core.interfaces import FrameLike, RecordLike, ScenarioLike, WorldLik
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
 
-__all__ = ["Ring"]
-
 Float = NDArray[np.float64]
 CLAY = "#f3ead8"
 """The colour of the floor of a ring."""

@@ -11,8 +11,6 @@ from mars2d.core.description import entry
 from mars2d.core.interfaces import FrameLike
 from mars2d.core.scene import Scene
 
-__all__ = ["Theory"]
-
 
 def _drawing(name: str, value: object) -> object:
     return function(name, value, "the scene", "the frame")

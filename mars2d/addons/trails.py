@@ -14,8 +14,6 @@ from mars2d.core.description import accepts, entry, number
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, color_of, rgb
 
-__all__ = ["Trails"]
-
 MAX_PIECES = 12
 """The most pieces of one trail, each fainter than the one before it."""
 

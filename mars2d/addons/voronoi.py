@@ -13,9 +13,8 @@ from mars2d.core.errors import InputError, nearest
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline
 from mars2d.core.scene import THEORY, Scene, faded
-from mars2d.geometry.voronoi import Segment, Tessellation, Weight
-
-__all__ = ["Voronoi"]
+from mars2d.geometry.partition import Segment
+from mars2d.geometry.voronoi import Tessellation, Weight
 
 EDGE = "#5b6470b0"
 

@@ -17,8 +17,6 @@ from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.core.scene import Scene, faded
 
-__all__ = ["Waypoints"]
-
 EXPECTED = "one list of points for each robot, such as [[(x, y), ...], [(x, y), ...]] in metres"
 
 PALE = 0.35

@@ -12,16 +12,6 @@ from typing import Any
 from mars2d.core.description import Description, number
 from mars2d.core.errors import InputError
 
-__all__ = [
-    "Constraint",
-    "FixedDistance",
-    "MaxDistance",
-    "Pin",
-    "SpringDamper",
-    "TurningRange",
-    "TurningSpring",
-]
-
 MAX_LENGTH = 1e12
 MAX_STIFFNESS = 1e6
 MAX_DAMPING = 1e6

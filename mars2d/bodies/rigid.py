@@ -8,8 +8,6 @@ from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.plane import Point
 from mars2d.geometry.shapes import Disc, Shape
 
-__all__ = ["Inertia", "Rigid", "Surface", "inertia_of"]
-
 Triple = tuple[float, float, float]
 
 

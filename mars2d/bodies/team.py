@@ -15,8 +15,6 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import LawError, shown
 from mars2d.core.usercode import called
 
-__all__ = ["Drives"]
-
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 Stream = Callable[[str], np.random.Generator]

@@ -19,22 +19,6 @@ from mars2d.scenario.options import parse_setting
 from mars2d.scenario.roles import robots_named
 from mars2d.window.display import Preferences
 
-__all__ = [
-    "add_human",
-    "add_options",
-    "add_preferences",
-    "add_run_arguments",
-    "add_speed",
-    "add_theory",
-    "add_workers",
-    "humans_of",
-    "options_of",
-    "preferences_of",
-    "theory_of",
-    "times",
-    "workers_of",
-]
-
 
 def add_run_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of all verbs that run an experiment."""
@@ -157,7 +141,8 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
 @contextmanager
 def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None, int | None]]:
     """Yield the executor and the number of workers that `add_workers` asks for."""
-    from mars2d.study.work import cluster, worker_count  # of many runs, and slow to import
+    from mars2d.study.cluster import cluster
+    from mars2d.study.work import worker_count
 
     if arguments.workers is not None:
         worker_count(arguments.workers)

@@ -38,8 +38,6 @@ from mars2d.core.lastresort import keep_orphans, kill, look_on, started_here
 from mars2d.core.terminal import legible, warn
 from mars2d.core.words import instead
 
-__all__ = ["main", "parser"]
-
 OK, FAULT, BAD_INPUT = 0, 1, 2
 
 LEFT = 2.0

@@ -18,18 +18,6 @@ from mars2d.scenario.scenario import Scenario
 if TYPE_CHECKING:
     from mars2d.output.films.footage import Footage
 
-__all__ = [
-    "DURATION",
-    "FPS",
-    "SIZE",
-    "Film",
-    "add_film",
-    "check_film",
-    "film_speed",
-    "save_film_of",
-    "save_footage",
-]
-
 Film = Callable[[], object]
 """A function that makes a film, or another file."""
 

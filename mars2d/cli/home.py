@@ -10,8 +10,6 @@ from mars2d.cli.runs import has_display
 from mars2d.core.errors import Mars2dError, one_line
 from mars2d.core.terminal import tell, warn
 
-__all__ = ["home"]
-
 
 def home(parser: argparse.ArgumentParser, _: argparse.Namespace) -> None:
     """Show the home, and run the command chosen there; print the help if there is no display."""

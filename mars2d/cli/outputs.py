@@ -19,23 +19,10 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
+from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster import require_pygame
 from mars2d.record.record import Record
 from mars2d.world.loop import Interrupted
-
-__all__ = [
-    "OUTPUTS",
-    "add_html",
-    "add_pictures",
-    "check_outputs",
-    "check_snapshots",
-    "naming_lost_letters",
-    "run_and_save",
-    "save_record",
-    "say",
-    "tell_files",
-]
-
 
 OUTPUTS = {
     "record": formats.SUFFIXES,
@@ -93,7 +80,7 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
         if name == "video":
             require_pygame("a film")
             if path.suffix.lower() == ".mp4":
-                film.require_av(path)
+                require_av(path)
         if name == "record":
             formats.require(path)
         if name == "figure":

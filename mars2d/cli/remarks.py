@@ -17,8 +17,6 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
 from mars2d.world.world import World
 
-__all__ = ["Bounds", "before"]
-
 ORDERED = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 """The comparisons that a number is meant for."""
 

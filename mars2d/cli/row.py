@@ -18,8 +18,6 @@ from mars2d.study.code import code_of
 from mars2d.study.measures import measure_named, measured
 from mars2d.study.table import Result, Table, load_table
 
-__all__ = ["show_row"]
-
 
 def show_row(arguments: argparse.Namespace, path: Path) -> None:
     """Run a row of a study's file again, and print its measures then and now.

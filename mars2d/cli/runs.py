@@ -21,18 +21,6 @@ from mars2d.world.world import Watcher, World
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
-__all__ = [
-    "has_display",
-    "make_folder",
-    "predictions_of",
-    "print_examples",
-    "print_predictions",
-    "print_table",
-    "run_headless",
-    "show",
-    "warn_unchecked",
-]
-
 CROSSING = 5.0
 """How long the quickest robot that a person drives takes from side to side, seconds of the clock,
 unless a speed is given."""

@@ -13,11 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = [
-    "angle_of", "angles_of", "arsinh", "cosine_sine", "cosines_sines", "logarithm", "norm", "norms",
-    "whole_power",
-]  # fmt: skip
-
 Float = NDArray[np.float64]
 
 QUARTER = (1.57079632673412561417, 6.07710050630396597660e-11, 2.02226624879595063154e-21)

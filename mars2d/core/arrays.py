@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["is_masked", "locked", "sealed", "within"]
-
 
 def locked(array: NDArray[Any]) -> NDArray[Any]:
     """Return the same array, which can't be written any more."""

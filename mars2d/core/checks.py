@@ -17,24 +17,6 @@ from mars2d.core.description import Check, Schema, accepts, real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point, is_clearly_convex
 
-__all__ = [
-    "MAX_COORDINATE",
-    "function",
-    "identifier",
-    "instance",
-    "items_of",
-    "law",
-    "listing",
-    "names",
-    "optional",
-    "outline",
-    "outlines",
-    "point",
-    "polylines",
-    "pose",
-    "unique",
-]
-
 MAX_ITEMS = 1_000_000
 """The longest list that a field may have; an iterator may have no end."""
 

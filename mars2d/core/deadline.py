@@ -13,8 +13,6 @@ from types import TracebackType
 from mars2d.core.errors import Passing
 from mars2d.core.usercode import raise_in, users_line
 
-__all__ = ["Deadline", "Late"]
-
 PATIENCE = 10.0
 """The time that a control step may take, seconds."""
 

@@ -7,8 +7,6 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DelayLine", "steps_until"]
-
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 

@@ -23,22 +23,6 @@ import numpy as np
 from mars2d.core.errors import CERTAIN, CONTROLS, InputError, likely, nearest, shown
 from mars2d.core.words import instead
 
-__all__ = [
-    "Description",
-    "Schema",
-    "Stateful",
-    "accepts",
-    "choice",
-    "entry",
-    "flag",
-    "integer",
-    "number",
-    "numbers_schema",
-    "schema_of",
-    "snake_case",
-    "text",
-]
-
 MOST = 40
 """As many fields are listed where none is near."""
 

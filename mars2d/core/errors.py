@@ -7,16 +7,6 @@ import re
 from collections.abc import Iterable
 from typing import Any, TypeGuard, TypeVar
 
-__all__ = [
-    "InputError",
-    "LawError",
-    "Mars2dError",
-    "MissingExtraError",
-    "UnknownNameError",
-    "nearest",
-]
-
-
 Raised = TypeVar("Raised", bound=BaseException)
 
 CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")

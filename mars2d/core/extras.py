@@ -9,8 +9,6 @@ from importlib.metadata import PackageNotFoundError, requires
 
 from mars2d.core.errors import MissingExtraError
 
-__all__ = ["extra", "pip_line"]
-
 
 def pip_line(name: str) -> str:
     """Return the command that installs the libraries of an extra, wherever MARS2D came from.

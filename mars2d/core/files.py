@@ -16,19 +16,6 @@ from typing import BinaryIO
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.lock import lock
 
-__all__ = [
-    "REPLACED_OPEN",
-    "atomic_write",
-    "file_beside",
-    "files_read",
-    "growing",
-    "note_file",
-    "refuse_unwritable",
-    "why_unwritable",
-    "writing",
-]
-
-
 REPLACED_OPEN = sys.platform != "win32"
 """Whether the system lets a file be replaced while it is open."""
 

@@ -8,8 +8,6 @@ from importlib import import_module
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 
-__all__ = ["NOW", "FormerNames"]
-
 NOW = {
     "animation": "scenario.animation",
     "bench": "reports.bench",

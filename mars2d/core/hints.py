@@ -13,8 +13,6 @@ from types import FrameType
 from mars2d.core.errors import InputError, class_name, is_a, likely, passes
 from mars2d.core.words import instead
 
-__all__ = ["described"]
-
 ROOMS = ("mars2d", "mars2d.sensors", "mars2d.addons", "mars2d.bodies", "mars2d.geometry")
 """The packages whose names people import."""
 

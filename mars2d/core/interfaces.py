@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.plane import Outline
 
-__all__ = ["FrameLike", "RecordLike", "RobotLike", "RobotSpec", "ScenarioLike", "WorldLike"]
-
 Float = NDArray[np.float64]
 
 

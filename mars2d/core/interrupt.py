@@ -23,19 +23,6 @@ from typing import Any
 
 from mars2d.core.lastresort import heard
 
-__all__ = [
-    "INTERRUPTED",
-    "ending",
-    "held_back",
-    "interrupts_blocked",
-    "leave",
-    "noted_interrupts",
-    "raised_once",
-    "unbroken",
-    "unwrapped",
-    "was_interrupted",
-]
-
 INTERRUPTED = 130
 """The command line's exit code after Ctrl-C, by the convention of shells."""
 

@@ -15,16 +15,6 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = [
-    "die_with_parent",
-    "heard",
-    "keep_orphans",
-    "kill",
-    "kill_group",
-    "look_on",
-    "started_here",
-]
-
 ASKED = 2.0
 """How long after a first signal that nobody has heard a second one ends the command, seconds."""
 

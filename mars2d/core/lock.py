@@ -9,8 +9,6 @@ from typing import BinaryIO
 
 from mars2d.core.errors import InputError
 
-__all__ = ["lock"]
-
 LOCKED_BYTE = 2**40
 """The byte to lock on systems that lock bytes: far behind the end of any file."""
 

@@ -26,20 +26,6 @@ from typing import NamedTuple, Self
 from mars2d.core.description import Schema, accepts, real, wrong
 from mars2d.core.errors import nearest
 
-__all__ = [
-    "GRAVITY",
-    "MATERIALS",
-    "RULES",
-    "Coefficient",
-    "Material",
-    "blended",
-    "check_static",
-    "material",
-    "material_of",
-    "surface_friction",
-    "surface_restitution",
-]
-
 GRAVITY = 9.81
 """The acceleration of gravity, m/s^2."""
 

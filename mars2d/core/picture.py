@@ -20,20 +20,6 @@ from mars2d.core.description import accepts, real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.scene import LARGEST_IMAGE, rgb
 
-__all__ = [
-    "Bounds",
-    "Picture",
-    "Pictured",
-    "Pixels",
-    "holds_pixels",
-    "image_bounds",
-    "image_file",
-    "opened_image",
-    "picture_name",
-    "read_picture",
-    "without_pixels",
-]
-
 Pixels = NDArray[np.uint8]
 Bounds = tuple[float, float, float, float]
 """The place of an image: (xmin, xmax, ymin, ymax), metres."""

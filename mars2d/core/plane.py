@@ -14,23 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.arithmetic import angles_of, norms
 
-__all__ = [
-    "ON_THE_EDGE",
-    "WITHIN",
-    "bounds_of",
-    "distance_to_ring",
-    "edges_of",
-    "grid_step",
-    "inside_polygon",
-    "is_clearly_convex",
-    "lines_and_areas",
-    "outside_polygon",
-    "point_segment_distance",
-    "rectangle",
-    "up_to",
-    "wrap",
-]
-
 Float = NDArray[np.float64]
 Point = tuple[float, float]
 Outline = Sequence[Point]

@@ -6,8 +6,6 @@ import sys
 import time
 from typing import Protocol, TextIO
 
-__all__ = ["Progress"]
-
 
 class Stepped(Protocol):
     """An object whose iteration counts up."""

@@ -14,8 +14,6 @@ from mars2d.core.errors import likely
 from mars2d.core.plane import wrap
 from mars2d.core.streams import Random
 
-__all__ = ["ANGLE", "COLOR", "DISTANCE", "FLAG", "NUMBER", "UNKNOWN", "Quantity"]
-
 Values = NDArray[np.float64] | NDArray[np.bool_]
 
 OUTLIER_SCALE = 10.0

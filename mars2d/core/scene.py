@@ -21,27 +21,6 @@ from mars2d.core.description import accepts
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.plane import Outline
 
-__all__ = [
-    "INK",
-    "PALETTE",
-    "THEORY",
-    "Arrow",
-    "Circle",
-    "Image",
-    "Line",
-    "Polygon",
-    "Scene",
-    "Text",
-    "arrow_outline",
-    "color",
-    "color_of",
-    "color_word",
-    "faded",
-    "optional_color",
-    "rgb",
-    "wake_style",
-]
-
 Anchor = Literal["center", "left", "right", "above", "below"]
 
 LARGEST_IMAGE = 4096

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.description import wrong
 
-__all__ = ["Random", "Streams", "check_seed", "stream"]
-
 Float = NDArray[np.float64]
 Shape = tuple[int, ...]
 

@@ -10,8 +10,6 @@ from typing import TextIO
 
 from mars2d.core.errors import InputError, escaped, one_line
 
-__all__ = ["legible", "tell", "warn"]
-
 
 def tell(*values: object, sep: str = " ", end: str = "\n") -> None:
     """Print values on stdout, as `print` does, without codes of a terminal that may be in them.

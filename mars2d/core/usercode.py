@@ -30,19 +30,6 @@ from mars2d.core.errors import (
 )
 from mars2d.core.hints import described
 
-__all__ = [
-    "Excerpt",
-    "Hangs",
-    "called",
-    "definition",
-    "excerpt_of",
-    "name_of",
-    "quiet",
-    "raise_in",
-    "stack_of",
-    "users_line",
-]
-
 _PACKAGE = Path(__file__).parents[1]
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
 

@@ -15,8 +15,6 @@ from types import FrameType
 from mars2d.core.errors import InputError, shown
 from mars2d.core.usercode import Hangs, raise_in, users_line
 
-__all__ = ["VARIABLE", "Watchdog", "patience"]
-
 VARIABLE = "MARS2D_PATIENCE"
 """The environment variable that sets the patience, seconds; 0 waits for ever."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["instead"]
-
 POSE = "pose=(x, y, theta)"
 LAW = "controller=law"
 LIMIT = "drive=Unicycle(max_linear_speed=...)"

@@ -15,8 +15,6 @@ from mars2d.core.plane import WITHIN, Point, up_to, wrap
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 
-__all__ = ["BEARING", "RANGE", "Sight", "beam_angles", "draw_sighted", "hold_missing", "sighted"]
-
 Float = NDArray[np.float64]
 
 RANGE = Quantity("range", "m", "distance")

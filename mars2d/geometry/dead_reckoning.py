@@ -10,8 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.scene import Scene, faded
 
-__all__ = ["covariance_after_arc", "covariances", "draw_pose", "odometry_covariance", "sinc"]
-
 Float = NDArray[np.float64]
 
 

@@ -10,8 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.arithmetic import cosine_sine
 
-__all__ = ["dominance"]
-
 Float = NDArray[np.float64]
 FAR = 1e3
 """Where one who flees is never caught on a straight way, the boundary is drawn so far away, m."""

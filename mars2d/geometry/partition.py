@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from mars2d.core import checks
 from mars2d.core.plane import Outline, Point
 
-__all__ = ["Moments", "Partition", "Segment", "partition", "totals", "unwritable"]
-
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 Segment = tuple[Point, Point]

@@ -15,8 +15,6 @@ from mars2d.core.arithmetic import norm, norms
 from mars2d.core.description import Description, entry, number
 from mars2d.core.plane import Outline, Point
 
-__all__ = ["Goals", "Potential"]
-
 Float = NDArray[np.float64]
 
 MIN_CLEARANCE = 1e-3

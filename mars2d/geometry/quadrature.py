@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.arithmetic import norms
 
-__all__ = ["nodes"]
-
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 

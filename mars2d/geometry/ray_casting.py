@@ -22,8 +22,6 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.arithmetic import cosines_sines, norms
 from mars2d.core.plane import WITHIN, Outline, Point, edges_of, up_to
 
-__all__ = ["CORNER", "Fans"]
-
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 Mask = NDArray[np.bool_]

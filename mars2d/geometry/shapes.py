@@ -20,18 +20,6 @@ from mars2d.core.description import Description, accepts, entry, real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point
 
-__all__ = [
-    "Compound",
-    "Disc",
-    "Piece",
-    "Plate",
-    "Polygon",
-    "Rim",
-    "Shape",
-    "known_shape",
-    "rectangle",
-]
-
 Float = NDArray[np.float64]
 
 MAX_VERTICES = 64

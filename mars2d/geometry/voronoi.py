@@ -16,8 +16,6 @@ from mars2d.core.plane import Outline
 from mars2d.geometry.partition import Moments, Segment, partition, totals, unwritable
 from mars2d.geometry.quadrature import nodes
 
-__all__ = ["Segment", "Tessellation", "Weight", "density_at"]
-
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 Phi = Callable[[Float, Float], ArrayLike]

@@ -9,8 +9,6 @@ from mars2d.output.layers.forces import FORCE
 from mars2d.output.raster.theme import Theme
 from mars2d.record.marks import MarkKind
 
-__all__ = ["MARKS", "Mark"]
-
 
 class Mark(NamedTuple):
     """A kind of tick.

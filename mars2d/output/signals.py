@@ -23,18 +23,6 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.sensors import Sensor
 
-__all__ = [
-    "Signal",
-    "as_csv",
-    "chosen_robots",
-    "known_columns",
-    "net_forces",
-    "signals",
-    "signals_of_bodies",
-    "thinned",
-    "without_nothing",
-]
-
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 

@@ -17,8 +17,6 @@ from mars2d.physics.motion import Motion, Start
 from mars2d.physics.translation import iterations_of
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Engine"]
-
 Float = NDArray[np.float64]
 
 

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from mars2d.physics.motion import Motion, Start
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Kinematics"]
-
 Float = NDArray[np.float64]
 
 

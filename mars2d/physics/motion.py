@@ -16,8 +16,6 @@ from mars2d.physics.translation import mover_of
 from mars2d.record.contact import CONTACT
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Motion", "Start"]
-
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 

@@ -18,8 +18,6 @@ from mars2d.core.arithmetic import cosines_sines, norm, norms
 from mars2d.core.plane import WITHIN, Point, up_to
 from mars2d.geometry.ray_casting import CORNER
 
-__all__ = ["BODY", "POSE", "SIGHT", "Rays", "end_bars"]
-
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 Addresses = NDArray[np.uintp]

@@ -22,8 +22,6 @@ from mars2d.physics.islands.chipmunk import bodies_are_as_thought, frame_of
 from mars2d.physics.rays import BODY, POSE, SIGHT, Rays, end_bars
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Space"]
-
 Float = NDArray[np.float64]
 
 GOLDEN = (5**0.5 - 1) / 2

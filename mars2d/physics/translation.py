@@ -30,8 +30,6 @@ from mars2d.physics.walls import Wall, walls_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Obstacle, Scenario
 
-__all__ = ["iterations_of", "mover_of"]
-
 Float = NDArray[np.float64]
 
 

@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from mars2d.core.arithmetic import angle_of, norm, norms
 from mars2d.core.plane import Outline, Point, edges_of
 
-__all__ = ["MEET", "Seam", "Shade", "Surface", "Wall", "walls_of"]
-
 MEET = 1e-6
 """How near to each other walls meet, or lie in one line, metres: much less than bodies overlap."""
 

@@ -17,8 +17,6 @@ from numpy.typing import NDArray
 from mars2d.core.arrays import sealed
 from mars2d.core.errors import InputError
 
-__all__ = ["Column", "DiskError", "Scratch", "Storage", "Texts", "blocks"]
-
 MAX_RESERVED = 2**25
 """The most memory that a column takes before it grows, bytes."""
 

@@ -7,8 +7,6 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["CONTACT", "EPISODE", "count_meetings", "episodes", "met", "rows_of"]
-
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 

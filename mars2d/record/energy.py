@@ -11,8 +11,6 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["WORK", "Energy", "Momentum", "energy_of", "momentum_of"]
-
 Float = NDArray[np.float64]
 
 WORK = ("drives", "floor", "friction", "impacts", "joints", "hands")

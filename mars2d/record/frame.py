@@ -17,8 +17,6 @@ from mars2d.record.interventions import Leap
 from mars2d.record.message import MESSAGE
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Frame", "between"]
-
 Float = NDArray[np.float64]
 
 

@@ -15,19 +15,6 @@ from mars2d.core.plane import Point
 from mars2d.scenario import pictures, serialize
 from mars2d.scenario.scenario import Scenario
 
-__all__ = [
-    "Change",
-    "Intervention",
-    "Leap",
-    "Place",
-    "Pull",
-    "Steer",
-    "check",
-    "leaps_of",
-    "of_plain",
-    "to_plain",
-]
-
 Triple = tuple[float, float, float]
 
 

@@ -12,8 +12,6 @@ from mars2d.record.contact import met
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
-__all__ = ["MarkKind", "marks_of", "meetings", "meets"]
-
 MarkKind = Literal["collision", "hand", "branch", "error"]
 """Bodies came to touch; a person intervened; a branch begins; a law, sensor or add-on failed."""
 

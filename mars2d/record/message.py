@@ -11,20 +11,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import LawError, shown
 
-__all__ = [
-    "DELIVERED",
-    "LOST",
-    "MESSAGE",
-    "ON_ITS_WAY",
-    "OUT_OF_REACH",
-    "OVER_BANDWIDTH",
-    "STATUS",
-    "Message",
-    "as_of",
-    "as_text",
-    "in_flight",
-]
-
 STATUS = ("on its way", "delivered", "lost", "out of reach", "over the bandwidth")
 """The states of a message, by the number in the field `status`."""
 

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
-__all__ = ["COLUMNS", "FORMER", "Record", "digest_of", "load"]
-
 Float = NDArray[np.float64]
 
 COLUMNS = (

@@ -21,8 +21,6 @@ from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.error_model import as_numbers
 
-__all__ = ["History", "Recorder", "Unrecorded"]
-
 Float = NDArray[np.float64]
 
 KEPT = frozenset({np.dtype(bool), np.dtype(float)})

@@ -14,8 +14,6 @@ import numpy as np
 
 from mars2d.core.extras import pip_line
 
-__all__ = ["Finding", "examine"]
-
 LIBRARIES = (
     "pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow",
 )  # fmt: skip

@@ -13,8 +13,6 @@ from pathlib import Path
 
 from mars2d.physics.islands import difference
 
-__all__ = ["remedy"]
-
 TRIED = "7.3.1"
 """A version of pymunk that is as the islands were written for."""
 

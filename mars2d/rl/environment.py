@@ -18,8 +18,6 @@ with extra("rl", "environments need gymnasium"):
     import gymnasium
     from gymnasium.spaces import Box
 
-__all__ = ["Environment", "observation_space"]
-
 Row = NDArray[np.float32]
 
 SEEDS = 2**31

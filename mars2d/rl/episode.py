@@ -24,8 +24,6 @@ from mars2d.world.room import Room
 from mars2d.world.views import RobotView
 from mars2d.world.world import World
 
-__all__ = ["Episode", "Law", "Reward", "Source"]
-
 Source = str | Path | ModuleType | Scenario
 Law = Callable[[Any], Any] | str | Path
 Reward = Callable[[World, RobotView], float]

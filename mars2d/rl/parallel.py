@@ -20,8 +20,6 @@ with extra("rl", "environments of several learners need pettingzoo"):
     from gymnasium.spaces import Box
     from pettingzoo import ParallelEnv
 
-__all__ = ["ParallelEnvironment"]
-
 Row = NDArray[np.float32]
 
 

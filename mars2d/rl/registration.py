@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import gymnasium
 
-__all__ = ["IDS", "register"]
-
 IDS = {
     "mars2d/Pursuit-v0": "pursuit",
     "mars2d/Push-v0": "push",

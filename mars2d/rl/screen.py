@@ -16,8 +16,6 @@ from mars2d.world.world import World
 if TYPE_CHECKING:
     import pygame
 
-__all__ = ["MODES", "Screen"]
-
 MODES = ["human", "rgb_array"]
 
 

@@ -18,8 +18,6 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.world.views import RobotView
 from mars2d.world.world import World
 
-__all__ = ["coverage", "pursuit", "push", "sumo"]
-
 
 def _rectangle(left: float, right: float, low: float, high: float) -> Outline:
     return ((left, low), (right, low), (right, high), (left, high))

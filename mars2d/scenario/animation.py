@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from mars2d.core.description import Description, accepts, entry, flag, real, wrong
 from mars2d.core.scene import PALETTE, color, wake_style
 
-__all__ = ["Animation", "playback_speed"]
-
 
 @accepts({"anyOf": [{"type": "number", "minimum": 0, "maximum": 1e6}, {"const": "max"}]})
 def playback_speed(name: str, value: object) -> float | str:

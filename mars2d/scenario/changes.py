@@ -19,8 +19,6 @@ from mars2d.core.plane import Outline, lines_and_areas, outside_polygon
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.starts import footprint
 
-__all__ = ["check_same", "moves_alike", "obstruction", "with_poses"]
-
 Float = NDArray[np.float64]
 
 FREE = frozenset(

@@ -8,8 +8,6 @@ from pathlib import Path
 
 from mars2d.scenario.experiment import examples
 
-__all__ = ["COURSES", "GAMES", "courses", "files_of", "title_of"]
-
 COURSES: Mapping[str, tuple[str, ...]] = {
     "Experiments of the MARS paper": (
         "random_walk", "pursuit_corners", "coverage_square", "coverage_circle",

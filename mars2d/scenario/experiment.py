@@ -41,14 +41,6 @@ from mars2d.scenario.policy import SUFFIX, Policy
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.scenario import Scenario
 
-__all__ = [
-    "Experiment",
-    "examples",
-    "load_law",
-    "open_experiment",
-    "open_module",
-]
-
 _counter = itertools.count()
 
 MAX_LINE = 100

@@ -19,8 +19,6 @@ from mars2d.scenario.changes import (
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["alike", "carried", "check_alike", "merged"]
-
 WHOLE = FREE - {"robots", "props", "joints", "addons"}
 """Fields of a scenario that may change while its world runs, each as a whole."""
 

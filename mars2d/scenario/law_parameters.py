@@ -13,8 +13,6 @@ from mars2d.core.errors import InputError, nearest
 from mars2d.core.usercode import name_of
 from mars2d.scenario.parameters import Argument, Parameter, arguments_of, is_number
 
-__all__ = ["PREFIX", "of_laws", "same", "with_settings"]
-
 Law = Callable[[Any], Any]
 
 PREFIX = "laws."

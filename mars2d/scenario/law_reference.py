@@ -10,8 +10,6 @@ from typing import Any, NamedTuple, Self
 
 from mars2d.core.description import wrong
 
-__all__ = ["Reference", "seen_from"]
-
 EXPECTED = "where a law stands, such as 'walk.py:walk': a file of Python, and a function in it"
 
 MAX_UP = 2

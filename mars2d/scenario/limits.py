@@ -28,16 +28,6 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.geometry.shapes import Disc, Shape
 
-__all__ = [
-    "check_bodies",
-    "check_centred",
-    "check_drive",
-    "check_ends",
-    "check_forces",
-    "check_joint",
-    "corner",
-]
-
 MASS_RATIO = 10.0
 """The largest ratio of masses that contacts hold; at 100, crowds push robots through walls."""
 

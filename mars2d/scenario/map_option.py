@@ -17,8 +17,6 @@ from mars2d.core.plane import Outline, bounds_of, rectangle
 from mars2d.scenario.options import override
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["MapOption", "reading_options"]
-
 
 def reading_options() -> list[str]:
     """Return the names of the options for reading a map, such as ``unit``."""

@@ -9,8 +9,6 @@ from mars2d.core.description import Description, accepts, entry, number, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.materials import MATERIALS, check_static
 
-__all__ = ["MaterialPair", "check_once"]
-
 
 @accepts({"enum": list(MATERIALS)})
 def _material(name: str, value: object) -> str:

@@ -16,17 +16,6 @@ from mars2d.core.description import Description, entry, integer, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
 from mars2d.core.plane import WITHIN
 
-__all__ = [
-    "Delaunay",
-    "Everyone",
-    "Graph",
-    "Nearest",
-    "Neighbourhood",
-    "Within",
-    "neighbourhood",
-    "within",
-]
-
 Float = NDArray[np.float64]
 Neighbours = Sequence[Sequence[int]]
 Edges = tuple[tuple[int, int], ...]

@@ -15,8 +15,6 @@ from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Action", "Observation", "Part"]
-
 Float = NDArray[np.float64]
 Row = NDArray[np.float32]
 

@@ -11,8 +11,6 @@ from mars2d.core.description import Description
 from mars2d.core.errors import InputError, nearest, one_line, shown
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["override", "parse_setting", "settings_in_words"]
-
 
 def override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
     """Return the scenario with all options set at once, so that they are checked together.

@@ -17,8 +17,6 @@ from mars2d.core.hints import described
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Argument", "Parameter", "Range", "arguments_of", "of_arguments", "of_body"]
-
 STEPS = 100
 """A slider has at least as many steps, unless its numbers are whole."""
 

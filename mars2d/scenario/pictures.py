@@ -12,8 +12,6 @@ from mars2d.core.picture import Pictured, holds_pixels, image_file, picture_name
 from mars2d.scenario import serialize
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["enclosed", "of_record"]
-
 
 def enclosed(value: Any) -> Any:
     """Return a scenario whose pictures are in it; any other value as it is.

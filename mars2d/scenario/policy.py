@@ -13,8 +13,6 @@ from mars2d.core.extras import extra
 from mars2d.core.files import note_file
 from mars2d.scenario.observation import Action, Observation
 
-__all__ = ["KEY", "SUFFIX", "Policy", "describe"]
-
 SUFFIX = ".onnx"
 
 KEY = "mars2d"

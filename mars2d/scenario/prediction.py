@@ -11,8 +11,6 @@ from typing import Any, Self
 from mars2d.core.description import Description, entry, real, wrong
 from mars2d.core.errors import InputError, counted
 
-__all__ = ["Prediction", "number", "table"]
-
 WIDTH = 80
 """Columns of a table, as a terminal has."""
 

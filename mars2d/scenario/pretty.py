@@ -6,8 +6,6 @@ import json
 from collections.abc import Sequence
 from typing import NamedTuple
 
-__all__ = ["INDENT", "WIDTH", "Brackets", "Node", "comment", "laid_out", "numeral", "quoted"]
-
 WIDTH = 100
 """Columns of a line."""
 

@@ -19,8 +19,6 @@ from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, num
 from mars2d.scenario.registry import BASES
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["as_python"]
-
 Law = Callable[[Any], Any]
 
 MAX_TITLE = 90

@@ -28,8 +28,6 @@ from mars2d.scenario.starts import footprint
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["RandomStarts", "Room", "drawn_poses", "groups_of"]
-
 Float = NDArray[np.float64]
 Points = tuple[Float, Float]
 

@@ -20,18 +20,6 @@ from mars2d.core.hints import described
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-__all__ = [
-    "BASES",
-    "FAMILIES",
-    "Plugin",
-    "family_of",
-    "members",
-    "package_of",
-    "plugin",
-    "plugins",
-    "summary",
-]
-
 FAMILIES = {
     "bodies": "mars2d.bodies.drives",
     "props": "mars2d.bodies.props",
@@ -146,10 +134,10 @@ def _walk(family: str) -> Iterator[type[Description]]:
     base = getattr(package, BASES[family])
     for info in sorted(pkgutil.iter_modules(package.__path__), key=lambda m: m.name):
         module = importlib.import_module(f"{FAMILIES[family]}.{info.name}")
-        for name in getattr(module, "__all__", ()):
-            kind = getattr(module, name)
+        for name, kind in vars(module).items():
             is_part = isinstance(kind, type) and issubclass(kind, base)
-            if is_part and info.name != "base" and not _leaves_methods(kind):
+            own = is_part and kind.__module__ == module.__name__ and name[0] != "_"
+            if own and info.name != "base" and not _leaves_methods(kind):
                 yield kind
 
 

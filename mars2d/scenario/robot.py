@@ -18,8 +18,6 @@ from mars2d.core.scene import optional_color
 from mars2d.geometry.shapes import Disc, Shape, known_shape
 from mars2d.sensors.base import Sensor
 
-__all__ = ["Robot"]
-
 DIAMETER = 0.3
 """The default diameter, metres."""
 

@@ -8,8 +8,6 @@ from mars2d.addons.contest import Contest
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["contest_of", "contests_of", "robots_named", "role_of", "roles_of"]
-
 REFEREE = "Game({'pursuer': ['red'], 'evader': ['blue']})"
 """An add-on that makes a game, as messages show it."""
 

@@ -41,8 +41,6 @@ from mars2d.scenario.random_starts import (
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.team_colors import team_colors
 
-__all__ = ["Obstacle", "Scenario"]
-
 PHYSICS = ("contact", "stop", "ideal")
 
 ROW_LIMIT = 100_000_000

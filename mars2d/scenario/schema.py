@@ -12,8 +12,6 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
 from mars2d.scenario.toml_file import FORMAT, NONE, READY_MADE, takes_none
 
-__all__ = ["schema"]
-
 LAW: Schema = {"type": "string", "description": "a law, such as file.py:function"}
 
 

@@ -28,21 +28,6 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 
-__all__ = [
-    "LOST",
-    "MOVING",
-    "PARTS",
-    "Place",
-    "changed",
-    "from_description",
-    "is_ready_made",
-    "kinds_of",
-    "parts_of",
-    "to_scenario",
-    "to_value",
-    "without_code",
-]
-
 
 class Place(NamedTuple):
     """A field that holds parts derived from `base`: one of them or a list.

@@ -15,8 +15,6 @@ from mars2d.core.plane import Outline, distance_to_ring, lines_and_areas, outsid
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["check_apart", "check_in_workspace", "check_off_obstacles", "check_off_walls"]
-
 SMOOTH = 64
 """Corners per quarter of a circle, for a disc that is compared with a polygon."""
 

@@ -9,8 +9,6 @@ from mars2d.core.scene import PALETTE, color_of, rgb
 from mars2d.core.usercode import name_of
 from mars2d.scenario.robot import Robot
 
-__all__ = ["team_colors"]
-
 CROWD = 20
 """More robots than this have the colour of their group, if the base colours are the default."""
 

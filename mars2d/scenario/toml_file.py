@@ -29,8 +29,6 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
 
-__all__ = ["FORMAT", "NONE", "READY_MADE", "SUFFIX", "read", "save", "takes_none"]
-
 SUFFIX = ".toml"
 
 FORMAT = 1

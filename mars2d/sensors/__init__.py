@@ -1,16 +1,7 @@
 """The sensors of robots. A new one is a file here, and a line below."""
 
-from mars2d.sensors.base import (
-    ANGLE,
-    COLOR,
-    DISTANCE,
-    FLAG,
-    NUMBER,
-    Quantity,
-    Sensor,
-    Sighting,
-    Surroundings,
-)
+from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
+from mars2d.sensors.base import Sensor, Sighting, Surroundings
 from mars2d.sensors.beacon import Beacon
 from mars2d.sensors.bumper import Bumper
 from mars2d.sensors.ground import Ground

@@ -28,26 +28,10 @@ from mars2d.core.description import (
 )
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
-from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
+from mars2d.core.quantity import NUMBER, Quantity
 from mars2d.core.scene import Scene
 from mars2d.core.streams import Random, Streams
 from mars2d.sensors.error_model import Imperfection
-
-__all__ = [
-    "ANGLE",
-    "COLOR",
-    "DISTANCE",
-    "FLAG",
-    "NOTHING",
-    "NUMBER",
-    "Fan",
-    "Quantity",
-    "Scanner",
-    "Sensor",
-    "Sighting",
-    "Surroundings",
-    "sight_angle",
-]
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
@@ -223,6 +207,7 @@ def spread(what: str) -> Check:
 class Sensor(Stateful):
     """The base of all sensors: derive, declare fields, and write `read`.
 
+    >>> from mars2d.sensors import ANGLE
     >>> class Compass(Sensor):
     ...     quantities = (ANGLE,)
     ...

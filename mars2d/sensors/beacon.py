@@ -14,20 +14,11 @@ from mars2d.core.description import accepts, entry, flag, number, wrong
 from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, shown
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import Point
+from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.core.streams import Random
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.sensors.base import (
-    NOTHING,
-    Float,
-    Quantity,
-    Scanner,
-    Sighting,
-    Surroundings,
-    sight_angle,
-)
-
-__all__ = ["Beacon", "Sightings"]
+from mars2d.sensors.base import NOTHING, Float, Scanner, Sighting, Surroundings, sight_angle
 
 FAR = 50.0
 """A field of view that reaches further is not drawn to its end, metres."""

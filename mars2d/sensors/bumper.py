@@ -14,10 +14,9 @@ from mars2d.core.arithmetic import angle_of, cosines_sines
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import WITHIN
+from mars2d.core.quantity import FLAG, Quantity
 from mars2d.core.scene import Scene, faded
-from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
-
-__all__ = ["LIT", "Bumper"]
+from mars2d.sensors.base import Float, Sensor, Surroundings, sight_angle
 
 LIT = "#d55e00"
 """The colour of a set flag."""

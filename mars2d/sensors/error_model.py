@@ -14,8 +14,6 @@ from mars2d.core.errors import LawError, shown
 from mars2d.core.quantity import FLAG, Quantity
 from mars2d.core.streams import Random
 
-__all__ = ["Imperfection", "as_numbers"]
-
 
 def as_numbers(name: str, reading: Any, example: str) -> NDArray[Any]:
     """Return a reading of sensor `name` as an array of truth values or floats.

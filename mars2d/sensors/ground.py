@@ -8,10 +8,9 @@ import numpy as np
 
 from mars2d.core.errors import LawError, shown
 from mars2d.core.interfaces import RobotLike
+from mars2d.core.quantity import COLOR, Quantity
 from mars2d.core.scene import Scene, color_of
-from mars2d.sensors.base import COLOR, Float, Quantity, Sensor, Surroundings
-
-__all__ = ["Ground"]
+from mars2d.sensors.base import Float, Sensor, Surroundings
 
 
 class Ground(Sensor):

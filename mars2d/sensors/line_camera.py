@@ -12,11 +12,10 @@ import numpy as np
 from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
+from mars2d.core.quantity import COLOR, Quantity
 from mars2d.core.scene import Scene, color_of, faded, rgb
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import COLOR, NOTHING, Float, Quantity, Scanner, Surroundings, sight_angle
-
-__all__ = ["LineCamera"]
+from mars2d.sensors.base import NOTHING, Float, Scanner, Surroundings, sight_angle
 
 NEAR, FAR = 0.07, 0.085
 """The line of pixels is drawn between these shares of the range."""

@@ -10,12 +10,10 @@ import numpy as np
 from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import Schema, accepts, choice, entry, number, real, wrong
 from mars2d.core.interfaces import RobotLike
+from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
-from mars2d.geometry.dead_reckoning import draw_pose, odometry_covariance, sinc
-from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
-
-__all__ = ["Odometry", "odometry_covariance"]
-
+from mars2d.geometry.dead_reckoning import draw_pose, sinc
+from mars2d.sensors.base import Float, Sensor, Surroundings
 
 SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "maximum": 10}
 

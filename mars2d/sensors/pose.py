@@ -7,11 +7,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.interfaces import RobotLike
+from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.geometry.dead_reckoning import draw_pose
-from mars2d.sensors.base import Float, Quantity, Sensor, Surroundings
-
-__all__ = ["Pose"]
+from mars2d.sensors.base import Float, Sensor, Surroundings
 
 
 class Pose(Sensor):

@@ -13,10 +13,9 @@ from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import WITHIN
+from mars2d.core.quantity import FLAG, Quantity
 from mars2d.core.scene import Scene, faded
-from mars2d.sensors.base import FLAG, Float, Quantity, Sensor, Surroundings, sight_angle
-
-__all__ = ["Proximity"]
+from mars2d.sensors.base import Float, Sensor, Surroundings, sight_angle
 
 
 class Proximity(Sensor):

@@ -10,12 +10,11 @@ import numpy as np
 
 from mars2d.core.description import flag, number
 from mars2d.core.interfaces import RobotLike
+from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.core.streams import Random
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.sensors.base import Float, Quantity, Scanner, Sighting, Surroundings, sight_angle
-
-__all__ = ["RangeBearing"]
+from mars2d.sensors.base import Float, Scanner, Sighting, Surroundings, sight_angle
 
 
 class RangeBearing(Scanner):

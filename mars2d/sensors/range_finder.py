@@ -12,11 +12,10 @@ import numpy as np
 from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
+from mars2d.core.quantity import DISTANCE, Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import DISTANCE, Fan, Float, Quantity, Scanner, Surroundings, sight_angle
-
-__all__ = ["RangeFinder"]
+from mars2d.sensors.base import Fan, Float, Scanner, Surroundings, sight_angle
 
 
 class RangeFinder(Scanner):

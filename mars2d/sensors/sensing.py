@@ -18,8 +18,6 @@ from mars2d.core.interfaces import RobotLike
 from mars2d.core.usercode import called
 from mars2d.sensors.base import Sensor, Surroundings
 
-__all__ = ["Device", "Sense", "Sensing"]
-
 
 class Sense(SimpleNamespace):
     """The readings of one robot's sensors now, as attributes: ``robot.sense.proximity``."""

@@ -17,8 +17,6 @@ from mars2d.study.units import with_unit
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["dress", "name_axis", "scale_to_100"]
-
 VALUE_LINES = 3
 """The most lines of a value's name below its tick; where it needs more, it is turned."""
 

@@ -16,8 +16,6 @@ from mars2d.core.extras import extra
 from mars2d.core.terminal import warn
 from mars2d.study.workers import reason
 
-__all__ = ["DesertedError", "cluster"]
-
 ANSWER_TIMEOUT = 5.0
 """How long a scheduler may take to answer, seconds."""
 

@@ -10,8 +10,6 @@ from typing import TypeGuard
 
 from mars2d.scenario.experiment import Experiment
 
-__all__ = ["CODE_DIGITS", "WatchedFiles", "code_of", "code_of_run"]
-
 CODE_DIGITS = 8
 """How many digits of a hash tell the code of runs apart."""
 

@@ -23,8 +23,6 @@ from mars2d.study.statistics import (
 )
 from mars2d.study.table import Result, Table
 
-__all__ = ["Estimate", "estimates"]
-
 Float = NDArray[np.float64]
 Value = float | str | None
 

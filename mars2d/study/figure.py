@@ -36,8 +36,6 @@ from mars2d.study.table import Table
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["plot_study", "save_study_figure"]
-
 Float = NDArray[np.float64]
 
 MAX_DOTS = 400

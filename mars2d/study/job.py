@@ -21,16 +21,6 @@ from mars2d.study.measures import Measure, measure_named, measured
 from mars2d.study.table import Result
 from mars2d.world.loop import open_world
 
-__all__ = [
-    "Job",
-    "TooLong",
-    "measures_of",
-    "name_in",
-    "opened",
-    "probed",
-    "run_job",
-]
-
 T = TypeVar("T")
 
 

@@ -15,8 +15,6 @@ from mars2d.study.code import code_of_run
 from mars2d.study.table import cells_of
 from mars2d.world.loop import simulate
 
-__all__ = ["kept_as", "recorded", "records_beside"]
-
 NAME_DIGITS = 16
 """How many digits of a hash are the name of a record's file."""
 

@@ -15,8 +15,6 @@ from mars2d.study.prepare import Study
 from mars2d.study.results import AnotherStudyError, Results, another
 from mars2d.study.table import Result, Table, cell, cells_of, load_table, save_table
 
-__all__ = ["known_rows", "table_of"]
-
 
 def table_of(study: Study, rows: dict[int, Result]) -> Table:
     """Return a study's table with the given rows, in order."""

@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, nearest
 from mars2d.study.text import Point, assigned
 
-__all__ = ["Layout", "layout_of"]
-
 Float = NDArray[np.float64]
 
 MAX_LINES, MAX_COLUMNS = 8, 6

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["UNITS", "Measure", "measure_named", "measured", "measures"]
-
 Measure = Callable[["Record"], Any]
 
 MAX_WORD_LENGTH = 80

@@ -19,8 +19,6 @@ from mars2d.core.errors import InputError, shown
 from mars2d.core.streams import check_seed
 from mars2d.study.table import key_of, value_in
 
-__all__ = ["MAX_RUNS", "Plan", "parse_all", "parse_values", "seeds_of", "settings_of"]
-
 MAX_RUNS = 1_000_000
 """The largest number of runs in a study."""
 

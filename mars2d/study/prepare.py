@@ -27,8 +27,6 @@ from mars2d.study.plan import Plan
 from mars2d.study.table import FIRST, LAST, SEED, cells_of
 from mars2d.study.units import checked_units
 
-__all__ = ["Study", "prepared"]
-
 MAX_PROBES = 100
 """How many points are opened before the first run, at most, if one of them can be."""
 

@@ -13,8 +13,6 @@ from mars2d.core.errors import InputError
 from mars2d.core.files import REPLACED_OPEN, growing, writing
 from mars2d.study.table import Result, Table, file_header, file_line, parse_table, save_table
 
-__all__ = ["AnotherStudyError", "Results", "another"]
-
 
 class AnotherStudyError(InputError):
     """A file holds the rows of another study."""

@@ -14,20 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.description import real, wrong
 
-__all__ = [
-    "Interval",
-    "confident",
-    "interval",
-    "paired",
-    "paired_shares",
-    "proportion",
-    "seeds_for_share",
-    "seeds_needed",
-    "shared",
-    "unpaired",
-    "unpaired_shares",
-]
-
 Float = NDArray[np.float64]
 
 NORMAL_FROM = 1_000_000

@@ -26,8 +26,6 @@ from mars2d.study.text import (
 )
 from mars2d.study.units import with_unit
 
-__all__ = ["Difference", "comparison", "differences", "summary"]
-
 PRECISION = 0.05
 """The half width that an interval should have, as a share of the mean, or of all runs."""
 

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from mars2d.study.measures import Measure
 
-__all__ = ["sweep"]
-
 
 def sweep(
     experiment: str | Path | ModuleType | Scenario,

@@ -29,26 +29,6 @@ from mars2d.study.units import name_and_unit, unit_of_field, with_unit
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-__all__ = [
-    "FIRST",
-    "LAST",
-    "SEED",
-    "Result",
-    "Table",
-    "cell",
-    "cells_of",
-    "file_header",
-    "file_line",
-    "is_table",
-    "key_of",
-    "load_table",
-    "parse_table",
-    "save_table",
-    "value_in",
-    "word_cell",
-    "word_in",
-]
-
 Float = NDArray[np.float64]
 
 FIRST, SEED, LAST = ("row", "experiment"), "seed", ("digest", "code", "error")

@@ -10,18 +10,6 @@ from mars2d.core.errors import counted
 from mars2d.scenario.prediction import number
 from mars2d.study.table import Table
 
-__all__ = [
-    "Point",
-    "assigned",
-    "head",
-    "in_words",
-    "name_of_point",
-    "near",
-    "percent",
-    "side_by_side",
-    "varied",
-]
-
 TERMINAL_WIDTH = 80
 """Characters in a line of a table, if possible."""
 

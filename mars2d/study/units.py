@@ -14,8 +14,6 @@ from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["checked_units", "name_and_unit", "parse_units", "unit_of_field", "with_unit"]
-
 UNIT = re.compile(r"[^\[\]\x00-\x1f=,]{1,20}")
 """The form of a unit: a few letters, without the characters that separate it from its name."""
 

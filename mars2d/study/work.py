@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 from uuid import uuid4
 
 from mars2d.core.errors import InputError, counted, shown
-from mars2d.study.cluster import DesertedError, cluster
+from mars2d.study.cluster import DesertedError
 from mars2d.study.workers import (
     Failure,
     attempt,
@@ -29,8 +29,6 @@ from mars2d.study.workers import (
     reason,
     unpacked,
 )
-
-__all__ = ["Failure", "cluster", "each_done", "worker_count"]
 
 T = TypeVar("T")
 R = TypeVar("R")

@@ -29,17 +29,6 @@ from mars2d.core.interrupt import interrupts_blocked
 from mars2d.core.lastresort import die_with_parent, kill_group
 from mars2d.study import ONE_THREAD
 
-__all__ = [
-    "Failure",
-    "attempt",
-    "attempt_packed",
-    "done_by_processes",
-    "leave_if_imported_again",
-    "packed",
-    "reason",
-    "unpacked",
-]
-
 T = TypeVar("T")
 R = TypeVar("R")
 

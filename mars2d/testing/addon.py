@@ -33,8 +33,6 @@ from mars2d.testing.state import Places, fingerprint
 from mars2d.testing.trial import Run, Trial, changes, difference, prints, shepherd, small_world
 from mars2d.world.world import World
 
-__all__ = ["addon_findings", "check_addon"]
-
 METHODS = {
     "on_start": ("world",),
     "on_step": ("world",),

@@ -31,19 +31,6 @@ from mars2d.testing.trial import (
 )
 from mars2d.world.world import World
 
-__all__ = [
-    "KEEP",
-    "check_fields",
-    "check_finite",
-    "check_methods",
-    "check_places",
-    "check_repeatable",
-    "first_run",
-    "is_own",
-    "run_ended",
-    "with_methods",
-]
-
 Part = TypeVar("Part", bound=Description)
 
 ControlLaw = Callable[[Any], Any]

@@ -23,8 +23,6 @@ from mars2d.testing.trial import Run, Trial, small_world
 from mars2d.world.laws import Law, robot_command, team_command
 from mars2d.world.world import World
 
-__all__ = ["check_controller", "controller_findings", "is_of_a_team"]
-
 ControlLaw = Callable[[Any], Any]
 
 KEEP = {

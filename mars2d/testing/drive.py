@@ -16,8 +16,6 @@ from mars2d.testing.finding import Finding, Noted, Notes, Report, judge
 from mars2d.testing.state import Places
 from mars2d.testing.trial import Run, Trial, bystander, small_world
 
-__all__ = ["check_drive", "drive_findings"]
-
 METHODS = {
     "twist": (("command",), 3),
     "saturate": (("command",), 2),

@@ -26,8 +26,6 @@ from mars2d.testing.drive import drive_findings
 from mars2d.testing.finding import Finding
 from mars2d.testing.sensor import sensor_findings
 
-__all__ = ["Case", "defined_parts", "trials"]
-
 FAMILIES: dict[str, type[Description]] = {"drive": Drive, "sensor": Sensor, "add-on": Addon}
 
 MAX_OBJECTS = 3

@@ -13,8 +13,6 @@ from mars2d.core.usercode import called
 from mars2d.sensors.sensing import Sense
 from mars2d.testing.trial import drawn_at_random
 
-__all__ = ["CheckError", "Finding", "Noted", "Notes", "Report", "at", "judge", "said"]
-
 
 @dataclass(frozen=True)
 class Finding:

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from mars2d.core import checks
 from mars2d.core.deadline import Deadline
 from mars2d.core.errors import shown
+from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.scenario.scenario import Scenario
-from mars2d.sensors.base import Quantity, Sensor
+from mars2d.sensors.base import Sensor
 from mars2d.testing.common import (
     KEEP,
     check_fields,
@@ -33,8 +34,6 @@ from mars2d.testing.finding import Finding, Noted, Notes, Report, at, judge
 from mars2d.testing.state import Places, fingerprint
 from mars2d.testing.trial import Run, Trial, changes, difference, prints, shepherd, small_world
 from mars2d.world.world import World
-
-__all__ = ["check_sensor", "sensor_findings"]
 
 METHODS = {
     "read": ("robot", "world", "rng"),

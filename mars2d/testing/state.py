@@ -15,8 +15,6 @@ import numpy as np
 from mars2d.core.description import Description
 from mars2d.core.usercode import name_of
 
-__all__ = ["Places", "fingerprint"]
-
 GENERATORS = (np.random.Generator, np.random.RandomState, random.Random)
 
 MAX_DEPTH = 12

@@ -26,22 +26,6 @@ from mars2d.sensors.base import Sensor
 from mars2d.testing.state import fingerprint
 from mars2d.world.world import World
 
-__all__ = [
-    "STEPS",
-    "Difference",
-    "Run",
-    "Trial",
-    "as_input_error",
-    "bystander",
-    "changes",
-    "coordinates",
-    "difference",
-    "drawn_at_random",
-    "prints",
-    "shepherd",
-    "small_world",
-]
-
 STEPS = 50
 """Control steps of a trial."""
 

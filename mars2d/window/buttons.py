@@ -13,8 +13,6 @@ from mars2d.output.controls import CONTROLS, PAUSE
 from mars2d.output.raster.painter import Painter
 from mars2d.window.slider import draw_tooltip
 
-__all__ = ["Buttons", "draw_icon"]
-
 SIDE, GAP = 36.0, 2.0
 """A button's side, and the gap between two, points."""
 BREAK = 0.35

@@ -11,8 +11,6 @@ import pygame
 
 from mars2d.output.raster.painter import Painter
 
-__all__ = ["Card", "Page", "Shelf"]
-
 WIDTH, GAP, MARGIN = 212.0, 18.0, 30.0
 """The least width of a card, the gap between two, and the margin of the page, points."""
 SHAPE = 0.625

@@ -24,8 +24,6 @@ from mars2d.window.toolbar import Toolbar
 from mars2d.window.trio import Trio
 from mars2d.window.viewpoint import Viewpoint, wheel_notches
 
-__all__ = ["CompareWindow"]
-
 Pixel = tuple[int, int]
 
 HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))

@@ -12,14 +12,6 @@ from mars2d.window.menu import Entry
 from mars2d.window.player import AtContact, Player
 from mars2d.world.world import World
 
-__all__ = [
-    "entries_of_body",
-    "entries_of_contacts",
-    "entries_of_leaving",
-    "entries_of_place",
-    "entries_of_runs",
-]
-
 AT_CONTACT: dict[AtContact, str] = {
     "go on": "Go on", "stop": "Stop", "slow": "Go slowly for a second",
 }  # fmt: skip

@@ -21,8 +21,6 @@ from mars2d.window.viewpoint import wheel_notches
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
-__all__ = ["Controls", "Marks"]
-
 DOUBLE, NEAR = 0.35, 6
 """The longest time between two clicks that are one double click, seconds; how far apart, pixels."""
 MARK_INTERVAL = 0.25

@@ -15,8 +15,6 @@ from mars2d.window.help import cap_width, draw_cap
 from mars2d.window.play import Choice, Play
 from mars2d.window.score_panel import draw_dot, draw_keys
 
-__all__ = ["Countdown"]
-
 PAD, ROW, TITLE, AIM = 20.0, 46.0, 40.0, 17.0
 """The margin, the heights of a choice, of the title and of a line below a choice, points."""
 WIDTH = 420.0

@@ -11,8 +11,6 @@ import pygame
 
 from mars2d.core.errors import InputError, shown
 
-__all__ = ["VARIABLE", "be_sharp", "desktop_scale", "opening_size"]
-
 VARIABLE = "MARS2D_SCALE"
 """The environment variable that sets the number of pixels in a point."""
 MIN_SCALE, MAX_SCALE = 0.5, 8.0

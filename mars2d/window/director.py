@@ -18,13 +18,12 @@ from mars2d.window.looks import Looks
 from mars2d.window.notes import Notes
 from mars2d.window.player import Player
 from mars2d.window.saving import copied
-from mars2d.world.timeline import Progress, Timeline
+from mars2d.world.past import Progress
+from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
 if TYPE_CHECKING:
     from mars2d.window.editor import Editor, Outcome
-
-__all__ = ["Director"]
 
 POSE_DIGITS = 6
 """The decimals of poses that are saved, of metres and radians."""

@@ -20,18 +20,6 @@ if TYPE_CHECKING:
 
     from mars2d.output.raster.painter import Painter
 
-__all__ = [
-    "NO_DISPLAY",
-    "PICTURES_A_SECOND",
-    "Preferences",
-    "be_quick",
-    "display_available",
-    "open_display",
-    "open_window",
-    "show_drawn",
-    "started_display",
-]
-
 NO_DISPLAY = (
     "there is no display for a window; run it with --headless, draw a picture with "
     "--figure OUT.png, or make a film with --video OUT.gif"

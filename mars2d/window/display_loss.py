@@ -18,8 +18,6 @@ import pygame
 
 from mars2d.core.errors import InputError
 
-__all__ = ["DisplayError", "check", "close", "watch"]
-
 LIBRARY = "libX11.so.6"
 MAX_WINDOW = 100
 """The highest window number that is tried; SDL counts from 1, and ours is the only window."""

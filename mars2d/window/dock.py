@@ -14,8 +14,6 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.window.buttons import draw_icon
 
-__all__ = ["CLOSE", "Dock", "Panel"]
-
 Pixel = tuple[int, int]
 
 WIDTH, MIN_WIDTH = 344.0, 220.0

@@ -24,8 +24,6 @@ from mars2d.window.forcemeter import holding_force
 from mars2d.window.readout import in_both_units
 from mars2d.world.world import World
 
-__all__ = ["Drag", "Move", "Pull", "Turn", "draw_label", "draw_ring", "local_point", "pull_of"]
-
 Act = Callable[[World], None]
 """Something that is done to a world."""
 

@@ -14,8 +14,6 @@ from mars2d.output.figures.comparison import COLORS, NO_DRIFT
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 
-__all__ = ["DriftPlot"]
-
 Float = NDArray[np.float64]
 
 LEFT, RIGHT, HEAD, FOOT = 72.0, 24.0, 34.0, 26.0

@@ -10,8 +10,6 @@ import pygame
 from mars2d.bodies.drives.base import Drive
 from mars2d.world.teleop import Stick, command_of, ramped
 
-__all__ = ["ARROWS", "BOTH", "LETTERS", "Driver", "Keys"]
-
 
 class Keys(NamedTuple):
     """Keys that drive a robot: the stick that each stands for, by its place, and their labels.

@@ -14,8 +14,6 @@ from mars2d.record.contact import CONTACT, rows_of
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Bound", "Meter", "Reading", "bound_of", "holding_force", "span_of"]
-
 MIN_STEPS, MIN_SECONDS = 100, 5.0
 """A reading covers at least this many control steps, and this many seconds."""
 

@@ -14,8 +14,6 @@ from mars2d.record.frame import Float, Frame
 from mars2d.window.forcemeter import Bound, Reading, bound_of, span_of
 from mars2d.window.plot import Limits, draw_axes, draw_curve, polylines
 
-__all__ = ["draw_force"]
-
 MAX_OVER_BOUND = 3.0
 """The upper end of the force axis, at most, as a multiple of the bound."""
 

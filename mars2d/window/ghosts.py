@@ -14,8 +14,6 @@ from mars2d.record.frame import Frame
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
-__all__ = ["ghosts"]
-
 Float = NDArray[np.float64]
 
 SIDES: tuple[Anchor, ...] = ("above", "below", "left")

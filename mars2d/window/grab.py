@@ -34,8 +34,6 @@ from mars2d.window.drags import (
 from mars2d.window.picking import Finder, Hover
 from mars2d.world.operator import fixed, forceless
 
-__all__ = ["CLICK", "Grab"]
-
 Pixel = tuple[int, int]
 
 CLICK = 5.0

@@ -13,8 +13,6 @@ from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.keys import Key
 
-__all__ = ["Help", "cap_width", "draw_cap", "draw_help"]
-
 Groups = Iterable[tuple[str, Sequence[Key]]]
 Named = tuple[tuple[str, tuple[Key, ...]], ...]
 

@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from mars2d.window.play import Play
 from mars2d.window.player import Player
 
-__all__ = ["hints_of"]
-
 Hints = Sequence[tuple[str, str]]
 """Keys and their effects."""
 

@@ -17,8 +17,6 @@ from mars2d.window.memory import Memory
 from mars2d.window.notes import Notes
 from mars2d.window.rest import Rest
 
-__all__ = ["OPENS", "Home"]
-
 HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
 OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mat": "replay", ".mcap": "replay"}

@@ -29,8 +29,6 @@ from mars2d.window.readout import (
 )
 from mars2d.window.sensorplot import TITLE, SensorPlot, plot_of
 
-__all__ = ["Inspector", "sensor_plots"]
-
 COLUMN, LEAST, LEAST_IN_CONTACT = 300.0, 176.0, 268.0
 """The least width of a column of sections, and the least height of the inspector, points: with the
 state, and where there are forces with their plot."""

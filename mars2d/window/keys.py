@@ -9,8 +9,6 @@ import pygame
 
 from mars2d.output.layers.table import LAYERS
 
-__all__ = ["GROUPS", "KEYS", "MODIFIERS", "MOUSE", "Key", "Keyboard", "action_of", "chord"]
-
 MAX_NUMBER = 1_000_000
 """The largest number that can be typed before a command."""
 

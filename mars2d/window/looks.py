@@ -13,9 +13,6 @@ from mars2d.output.raster.theme import theme_of
 from mars2d.window.desktop import desktop_scale, opening_size
 from mars2d.window.display import Preferences, open_window
 
-__all__ = ["Looks"]
-
-
 Say = Callable[[str, Literal["info", "warning"]], None]
 
 

@@ -16,8 +16,6 @@ from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.window.display import Preferences
 
-__all__ = ["VARIABLE", "Memory"]
-
 VARIABLE = "MARS2D_MEMORY"
 """The environment variable that names the folder; if it is empty, nothing is remembered."""
 WINDOWS = "windows.json"

@@ -9,8 +9,6 @@ import pygame
 
 from mars2d.output.raster.painter import Painter
 
-__all__ = ["Entry", "Menu"]
-
 ROW, PAD, BOX = 30.0, 8.0, 15.0
 """The height of an entry, the margin, and the side of a tick box, points."""
 SIZE = 14.5

@@ -12,8 +12,6 @@ from mars2d.window.grab import Grab
 from mars2d.window.player import Player
 from mars2d.window.viewpoint import Viewpoint, wheel_notches
 
-__all__ = ["Handle", "Mouse", "Pixel"]
-
 Pixel = tuple[int, int]
 Handle = tuple[Callable[[Pixel], bool], Callable[[Pixel], None]]
 """Whether a press at a pixel grabs the handle, and the effect of a drag to a pixel."""

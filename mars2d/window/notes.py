@@ -17,8 +17,6 @@ from mars2d.output.raster.theme import Theme
 from mars2d.window.player import Player
 from mars2d.world.timeline import Timeline
 
-__all__ = ["Ending", "Notes", "Progress", "draw_progress"]
-
 NoteKind = Literal["info", "warning", "error"]
 
 STAYS, FADES = 5.0, 0.7

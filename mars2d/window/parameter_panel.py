@@ -20,8 +20,6 @@ from mars2d.window.buttons import draw_icon
 from mars2d.window.dock import Panel
 from mars2d.window.slider import ValueSlider
 
-__all__ = ["ParameterPanel", "Set"]
-
 Pixel = tuple[int, int]
 Say = Literal["info", "error"]
 

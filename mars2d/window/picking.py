@@ -17,8 +17,6 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Finder", "Hover", "body_at", "next_body", "selection_mark", "sensed_by"]
-
 
 class Hover(NamedTuple):
     """Something under the pointer.

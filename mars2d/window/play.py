@@ -21,8 +21,6 @@ from mars2d.window.memory import Memory
 from mars2d.window.player import Player
 from mars2d.window.scores import Scores, Tally
 
-__all__ = ["COUNTDOWN", "Choice", "Play", "Result", "Seat", "game_of"]
-
 COUNTDOWN = 3.0
 """The time to find one's keys, seconds of the clock."""
 LONGEST_PICTURE = 0.1

@@ -15,8 +15,6 @@ from mars2d.scenario.animation import playback_speed
 from mars2d.window.slider import BEHIND, times
 from mars2d.window.source import Playback, Source
 
-__all__ = ["SPEEDS", "Player", "between", "time_actions"]
-
 Kind = Literal["running", "waiting", "past", "error"]
 AtContact = Literal["go on", "stop", "slow"]
 Status = tuple[str, Kind]

@@ -29,8 +29,6 @@ from mars2d.window.toolbar import Toolbar, layer_entries
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 
-__all__ = ["PlayerWindow"]
-
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
 RESERVE = 0.004

@@ -16,8 +16,6 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import hairlines
 from mars2d.output.signals import thinned
 
-__all__ = ["Limits", "as_number", "draw_axes", "draw_crowd", "draw_curve", "limits_of", "polylines"]
-
 Float = NDArray[np.float64]
 
 

@@ -18,8 +18,6 @@ from mars2d.window.dock import Panel
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
-__all__ = ["Predictions"]
-
 OFTEN = 0.2
 """The shortest time between two readings while the run goes on, seconds."""
 SHARE = 0.04

@@ -15,19 +15,6 @@ from mars2d.core.quantity import UNKNOWN
 from mars2d.output.layers.forces import in_newtons, mean_forces
 from mars2d.record.frame import Frame
 
-__all__ = [
-    "MAX_MESSAGES",
-    "Row",
-    "contacts_of",
-    "dynamics_of",
-    "in_both_units",
-    "inbox",
-    "kind_of",
-    "rounded",
-    "state_of",
-    "touching",
-]  # fmt: skip
-
 MAX_MESSAGES = 3
 """How many messages of the inbox are listed."""
 

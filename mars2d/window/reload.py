@@ -10,9 +10,8 @@ from pathlib import Path
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.files import files_read
 from mars2d.scenario.experiment import Experiment
-from mars2d.world.timeline import Progress, Timeline
-
-__all__ = ["Reload", "Reloaded"]
+from mars2d.world.past import Progress
+from mars2d.world.timeline import Timeline
 
 INTERVAL = 0.3
 """The time between two looks at the files, seconds."""

@@ -8,8 +8,6 @@ import pygame
 
 from mars2d.window import display_loss
 
-__all__ = ["Rest"]
-
 QUIET = 0.5
 """How long nothing has to move before a window rests, seconds; late events have come by then."""
 LOOK = 0.25

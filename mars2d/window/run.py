@@ -23,8 +23,6 @@ from mars2d.world.world import Watcher, World
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
-__all__ = ["run"]
-
 
 def run(
     experiment: str | Path | ModuleType | Scenario,

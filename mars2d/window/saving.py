@@ -25,8 +25,6 @@ from mars2d.window.notes import Notes
 if TYPE_CHECKING:
     from mars2d.output.films.filming import Filming
 
-__all__ = ["Saver", "copied", "free_name", "save_picture", "save_python", "start_film"]
-
 MAX_STEM = 60
 """The longest name of a file without its number, characters."""
 FILMING_COLOR = "#d62728"

@@ -18,8 +18,6 @@ from mars2d.window.scopes import Scopes
 from mars2d.window.toolbar import Toolbar
 from mars2d.window.trace import FEW, What
 
-__all__ = ["ScopeMenu", "entries_of_distances", "entries_of_scopes"]
-
 MOTION = {"Speed": "speed", "x": "x", "y": "y", "Heading": "theta"}
 CONTACT = {"Contact force": "force", "Contact impulse": "impulse"}
 DYNAMICS = {"Kinetic energy": "kinetic", "Momentum": "momentum.each"}

@@ -37,8 +37,6 @@ from mars2d.window.saving import Saver
 from mars2d.window.trace import Trace, What
 from mars2d.window.viewpoint import wheel_notches
 
-__all__ = ["Scopes"]
-
 Float = NDArray[np.float64]
 
 TITLE, LEFT, FOOT, GAP = 19.0, 52.0, 17.0, 7.0

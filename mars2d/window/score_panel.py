@@ -15,8 +15,6 @@ from mars2d.window.dock import Panel
 from mars2d.window.help import draw_cap
 from mars2d.window.play import Play, Result, Seat
 
-__all__ = ["ScorePanel", "draw_dot", "draw_keys"]
-
 TIME, ROW, LINE, KEYS, WORDS, GAP = 34.0, 24.0, 18.0, 36.0, 32.0, 8.0
 """The heights of the time left, a row, a line of text, keys, who has won, and gaps, points."""
 DOT = 11.0

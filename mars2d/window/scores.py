@@ -8,8 +8,6 @@ from typing import Any
 
 from mars2d.window.memory import Memory
 
-__all__ = ["Scores", "Tally"]
-
 FILE = "scores.json"
 
 

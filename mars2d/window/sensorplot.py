@@ -22,8 +22,6 @@ from mars2d.sensors.bumper import LIT
 from mars2d.window.forcemeter import span_of
 from mars2d.window.plot import Limits, draw_curve, polylines
 
-__all__ = ["SensorPlot", "plot_of"]
-
 ROW, FLAG_ROW, FAN, CELLS, BARS = 24.0, 15.0, 62.0, 18.0, 40.0
 """The heights of a line over time, a flag, a fan of bearings, colours and bars, points."""
 

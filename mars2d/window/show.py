@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from mars2d.window.viewpoint import Viewpoint
     from mars2d.window.window import Window
 
-__all__ = ["show_comparison", "show_experiment", "show_record"]
-
 
 def show_experiment(
     experiment: Experiment,

@@ -11,8 +11,6 @@ from mars2d.core.scene import Scene
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 
-__all__ = ["BEHIND", "Slider", "SpeedSlider", "ValueSlider", "draw_tooltip", "times"]
-
 SPEED_LINE = 4.0
 """The height of the speed slider's line, points."""
 WORDS, WORDS_SHARE = 108.0, 0.48

@@ -11,8 +11,6 @@ from mars2d.record.frame import Frame
 from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Playback", "Source"]
-
 
 class Source(Protocol):
     """A sequence of frames, one per sampling time, that a window plays.

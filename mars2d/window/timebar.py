@@ -21,8 +21,6 @@ from mars2d.record.marks import MarkKind
 from mars2d.window.buttons import draw_icon
 from mars2d.window.slider import Slider, draw_tooltip
 
-__all__ = ["TimeBar", "TimeState"]
-
 ENDLESS = 1_000_000
 """Experiments of more rows than this are shown only as far as they have gone."""
 MIN_ENDLESS = 10.0

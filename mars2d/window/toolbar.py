@@ -13,8 +13,6 @@ from mars2d.output.raster.painter import Painter
 from mars2d.window.buttons import Buttons
 from mars2d.window.menu import Entry, Menu
 
-__all__ = ["Toolbar", "layer_entries"]
-
 Actions = Mapping[str, Callable[[], None]]
 Pixel = tuple[int, int]
 

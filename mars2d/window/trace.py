@@ -17,8 +17,6 @@ from mars2d.record.columns import Column
 from mars2d.record.frame import Frame
 from mars2d.record.record import COLUMNS, Record
 
-__all__ = ["Trace", "What"]
-
 Float = NDArray[np.float64]
 
 What = str | Callable[[Any], Any]

@@ -17,8 +17,6 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.timeline import Timeline
 
-__all__ = ["Trio"]
-
 Float = NDArray[np.float64]
 
 

@@ -15,8 +15,6 @@ from mars2d.output.raster.layout import Layout, fitted
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Follow", "Viewpoint", "wheel_notches"]
-
 WHEEL_FACTOR = 1.15
 REST = 0.12
 """The camera counts as moving for this long after its last move, seconds."""

@@ -59,8 +59,6 @@ from mars2d.world.world import World
 if TYPE_CHECKING:
     from mars2d.window.editor import Editor
 
-__all__ = ["Window"]
-
 SEEN = 4.0
 """The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
 

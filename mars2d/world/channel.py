@@ -28,8 +28,6 @@ from mars2d.scenario.neighbours import Everyone, within
 from mars2d.world.state import State
 from mars2d.world.surroundings import Around
 
-__all__ = ["Channel"]
-
 Int = NDArray[np.int64]
 
 WHO = "a robot's index or name, a list of these, or None for all in reach"

@@ -12,8 +12,6 @@ from mars2d.world.laws import Laws
 from mars2d.world.simulation import Simulation
 from mars2d.world.uncopied import FORKING
 
-__all__ = ["forked"]
-
 
 def forked(simulation: Simulation, *, laws: bool) -> Simulation:
     """Return a copy of a simulation at this instant; see `WorldView.fork`.

@@ -17,8 +17,6 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.channel import Channel
 
-__all__ = ["Operated", "Seen", "Team"]
-
 Float = NDArray[np.float64]
 
 

@@ -14,8 +14,6 @@ from mars2d.core.arrays import is_masked, within
 from mars2d.core.errors import LawError, shown
 from mars2d.core.usercode import called, definition, name_of
 
-__all__ = ["Law", "Laws", "robot_command", "team_command"]
-
 Float = NDArray[np.float64]
 
 LARGEST = 1e300

@@ -19,8 +19,6 @@ from mars2d.world.world import Watcher, World
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
-__all__ = ["Interrupted", "RealTime", "open_world", "simulate", "watch_by"]
-
 
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C during a run; `record` is the record until then."""

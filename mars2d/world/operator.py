@@ -22,8 +22,6 @@ from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_p
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.interfaces import Operated
 
-__all__ = ["Operator", "fixed", "forceless"]
-
 Float = NDArray[np.float64]
 
 SLICE = 0.01

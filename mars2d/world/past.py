@@ -19,8 +19,6 @@ from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.world.loop import open_world
 from mars2d.world.world import World
 
-__all__ = ["PARKED", "Past", "Progress", "Track"]
-
 PARKED = 4
 """The number of worlds that wait in the past, evenly apart; one more may be on its way."""
 

@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.plane import ON_THE_EDGE, Outline, distance_to_ring, inside_polygon
 
-__all__ = ["Room"]
-
 Float = NDArray[np.float64]
 
 ROUNDING = 1e-9

@@ -32,8 +32,6 @@ from mars2d.world.state import Addons, Hooks, State
 from mars2d.world.surroundings import Around
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView
 
-__all__ = ["Simulation"]
-
 Float = NDArray[np.float64]
 Control = Callable[[Any], Any]
 T = TypeVar("T")

@@ -26,8 +26,6 @@ from mars2d.record.recorder import History, Recorder, Unrecorded
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.uncopied import Uncopied
 
-__all__ = ["Addons", "Hooks", "State"]
-
 ENGINES: dict[str, type[Engine | Kinematics]] = {
     "contact": Engine,
     "stop": Kinematics,

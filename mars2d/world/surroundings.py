@@ -18,8 +18,6 @@ from mars2d.output.layers.bodies import OBSTACLE, prop_colors
 from mars2d.sensors.base import NOTHING
 from mars2d.world.state import Addons, State
 
-__all__ = ["Around"]
-
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 

@@ -25,8 +25,6 @@ from mars2d.world.surroundings import Around
 from mars2d.world.uncopied import Uncopied
 from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknown, unseen
 
-__all__ = ["RobotPositionView", "TeamPositionsView", "WorldView"]
-
 Float = NDArray[np.float64]
 
 

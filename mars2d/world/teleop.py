@@ -7,8 +7,6 @@ from typing import NamedTuple
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.arithmetic import norm
 
-__all__ = ["Stick", "command_of", "ramped"]
-
 RISE, FALL = 4.0, 8.0
 """The speeds at which a stick follows the keys, outwards and back, full deflections per s."""
 

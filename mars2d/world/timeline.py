@@ -26,8 +26,6 @@ from mars2d.world.world import Watcher, World
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
-__all__ = ["Progress", "Timeline"]
-
 NEVER = sys.maxsize
 """A row that no run reaches."""
 

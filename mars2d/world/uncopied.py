@@ -7,8 +7,6 @@ from typing import Any, NoReturn, Self
 
 from mars2d.core.errors import InputError
 
-__all__ = ["FORKING", "Uncopied"]
-
 FORKING = "a fork of a world"
 """The key of a memo of `deepcopy` with which a whole world is copied."""
 

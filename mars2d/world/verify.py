@@ -23,8 +23,6 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import MOVING
 from mars2d.world.world import World
 
-__all__ = ["Departure", "ask_again", "other_versions", "rerun"]
-
 
 @dataclass(frozen=True)
 class Departure:

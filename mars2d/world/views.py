@@ -18,19 +18,6 @@ from mars2d.record.message import Message
 from mars2d.sensors.sensing import Sense
 from mars2d.world.interfaces import Seen
 
-__all__ = [
-    "VIEWS",
-    "Mind",
-    "Neighbour",
-    "PartialView",
-    "PositionsView",
-    "PropView",
-    "RobotView",
-    "SensorsOnlyView",
-    "unknown",
-    "unseen",
-]
-
 Float = NDArray[np.float64]
 
 

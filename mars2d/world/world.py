@@ -15,8 +15,6 @@ from mars2d.world.operator import Operator
 from mars2d.world.simulation import Simulation
 from mars2d.world.team_view import TeamPositionsView, WorldView
 
-__all__ = ["Watcher", "World"]
-
 Watcher = Callable[["World"], None]
 """A function that is called with the world at each control step."""
 

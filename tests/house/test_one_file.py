@@ -44,9 +44,7 @@ def follow(recipes: list[tuple[str, str, str]], folder: Path) -> set[str]:
         elif file.exists():
             part = code.rpartition(" ")[2].strip()
             text = file.read_text(encoding="utf-8")
-            changed = text.replace("\n__all__ = [\n", f'\n{code}\n__all__ = [\n    "{part}",\n')
-            if changed == text:
-                changed = text.replace("\n__all__ = [", f'\n{code}\n__all__ = ["{part}", ')
+            changed = re.sub(r"\n__all__ = \[(\n?)", rf'\n{code}\n__all__ = [\1"{part}", ', text)
             assert changed != text, f"{name} has no __all__"
         else:
             changed = code

@@ -11,6 +11,7 @@ import pytest
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World, addons
 from mars2d.addons import Map
+from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 from mars2d.sensors import (
     Beacon,
     LineCamera,
@@ -20,7 +21,6 @@ from mars2d.sensors import (
     Sensor,
     SonarRing,
 )
-from mars2d.sensors.base import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
 
 MANY = 40_000
 

@@ -21,18 +21,6 @@ from mars2d.core.errors import InputError, counted, nearest, shown
 if TYPE_CHECKING:
     import shapely
 
-__all__ = [
-    "ALWAYS",
-    "MAX_PIECES",
-    "MAX_POINTS",
-    "METRES",
-    "Drawing",
-    "Piece",
-    "Unit",
-    "broken",
-    "wall",
-]
-
 Float = NDArray[np.float64]
 
 ALWAYS = "GeoJSON, WKT, .png, .jpg and .pgm need nothing"

@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from ezdxf.entities.dxfentity import DXFEntity
     from ezdxf.entities.insert import Insert
 
-__all__ = ["read_dxf"]
-
 Float = NDArray[np.float64]
 
 UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}

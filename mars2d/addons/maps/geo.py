@@ -29,8 +29,6 @@ from mars2d.core.errors import InputError, shown
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["read_geojson", "read_wkt"]
-
 Float = NDArray[np.float64]
 
 MAX_DEPTH = 16

@@ -17,8 +17,6 @@ from mars2d.core.plane import Outline, Point, lines_and_areas
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["TOLERANCE", "Obstacles", "described", "nearest_room", "obstacles"]
-
 TOLERANCE = 0.02
 """The default of the distance that corners may move so that there are fewer, metres."""
 

@@ -20,8 +20,6 @@ from mars2d.core.picture import opened_image
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["IMAGES", "MAX_BYTES", "read_occupancy", "read_picture"]
-
 Mask = NDArray[np.bool_]
 Gray = NDArray[np.float32]
 Pose = tuple[float, float, float]

@@ -13,8 +13,6 @@ from mars2d.core.checks import point
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, likely
 
-__all__ = ["SUFFIXES", "advice", "read"]
-
 MAX_SIZES = {
     **dict.fromkeys((".dxf", ".svg", ".geojson", ".json", ".wkt"), 10_000_000),
     **dict.fromkeys((".yaml", ".yml"), 64_000),

@@ -13,8 +13,6 @@ from mars2d.core.errors import InputError
 if TYPE_CHECKING:
     import shapely
 
-__all__ = ["GRID", "check_crossings", "joined", "region", "simple_area", "simple_line"]
-
 Float = NDArray[np.float64]
 
 GRID = 1e-5

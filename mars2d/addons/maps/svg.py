@@ -31,8 +31,6 @@ from mars2d.addons.maps.regions import region
 from mars2d.core.errors import InputError, shown
 from mars2d.core.extras import extra
 
-__all__ = ["read_svg"]
-
 Float = NDArray[np.float64]
 
 SVG = "{http://www.w3.org/2000/svg}"

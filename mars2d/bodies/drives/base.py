@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from mars2d.core.description import Description, flag, number
 from mars2d.core.quantity import Quantity
 
-__all__ = ["Drive", "Turning", "Wheeled", "reached"]
-
 Float = NDArray[np.float64]
 
 STICK_TURN = 1.5

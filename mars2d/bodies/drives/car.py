@@ -9,8 +9,6 @@ from mars2d.core.arithmetic import angles_of, cosine_sine, cosines_sines
 from mars2d.core.description import number
 from mars2d.core.quantity import Quantity
 
-__all__ = ["Car"]
-
 
 class Car(Turning):
     """A car with steered front wheels, commanded by (v [m/s], steering angle delta [rad]).

@@ -6,8 +6,6 @@ from mars2d.bodies.drives.base import Float, Wheeled
 from mars2d.core.description import choice, number
 from mars2d.core.quantity import Quantity
 
-__all__ = ["Differential"]
-
 
 class Differential(Wheeled):
     """Two wheels on one axle, commanded by their speeds (left, right) [rad/s], or by (v, omega).

@@ -8,8 +8,6 @@ from mars2d.bodies.drives.base import ROUNDING, Float, Turning
 from mars2d.core.description import number, wrong
 from mars2d.core.quantity import Quantity
 
-__all__ = ["Dubins"]
-
 
 class Dubins(Turning):
     """Goes ahead at `max_linear_speed`, commanded by (v [m/s], omega [rad/s]), v without effect.

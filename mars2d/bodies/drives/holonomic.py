@@ -11,8 +11,6 @@ from mars2d.bodies.drives.base import ROUNDING, Drive, Float, reached
 from mars2d.core.arithmetic import norms
 from mars2d.core.quantity import Quantity
 
-__all__ = ["Holonomic"]
-
 
 class Holonomic(Drive):
     """Moves in any direction and keeps its heading, commanded by (vx, vy) [m/s].

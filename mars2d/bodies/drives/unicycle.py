@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from mars2d.bodies.drives.base import Wheeled
 
-__all__ = ["Unicycle"]
-
 
 class Unicycle(Wheeled):
     """Two wheels on one axle, commanded by (v [m/s], omega [rad/s]).

@@ -25,8 +25,6 @@ from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
 
-__all__ = ["STEEL", "AttachedJoint", "Joint", "beside"]
-
 Float = NDArray[np.float64]
 
 STEEL = "#52606d"

@@ -10,8 +10,6 @@ from mars2d.bodies.joints.base import Float, Joint
 from mars2d.core.description import accepts, entry, number, numbers_schema, real, wrong
 from mars2d.core.scene import INK, Scene
 
-__all__ = ["Hinge", "turning_limits"]
-
 
 @accepts(numbers_schema(-100 * pi, 100 * pi, 2, 2))
 def turning_limits(name: str, value: Any) -> tuple[float, float] | None:

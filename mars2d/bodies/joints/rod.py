@@ -6,8 +6,6 @@ from mars2d.bodies.constraints import Constraint, FixedDistance
 from mars2d.bodies.joints.base import Joint
 from mars2d.core.description import number
 
-__all__ = ["Rod"]
-
 
 class Rod(Joint):
     """A rigid rod without weight: it keeps two points at a distance, and turns freely at both."""

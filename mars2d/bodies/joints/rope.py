@@ -12,8 +12,6 @@ from mars2d.core.arithmetic import cosines_sines, norm
 from mars2d.core.description import number
 from mars2d.core.scene import Scene, faded
 
-__all__ = ["Rope"]
-
 COLOR = "#7a5c2e"
 
 STRAIGHT = 2e-3

@@ -10,8 +10,6 @@ from mars2d.core.arithmetic import norm
 from mars2d.core.description import number
 from mars2d.core.scene import Scene
 
-__all__ = ["Spring"]
-
 COILS = 9
 """The number of coils that are drawn."""
 

@@ -9,8 +9,6 @@ from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
 from mars2d.geometry.shapes import Disc, Shape
 
-__all__ = ["Ball"]
-
 
 class Ball(Prop):
     """A disc that rolls freely: the floor does not hold it, so it never stops by itself.

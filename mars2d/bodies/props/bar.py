@@ -8,8 +8,6 @@ from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
 from mars2d.geometry.shapes import Shape, rectangle
 
-__all__ = ["Bar"]
-
 
 class Bar(Prop):
     """A long, thin rectangle along its heading."""

@@ -29,8 +29,6 @@ from mars2d.core.materials import (
 from mars2d.core.scene import optional_color
 from mars2d.geometry.shapes import Shape
 
-__all__ = ["Prop"]
-
 MAX_SPEED = 100.0
 """The highest speed at the start, m/s and rad/s; higher ones need ever more substeps."""
 

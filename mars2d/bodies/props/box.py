@@ -9,8 +9,6 @@ from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
 from mars2d.geometry.shapes import Shape, rectangle
 
-__all__ = ["Box"]
-
 
 class Box(Prop):
     """A rectangle, `length` along its heading and `width` across.

@@ -12,8 +12,6 @@ from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import entry, number
 from mars2d.geometry.shapes import Shape, rectangle
 
-__all__ = ["Gate"]
-
 
 class Gate(Prop):
     """A bar on a hinge that is fixed to the world, at the bar's rear end.

@@ -9,8 +9,6 @@ from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
 from mars2d.geometry.shapes import Disc, Shape
 
-__all__ = ["Puck"]
-
 
 class Puck(Prop):
     """A disc that slides and is slowed down by the floor, like a puck on a table."""

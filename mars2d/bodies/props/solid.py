@@ -7,8 +7,6 @@ from mars2d.core.arithmetic import norm
 from mars2d.core.description import entry
 from mars2d.geometry.shapes import Shape, known_shape
 
-__all__ = ["Solid"]
-
 CENTRED = 1e-9
 """The largest distance from a shape's origin to its centre of mass, in parts of its size."""
 

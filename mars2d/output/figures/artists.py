@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-__all__ = ["SHAPES", "paint", "points_per_metre"]
-
 Float = NDArray[np.float64]
 
 SHAPES = 2.0

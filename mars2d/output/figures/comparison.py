@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, counted
+from mars2d.output.figures.extent import View
 from mars2d.output.figures.figure import (
     INK,
     MUTED,
-    View,
     dress,
     label,
     new_figure,
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from mars2d.record.record import Record
-
-__all__ = ["COLORS", "MODES", "Comparison", "Drift", "plot_comparison", "plot_drift"]
 
 Float = NDArray[np.float64]
 

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["normal_force", "pair_name", "plot_contacts"]
-
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Clearances", "clearances", "plot_distances"]
-
 Float = NDArray[np.float64]
 
 MAX_CURVES = 6

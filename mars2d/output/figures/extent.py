@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["PANEL_LIMIT", "View", "check_rows", "rows_at"]
-
 Float = NDArray[np.float64]
 
 

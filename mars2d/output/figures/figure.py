@@ -40,27 +40,6 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = [
-    "LEGEND_LIMIT",
-    "SUFFIXES",
-    "View",
-    "check_axes",
-    "dress",
-    "label",
-    "layers_of",
-    "line_style",
-    "new_figure",
-    "paint_row",
-    "plain_name",
-    "plot_paths",
-    "plot_snapshots",
-    "require_matplotlib",
-    "save_drawing",
-    "save_figure",
-    "show_in_notebooks",
-    "style_ticks",
-]
-
 Float = NDArray[np.float64]
 Layout = Literal["constrained"] | None
 

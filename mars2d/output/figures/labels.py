@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["fits", "shortened", "wrapped"]
-
 BREAK = re.compile(r"(?<=\s)(?<!= )|(?<=_)(?=\w)|(?<=[^\W\d]|\*)(?=\.)|(?<=/)(?=\w)(?![^\[]*\])")
 """Where a name may go on in the next line: after spaces, but not between ``=`` and a
 value, and within names and paths."""

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["plot_map", "save_map"]
-
 LONG_SIDE, MIN_SIDE = 8.0, 1.6
 """The longer side of the drawing, and the least length of the other, inches."""
 

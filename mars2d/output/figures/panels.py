@@ -28,26 +28,6 @@ if TYPE_CHECKING:
 
     from mars2d.record.record import Record
 
-__all__ = [
-    "Entry",
-    "caption",
-    "color_bar",
-    "curve",
-    "dress_panel",
-    "finish",
-    "frame_panel",
-    "letters_in",
-    "name_beside",
-    "name_curves",
-    "panels",
-    "say",
-    "set_span",
-    "short_number",
-    "size_of",
-    "spans",
-    "width_of",
-]
-
 Float = NDArray[np.float64]
 
 MAX_VERTICES = 20_000

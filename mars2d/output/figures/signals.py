@@ -37,8 +37,6 @@ if TYPE_CHECKING:
 
     from mars2d.record.record import Record
 
-__all__ = ["DEFAULT", "draw_signals", "plot_signals"]
-
 Float = NDArray[np.float64]
 
 DEFAULT = ("x", "y", "theta", "command")

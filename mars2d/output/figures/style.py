@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["PRINT", "PROJECTOR", "SCREEN", "STYLES", "Style", "style_of"]
-
 MILLIMETRE = 1 / 25.4
 """Inches."""
 

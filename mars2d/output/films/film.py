@@ -24,18 +24,6 @@ if TYPE_CHECKING:
 
     from mars2d.record.record import Record
 
-__all__ = [
-    "SUFFIXES",
-    "check_film",
-    "cut_of",
-    "film_record",
-    "film_rows",
-    "require_av",
-    "save_film",
-    "save_pictures",
-    "size_of",
-]
-
 SUFFIXES = (".gif", ".mp4")
 
 MIN_SIZE, MAX_SIZE = (64, 64), (3840, 2160)

@@ -19,8 +19,6 @@ from mars2d.output.films.mp4 import require_av, rewrapped, write_mp4
 if TYPE_CHECKING:
     import pygame
 
-__all__ = ["FPS", "Filming", "film_suffix"]
-
 FPS = 25
 
 MAX_WAITING = 4

@@ -16,9 +16,6 @@ from mars2d.core.scene import Scene
 from mars2d.record.frame import Frame, between
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Cut", "Filmed", "Footage", "shots"]
-
-
 MAX_FRAMES = 100_000
 """The most frames of a film: more than an hour."""
 

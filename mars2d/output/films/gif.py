@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     import pygame
 
-__all__ = ["write_gif"]
-
 Rgb = NDArray[np.uint32]
 """Pixels as 0x..rrggbb; the highest byte is ignored."""
 Entries = NDArray[np.uint8]

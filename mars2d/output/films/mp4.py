@@ -19,8 +19,6 @@ from mars2d.core.files import atomic_write
 if TYPE_CHECKING:
     import pygame
 
-__all__ = ["require_av", "rewrapped", "write_mp4"]
-
 Pixels = NDArray[np.uint32]
 
 ENCODERS = ("libx264", "libopenh264", "mpeg4")

@@ -27,8 +27,6 @@ from mars2d.output.raster.theme import PRINTED
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame
 
-__all__ = ["TITLE_HEIGHT", "Arena", "Reel", "Triptych", "save_triptych"]
-
 Float = NDArray[np.float64]
 
 TITLE_HEIGHT = 74.0

@@ -11,22 +11,6 @@ import numpy as np
 from mars2d.record.energy import WORK
 from mars2d.record.record import COLUMNS, Record
 
-__all__ = [
-    "AXES",
-    "COLUMN_UNITS",
-    "CONTACT_UNITS",
-    "INPUTS",
-    "KEYS",
-    "LAST",
-    "MESSAGE_UNITS",
-    "POSE_UNITS",
-    "Part",
-    "command_units",
-    "parts_of",
-    "plain_names",
-    "sensor_units",
-]
-
 # -- units ------------------------------------------------------------------------------------
 
 POSE_UNITS = {"x": "m", "y": "m", "theta": "rad"}

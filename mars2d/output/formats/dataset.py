@@ -24,8 +24,6 @@ from mars2d.record.record import Record
 if TYPE_CHECKING:
     from xarray import Dataset
 
-__all__ = ["HEADER", "named_dataset", "to_xarray", "variable_of"]
-
 HEADER = "mars2d"
 """The attribute that holds a record's header, as JSON."""
 

@@ -27,8 +27,6 @@ from mars2d.record.record import Record
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-__all__ = ["to_frame"]
-
 
 def to_frame(record: Record, table: str = "bodies") -> DataFrame:
     """Return a table of a record; ``frame.attrs["units"]`` has the units of its columns.

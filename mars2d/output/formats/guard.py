@@ -9,8 +9,6 @@ from pathlib import Path
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, Mars2dError
 
-__all__ = ["MAX_LIMIT", "check_limit", "check_size", "in_bytes", "reading"]
-
 MAX_LIMIT = 2**62
 """The highest limit of data that can be asked for, bytes."""
 

@@ -22,26 +22,6 @@ from mars2d.record.message import MESSAGE, STATUS
 from mars2d.record.record import COLUMNS, FORMER, Record, digest_of
 from mars2d.scenario import pictures, serialize
 
-__all__ = [
-    "FORMAT",
-    "KINDS",
-    "NOT_KEPT",
-    "OBJECTS",
-    "TEXTS",
-    "as_text",
-    "check_format",
-    "check_sums",
-    "columns_in",
-    "names_in",
-    "names_of_bodies",
-    "numbers_of",
-    "of_record",
-    "of_text",
-    "restored",
-    "to_record",
-    "with_shapes",
-]
-
 Columns = Mapping[str, NDArray[Any]]
 
 FORMAT = 4

@@ -22,8 +22,6 @@ from mars2d.output.formats.columns import plain_names
 from mars2d.output.formats.guard import check_size, in_bytes, reading
 from mars2d.record.record import Record
 
-__all__ = ["read", "write"]
-
 NAME = "out_data"
 
 MAX_SIZE = 2**31 - 2**20

@@ -17,8 +17,6 @@ from mars2d.output.formats.dataset import HEADER, named_dataset, variable_of
 from mars2d.output.formats.guard import check_size, in_bytes, reading
 from mars2d.record.record import Record
 
-__all__ = ["read", "require", "write"]
-
 MAX_VARIABLE = 2**31 - 4
 """The size of the largest variable that netCDF 3 holds, bytes."""
 

@@ -15,8 +15,6 @@ from mars2d.output.formats import header as headers
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.record.record import Record
 
-__all__ = ["read", "write"]
-
 HEADER = "header"
 
 

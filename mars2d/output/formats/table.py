@@ -24,8 +24,6 @@ from mars2d.output.formats.columns import KEYS, LAST, Part, parts_of
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.record.record import Record
 
-__all__ = ["read", "write"]
-
 PIECE_LENGTH = 30_000
 """The characters of JSON in a cell; a cell of a spreadsheet holds 32 767."""
 

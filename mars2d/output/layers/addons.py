@@ -8,8 +8,6 @@ from mars2d.core.usercode import called
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["addons", "floor", "sensors", "theory"]
-
 
 def floor(scenario: Scenario) -> Scene:
     """Return the add-ons' drawings on the floor of the workspace, beneath the grid."""

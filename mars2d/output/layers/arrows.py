@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.scene import Anchor, Line, Scene
 
-__all__ = ["EDGE", "LABEL_SIZE", "LONGEST", "arrow", "beside", "has_cut", "shortening"]
-
 Float = NDArray[np.float64]
 
 EDGE = "#ffffff"

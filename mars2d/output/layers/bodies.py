@@ -20,26 +20,6 @@ from mars2d.record.frame import Frame
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
-__all__ = [
-    "INK",
-    "OBSTACLE",
-    "draw_name",
-    "draw_prop",
-    "draw_robot",
-    "draw_tie",
-    "initial_poses",
-    "joints",
-    "names",
-    "place_prop",
-    "place_robot",
-    "prop_color",
-    "prop_colors",
-    "prop_edge",
-    "props",
-    "robots",
-    "starts",
-]
-
 Float = NDArray[np.float64]
 
 OBSTACLE = "#b8c0c8"

@@ -15,21 +15,6 @@ from mars2d.output.layers.arrows import LONGEST, arrow, beside, shortening
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = [
-    "FORCE",
-    "SLIP",
-    "SLIPPING",
-    "SLIP_EDGE",
-    "ForceScale",
-    "as_read",
-    "bounding_circle",
-    "force_scale",
-    "forces",
-    "in_newtons",
-    "mean_forces",
-    "round_force",
-]
-
 Float = NDArray[np.float64]
 
 FORCE = "#a3003c"

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mars2d.core.scene import Polygon, Scene, faded
-from mars2d.output.layers.bodies import INK, OBSTACLE
+from mars2d.core.scene import INK, Polygon, Scene, faded
+from mars2d.output.layers.bodies import OBSTACLE
 from mars2d.scenario.scenario import Scenario
-
-__all__ = ["edge", "obstacles", "workspace"]
 
 
 def workspace(scenario: Scenario) -> Scene:

@@ -15,16 +15,6 @@ from mars2d.output.layers.forces import force_scale
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = [
-    "FRICTION",
-    "NORMAL",
-    "ImpulseScale",
-    "blows",
-    "impulse_scale",
-    "impulses",
-    "in_newton_seconds",
-]
-
 Float = NDArray[np.float64]
 
 NORMAL, FRICTION = "#4527a0", "#b34700"

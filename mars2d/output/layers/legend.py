@@ -30,8 +30,6 @@ from mars2d.output.layers.messages import LOST_LINK
 from mars2d.output.layers.velocities import VELOCITY, in_metres_a_second, speed_scale
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["MAX_ARROW", "SIGNED", "Legend", "Ruler", "Sign", "legends", "sign_rows"]
-
 MAX_ARROW = 72.0
 """The greatest length of an arrow, points; it means 1, 2, 5, 10 ... newtons or metres a second."""
 

@@ -11,8 +11,6 @@ from mars2d.core.scene import Scene, faded
 from mars2d.record.frame import Frame
 from mars2d.record.message import DELIVERED, ON_ITS_WAY
 
-__all__ = ["LOST_LINK", "messages"]
-
 LOST_LINK = "#c92a2a"
 """The colour of a link over which nothing gets through."""
 

@@ -10,8 +10,6 @@ from mars2d.core.usercode import called
 from mars2d.record.frame import Frame
 from mars2d.scenario.neighbours import Everyone, Neighbourhood
 
-__all__ = ["LINK", "Links", "neighbours"]
-
 LINK = "#aab1b9"
 """The colour of a link, opaque: hundreds of long faint lines would be slow to draw."""
 

@@ -13,8 +13,6 @@ from mars2d.core.scene import INK, Arrow, Scene, Shape, Text
 from mars2d.output.layers.rings import RING, has_ring
 from mars2d.record.frame import Frame
 
-__all__ = ["Box", "placed_names"]
-
 Float = NDArray[np.float64]
 
 LETTER = 0.6

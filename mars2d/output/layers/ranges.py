@@ -12,8 +12,6 @@ from mars2d.core.scene import Scene, faded
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["place_range", "range_of", "ranges"]
-
 
 def range_of(scenario: Scenario) -> float | None:
     """Return how far robots hear each other, else how far neighbours are apart, metres.

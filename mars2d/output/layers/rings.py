@@ -9,8 +9,6 @@ from mars2d.core.scene import Scene, faded
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["RING", "has_ring", "place_ring", "rings"]
-
 SMALL = 0.012
 """A robot is small if its diameter is less than this share of the workspace's longer side."""
 

@@ -36,8 +36,6 @@ from mars2d.record.frame import Frame
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["FIRST_BODIES", "LAST_BODIES", "LAYERS", "Layer", "Layers", "standing"]
-
 Float = NDArray[np.float64]
 
 

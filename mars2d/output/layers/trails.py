@@ -13,8 +13,6 @@ from mars2d.record.frame import Frame
 from mars2d.record.interventions import Leap
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["PROP_TRAIL_WIDTH", "TRAIL_WIDTH", "prop_trail_colors", "trail_colors", "trails"]
-
 Float = NDArray[np.float64]
 
 TRAIL_WIDTH, PROP_TRAIL_WIDTH = 1.6, 1.0

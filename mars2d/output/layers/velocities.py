@@ -18,8 +18,6 @@ from mars2d.output.layers.forces import bounding_circle
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["VELOCITY", "SpeedScale", "in_metres_a_second", "speed_scale", "velocities"]
-
 Float = NDArray[np.float64]
 
 VELOCITY = "#00695c"

@@ -23,8 +23,6 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["draw", "say"]
-
 Float = NDArray[np.float64]
 
 WIDTH, HEIGHT = 560.0, 440.0

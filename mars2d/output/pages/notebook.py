@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
 
-__all__ = ["record_html", "record_svg", "scenario_svg", "world_svg"]
-
 REPLAY_HEIGHT = 480
 """The height of a replay, pixels."""
 

@@ -26,8 +26,6 @@ from mars2d.core.scene import (
 )
 from mars2d.output.figures.extent import View
 
-__all__ = ["ScaledScene", "svg"]
-
 Float = NDArray[np.float64]
 
 ScaledScene = tuple[Scene, float]

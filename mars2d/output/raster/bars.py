@@ -15,8 +15,6 @@ from mars2d.output.raster.theme import Tone
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Banner", "Status", "draw_footer", "draw_header", "footer_height"]
-
 Kind = Literal["running", "waiting", "past", "hand", "error"]
 
 LINE_HEIGHT, CODE_LINE_HEIGHT = 23.0, 20.0

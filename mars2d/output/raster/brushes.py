@@ -16,30 +16,6 @@ from numpy.typing import NDArray
 
 from mars2d.output.raster.strokes import clip_lines, hairlines
 
-__all__ = [
-    "LARGE_AREA",
-    "Draw",
-    "Rgba",
-    "box_round",
-    "cover",
-    "disc",
-    "draw_on",
-    "drawn_finely",
-    "edged",
-    "extent_of",
-    "filled",
-    "hairline",
-    "in_sight",
-    "layer",
-    "mark",
-    "outlined",
-    "rgba",
-    "ring",
-    "rounded",
-    "stroke",
-    "stroked",
-]
-
 Float = NDArray[np.float64]
 Rgba = tuple[int, int, int, int]
 Draw = Callable[[pygame.Surface, float, float, float, Rgba], None]

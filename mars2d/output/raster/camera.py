@@ -8,8 +8,6 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["PIXELS", "Camera", "Margins"]
-
 Float = NDArray[np.float64]
 Margins = tuple[float, float, float, float]
 """Left, top, right, bottom, in pixels."""

@@ -8,8 +8,6 @@ from pathlib import Path
 
 import pygame
 
-__all__ = ["Fonts"]
-
 
 def _typeface(bold: bool, mono: bool) -> str | None:
     """Return the file of DejaVu Sans, which matplotlib ships, or None for pygame's own font."""

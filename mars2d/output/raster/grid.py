@@ -13,8 +13,6 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.theme import Theme
 
-__all__ = ["draw_grid", "label", "labels", "spacing", "ticks"]
-
 Bounds = tuple[float, float, float, float]
 Float = NDArray[np.float64]
 

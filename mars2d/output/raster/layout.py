@@ -9,8 +9,6 @@ import pygame
 from mars2d.output.raster.camera import Camera, Margins
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["FOOTER", "TEXT_SIZES", "Layout", "fitted", "interface_scale", "next_text_size"]
-
 TEXT_SIZES = (1.0, 1.3, 1.7, 2.2)
 """Factors on the size of all text and lines."""
 HEADER, FOOTER, STRIP = 52.0, 44.0, 44.0

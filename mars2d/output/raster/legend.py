@@ -12,8 +12,6 @@ from mars2d.output.layers.legend import MAX_ARROW, Legend
 from mars2d.output.raster.camera import PIXELS, Camera
 from mars2d.output.raster.painter import Painter
 
-__all__ = ["draw_legends"]
-
 LEAST = 300.0
 """The least width and height of a picture with a legend, points."""
 MAX_SHARE = 0.25

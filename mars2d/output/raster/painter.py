@@ -40,8 +40,6 @@ from mars2d.output.raster.strokes import (
 )
 from mars2d.output.raster.theme import LIGHT, Theme
 
-__all__ = ["Painter", "Sprite", "Sprites", "rgba"]
-
 Float = NDArray[np.float64]
 Layer = tuple[Rgba, Draw, int]
 """One colour of a sprite: its ink, its brush, and the factor of enlargement, 0 for the default."""

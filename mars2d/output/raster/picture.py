@@ -19,8 +19,6 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import PRINTED
 from mars2d.record.frame import Frame
 
-__all__ = ["Artist", "arena_of", "paint_frame", "save_png"]
-
 
 class Artist:
     """Paints one frame after another, and keeps the parts that do not change.

@@ -24,8 +24,6 @@ from mars2d.output.raster.trails import Wakes
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["MEMORY", "Canvas", "Stage", "grid_bounds"]
-
 SHIFT_TOLERANCE = 1e-6
 """The distance from a whole number of pixels up to which a shift counts as whole."""
 

@@ -8,18 +8,6 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-__all__ = [
-    "DASHES",
-    "MARK_SPACING",
-    "arc_length",
-    "clip_lines",
-    "clip_polygon",
-    "dashes",
-    "hair_shifts",
-    "hairlines",
-    "simplified",
-]
-
 Float = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax."""

@@ -13,8 +13,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DARK", "LIGHT", "PRINTED", "Theme", "Tone", "contrast", "mixed", "theme_of"]
-
 
 class Tone(NamedTuple):
     """A colour with a meaning: as ink, and as the pale plate below that ink."""

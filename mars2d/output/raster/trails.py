@@ -25,8 +25,6 @@ from mars2d.output.raster.theme import Theme, mixed
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Trails", "Wakes"]
-
 Float = NDArray[np.float64]
 
 MIN_GROWTH = 2.0

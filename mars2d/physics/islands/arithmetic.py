@@ -10,17 +10,6 @@ from math import floor, fmod, sqrt
 
 from mars2d.physics.islands import shadow as cython
 
-__all__ = [
-    "chord_share",
-    "cosine_sine",
-    "decay_base",
-    "exponential",
-    "implicitness",
-    "length",
-    "power",
-    "sine",
-]
-
 
 @cython.cfunc
 def length(x: cython.double, y: cython.double) -> cython.double:

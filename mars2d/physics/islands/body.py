@@ -9,8 +9,6 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import chord_share, cosine_sine, length
 from mars2d.physics.islands.chipmunk import NOTHING, Handle
 
-__all__ = ["Body", "Corner", "Edge", "Piece"]
-
 
 @cython.final
 @cython.cclass

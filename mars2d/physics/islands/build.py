@@ -14,8 +14,6 @@ from collections.abc import Sequence
 from contextlib import chdir
 from pathlib import Path
 
-__all__ = ["compile_into", "fingerprint", "functions", "joined"]
-
 HERE = Path(__file__).parent
 
 MODULES = (
@@ -61,7 +59,6 @@ def joined() -> str:
     for name in MODULES:
         text = (HERE / f"{name}.py").read_text(encoding="utf-8")
         text = re.sub(r"^from [^\n]+ import (\([^)]*\)|[^\n]*)\n", "", text, flags=re.M)
-        text = re.sub(r"^__all__ = \[[^]]*\]\n", "", text, flags=re.M)
         text = re.sub(r"\bcython\.Doubles\b", "cython.double[::1]", text)
         parts.append(f"# -- {name}.py\n{text}")
     return "\n".join(parts)

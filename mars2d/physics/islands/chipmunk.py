@@ -15,21 +15,6 @@ from pymunk._chipmunk_cffi import ffi, lib
 
 from mars2d.physics.islands.arithmetic import cosine_sine, exponential, implicitness
 
-__all__ = [
-    "DAMPED_SPRING", "GEAR", "GROOVE", "NOTHING", "PIN", "PIVOT", "ROTARY_LIMIT",
-    "ROTARY_SPRING", "SLIDE", "Arbiters", "Handle", "Vector", "add_body", "add_joint",
-    "add_shape", "aim", "angle_of", "arm_of", "bounce_of", "check_signals", "corner_of",
-    "corners_of", "count_of", "depth_of", "drag_of", "first_of", "flush_of", "free_body",
-    "free_joint", "free_shape", "free_space", "ground_of", "impulse_of", "is_void", "join",
-    "leave_out", "make_joint", "new_body", "new_control", "new_disc", "new_ground",
-    "new_polygon", "new_segment", "new_space", "normal_of", "place_of", "point_of",
-    "position_of", "push", "push_of", "put", "put_point", "remove_body", "remove_joint",
-    "remove_shape", "rub_of", "scale", "second_of", "set_iterations", "set_joint", "set_limits",
-    "set_max_bias", "set_max_force", "set_normal", "set_surface", "settle_down", "sew",
-    "shape_of", "show", "spin_of", "step", "twist_of", "used_of",
-    "velocity_of", "watch", "weight_at",
-]  # fmt: skip
-
 Handle: TypeAlias = Any
 """A thing of the engine."""
 

@@ -12,11 +12,6 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 
-__all__ = [
-    "Row", "Touch", "begin_touches_again", "close_touches", "keep_touches", "note_row", "part",
-    "take_touches",
-]  # fmt: skip
-
 ALIKE = 0.9659258262890683
 """The cosine up to which a contact's normal is still that of a touch in the substep before."""
 

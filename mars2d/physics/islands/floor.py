@@ -18,8 +18,6 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length, power
 from mars2d.physics.islands.body import Body
 
-__all__ = ["Glide", "hold"]
-
 
 @cython.cfunc
 def hold(body: Body, h: cython.double) -> cython.void:

@@ -26,8 +26,6 @@ from mars2d.physics.islands.chipmunk import (
     shape_of,
 )
 
-__all__ = ["Flush", "lay"]
-
 PARALLEL = 0.9999
 """The cosine from which on two faces are parallel."""
 

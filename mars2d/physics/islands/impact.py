@@ -26,9 +26,6 @@ from mars2d.physics.islands.chipmunk import (
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.tie import Tie
 
-__all__ = ["Impact", "settle"]
-
-
 REBOUND = 0.1
 """How much faster than by its restitution a contact may throw back a body that it has stopped.
 

@@ -35,8 +35,6 @@ from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust
 from mars2d.physics.islands.tie import Tie
 
-__all__ = ["Accuracy", "Island"]
-
 
 @cython.final
 @cython.cclass

@@ -22,8 +22,6 @@ from mars2d.physics.islands.solver import Solver, free_things_of, free_tie
 from mars2d.physics.islands.thrust import Thrust
 from mars2d.physics.islands.tie import Tie
 
-__all__ = ["Mover"]
-
 
 @cython.final
 @cython.cclass

@@ -16,8 +16,6 @@ from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.pair import DiscPair, DiscWall, Pair, PiecePair, Wall
 
-__all__ = ["Neighbours"]
-
 FEW = 32
 """Up to this number of bodies, all pairs are listed once and for all."""
 

@@ -16,8 +16,6 @@ from mars2d.physics.islands.chipmunk import join
 from mars2d.physics.islands.flush import PARALLEL, lay
 from mars2d.physics.islands.seams import Seams
 
-__all__ = ["DiscPair", "DiscWall", "Pair", "PiecePair", "Wall"]
-
 
 @cython.final
 @cython.cclass

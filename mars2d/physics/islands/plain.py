@@ -1,5 +1,6 @@
 """The islands in Python, where there is no compiler."""
 
+# ruff: noqa: F401, what the islands offer, as the compiled module does
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.island import Accuracy
@@ -8,7 +9,3 @@ from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.seams import Seams
 from mars2d.physics.islands.surfaces import Surface, Surfaces
 from mars2d.physics.islands.tie import Tie
-
-__all__ = [
-    "Accuracy", "Body", "Glide", "Mover", "Piece", "Seams", "Surface", "Surfaces", "Tie", "Wall",
-]  # fmt: skip

@@ -24,8 +24,6 @@ from mars2d.physics.islands.chipmunk import (
     shape_of,
 )
 
-__all__ = ["Seams"]
-
 STRAIGHT = 1e-9
 """The sine up to which a contact's normal stands upright on a wall."""
 

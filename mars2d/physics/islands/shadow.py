@@ -10,8 +10,6 @@ import builtins
 from array import array
 from typing import TypeAlias, TypeVar
 
-__all__ = ["Doubles", "bint", "cclass", "cfunc", "double", "final", "int", "longlong", "void"]
-
 T = TypeVar("T")
 
 double: TypeAlias = float

@@ -64,8 +64,6 @@ from mars2d.physics.islands.flush import Flush, lay
 from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.tie import Tie
 
-__all__ = ["Solver"]
-
 ENDS = ((0.0, 0.0), (0.0, 0.0))
 
 

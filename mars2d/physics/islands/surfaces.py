@@ -23,8 +23,6 @@ from mars2d.physics.islands.chipmunk import (
     velocity_of,
 )
 
-__all__ = ["Surface", "Surfaces"]
-
 
 @cython.final
 @cython.cclass

@@ -14,8 +14,6 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
 from mars2d.physics.islands.body import Body
 
-__all__ = ["Thrust"]
-
 
 @cython.final
 @cython.cclass

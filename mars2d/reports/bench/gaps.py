@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Gaps"]
-
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 

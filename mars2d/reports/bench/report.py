@@ -19,8 +19,6 @@ from mars2d.core.files import atomic_write
 from mars2d.physics.islands import reason_without
 from mars2d.physics.settings import versions
 
-__all__ = ["ALIKE", "FORMAT", "Change", "Figures", "Report", "Row", "load_report"]
-
 FORMAT = 1
 """The version of the file format; files of another version are refused."""
 

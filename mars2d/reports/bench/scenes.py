@@ -10,8 +10,6 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SCENES", "Scene", "Turns", "among_crates", "team"]
-
 Float = NDArray[np.float64]
 Outline = list[tuple[float, float]]
 

@@ -21,20 +21,6 @@ from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
 from mars2d.world.world import World
 
-__all__ = [
-    "COMMANDS",
-    "FULL",
-    "NAMES",
-    "QUICK",
-    "STEPS",
-    "Effort",
-    "Job",
-    "jobs",
-    "seconds",
-    "warmed_up",
-    "with_bytecode",
-]
-
 START = "start"
 """The name of the part that times starts."""
 

@@ -17,8 +17,6 @@ from mars2d.sensors.base import Sensor
 from mars2d.world.views import RobotView
 from mars2d.world.world import World
 
-__all__ = ["SETTINGS", "deepest", "world_of"]
-
 Float = NDArray[np.float64]
 
 SETTINGS = {"default": 1e-3, "loose": 0.02}

@@ -9,8 +9,6 @@ from pymunk import batch
 
 from mars2d.reports.bench.scenes import FORCE, FRICTION, MASS, TORQUE, WALL_FRICTION, Scene
 
-__all__ = ["Bare"]
-
 Float = NDArray[np.float64]
 
 

@@ -15,8 +15,6 @@ from mars2d.scenario.prediction import Prediction
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
-__all__ = ["Figure", "Picture", "Result", "Run"]
-
 
 @dataclass(frozen=True)
 class Run:

@@ -8,8 +8,6 @@ from mars2d.reports.paper.studies.coverage import coverage_cost, two_ends
 from mars2d.reports.paper.studies.cycle import cyclic_growth, cyclic_radius
 from mars2d.reports.paper.studies.pursuit import cell_area, speed_ratio
 
-__all__ = ["FIGURES"]
-
 CORTES = (
     "Cortes, Martinez, Karatas and Bullo, IEEE Transactions on Robotics and Automation 20(2), 2004"
 )

@@ -11,8 +11,6 @@ from mars2d.core.files import atomic_write
 from mars2d.reports.paper.figure import Figure, Result
 from mars2d.reports.paper.page import MARK, NUMBERS, page
 
-__all__ = ["PAGE", "prepare", "remove", "write_page"]
-
 PAGE = "index.html"
 """The page's file."""
 

@@ -13,8 +13,6 @@ from mars2d.core.errors import counted
 from mars2d.reports.paper.figure import Figure, Picture, Result
 from mars2d.scenario.prediction import Prediction, number
 
-__all__ = ["MARK", "NUMBERS", "page", "typeset", "verdict"]
-
 NUMBERS = "numbers.json"
 """The file of the numbers, which the page links to."""
 

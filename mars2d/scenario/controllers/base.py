@@ -14,8 +14,6 @@ from mars2d.core.interfaces import ScenarioLike
 from mars2d.core.plane import wrap
 from mars2d.sensors.base import Sensor
 
-__all__ = ["Command", "Controller", "Paced", "standing_still", "steered"]
-
 Command = tuple[float, float]
 
 TURN_GAIN = 1.5

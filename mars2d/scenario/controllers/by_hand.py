@@ -6,8 +6,6 @@ from typing import Any, ClassVar
 
 from mars2d.scenario.controllers.base import Command, Controller
 
-__all__ = ["ByHand"]
-
 
 class ByHand(Controller):
     """Waits for a person: the window lets you drive it at once, by keys or a game controller.

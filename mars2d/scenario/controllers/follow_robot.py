@@ -9,8 +9,6 @@ from mars2d.core.description import number, text
 from mars2d.core.interfaces import ScenarioLike
 from mars2d.scenario.controllers.base import Command, Paced, steered
 
-__all__ = ["FollowRobot"]
-
 
 class FollowRobot(Paced):
     """Follows another robot at a distance, and waits where it is nearer.

@@ -16,8 +16,6 @@ from mars2d.scenario.controllers.base import Command, Paced, steered
 from mars2d.sensors.base import Float, Sensor, sight_angle
 from mars2d.sensors.range_finder import RangeFinder
 
-__all__ = ["FollowWall"]
-
 NEAR = 1.15
 """Beams up to this many times as long as the shortest one tell which way the wall is."""
 

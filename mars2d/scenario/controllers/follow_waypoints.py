@@ -9,8 +9,6 @@ from mars2d.core.description import number
 from mars2d.core.interfaces import ScenarioLike
 from mars2d.scenario.controllers.base import Command, Paced, steered
 
-__all__ = ["FollowWaypoints"]
-
 
 class FollowWaypoints(Paced):
     """Goes along its waypoints, one after the other, and stops at the last.

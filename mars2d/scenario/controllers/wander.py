@@ -14,8 +14,6 @@ from mars2d.scenario.controllers.base import Command, Paced
 from mars2d.sensors.base import Sensor
 from mars2d.sensors.proximity import Proximity
 
-__all__ = ["Wander"]
-
 HALF = pi / 3
 """A drive that moves in any direction turns round, and up to this much to either side, radians."""
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import time
 
-__all__ = ["LOOK", "Clock"]
-
 LOOK = 0.1
 """The longest time between two looks at the clock while laws compute, seconds."""
 

@@ -27,8 +27,6 @@ from mars2d.core.errors import InputError
 from mars2d.core.lastresort import kill_group
 from mars2d.study import ONE_THREAD
 
-__all__ = ["Ended", "Started", "serve", "spawn", "start"]
-
 Sockets = tuple[socket.socket, socket.socket]
 
 REQUEST = struct.Struct("<cqd")

@@ -22,8 +22,6 @@ from mars2d.study.isolation.process import LawProcess
 from mars2d.world.simulation import Simulation
 from mars2d.world.views import RobotView
 
-__all__ = ["Guard", "Limits", "Verdict"]
-
 CHATTER_TIME = 1.0
 """How long a law may go on sending after another law's time is over, seconds."""
 

@@ -40,8 +40,6 @@ from mars2d.study.isolation.protocol import (
 )
 from mars2d.world.laws import Law, robot_command
 
-__all__ = ["CUT_OFF", "main"]
-
 CUT_OFF = 70
 """The exit code of a process whose law has closed the connection to the match."""
 

@@ -7,8 +7,6 @@ from typing import NamedTuple
 
 from mars2d.core.description import real, wrong
 
-__all__ = ["MB", "Limits", "Verdict"]
-
 MB = 1_000_000
 """Bytes."""
 

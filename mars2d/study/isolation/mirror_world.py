@@ -23,8 +23,6 @@ from mars2d.world.views import VIEWS, Mind, PropView, RobotView, unknown
 if TYPE_CHECKING:
     from mars2d.world.interfaces import Seen
 
-__all__ = ["Mailbox", "MirrorWorld"]
-
 Float = NDArray[np.float64]
 
 REFUSED = {

@@ -29,8 +29,6 @@ from mars2d.study.isolation.protocol import HEAD, STEP, STEP_HEAD, VELOCITIES, L
 if TYPE_CHECKING:
     from mars2d.world.simulation import Simulation
 
-__all__ = ["Briefing", "Cast", "News", "Observer", "brief"]
-
 Mask = NDArray[np.bool_]
 
 SHARED_PACKAGES = ("builtins", "numpy", "mars2d")

@@ -40,8 +40,6 @@ from mars2d.world.laws import LARGEST
 if TYPE_CHECKING:
     from mars2d.world.simulation import Simulation
 
-__all__ = ["Fault", "LawProcess"]
-
 KEPT_OUTPUT = 64_000
 """How many bytes of a law's output are kept from the beginning, and as many from the end."""
 

@@ -12,23 +12,6 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "ANSWER",
-    "BRIEFING",
-    "COMMANDS",
-    "FAULT",
-    "HEAD",
-    "LINE",
-    "READY",
-    "STEP",
-    "STEP_HEAD",
-    "VELOCITIES",
-    "WANTED",
-    "Layout",
-    "Reader",
-    "framed",
-]
-
 Float = NDArray[np.float64]
 
 HEAD = struct.Struct("<Ic3x")

@@ -7,8 +7,6 @@ import sys
 import time
 from pathlib import Path
 
-__all__ = ["Scale"]
-
 PAUSE = 0.02
 """The least time between two looks, seconds: a look takes as long as a quick law."""
 

@@ -17,8 +17,6 @@ from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.tournament.match import Match, Played
 from mars2d.study.tournament.schedule import Schedule, law_code
 
-__all__ = ["PLAYED", "Folder", "played_before"]
-
 PLAYED = "played.jsonl"
 """The file that is written while matches are played."""
 

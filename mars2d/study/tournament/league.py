@@ -24,20 +24,6 @@ from mars2d.study.tournament.schedule import Schedule
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-__all__ = [
-    "DRAW",
-    "LEAGUE",
-    "MATCHES",
-    "PAGE",
-    "WIN",
-    "Standing",
-    "Tournament",
-    "head_to_head",
-    "is_draw",
-    "league",
-    "one_table",
-]
-
 WIN, DRAW = 1.0, 0.5
 """The points for a match; a loss gives none."""
 

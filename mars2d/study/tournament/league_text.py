@@ -10,8 +10,6 @@ from mars2d.core.errors import counted
 from mars2d.study.tournament.league import Standing, Tournament, head_to_head, league
 from mars2d.study.tournament.match import Played
 
-__all__ = ["league_text", "matches"]
-
 MAX_WIDTH = 100
 """The greatest width of the table of who beat whom; a wider one is only on the page."""
 

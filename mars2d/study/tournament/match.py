@@ -19,8 +19,6 @@ from mars2d.world.loop import simulate
 if TYPE_CHECKING:
     from mars2d.study.isolation import Guard
 
-__all__ = ["Match", "Played", "play", "replayed"]
-
 
 @dataclass(frozen=True)
 class Match:

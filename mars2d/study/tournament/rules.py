@@ -14,8 +14,6 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.limits import Limits
 
-__all__ = ["Role", "Rules"]
-
 SEES = {
     "full": "everything, as robot.world",
     "partial": "its own pose and velocity, and the poses of its neighbours",

@@ -19,8 +19,6 @@ from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
 from mars2d.study.tournament.match import Match
 from mars2d.study.tournament.rules import Rules
 
-__all__ = ["Files", "Schedule", "entrants", "law_code", "law_files", "names_of", "schedule"]
-
 IMPORT = re.compile(rb"(?:^|[;:])\s*(?:from|import)\s+([a-zA-Z0-9_., \t]+)", re.MULTILINE)
 
 Files = str | Path | Sequence[str | Path]

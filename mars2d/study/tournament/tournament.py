@@ -17,17 +17,8 @@ from mars2d.study.tournament.folder import Folder
 from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Match, Played, play
 from mars2d.study.tournament.schedule import Files, Schedule, law_code, schedule
-from mars2d.study.work import Failure, each_done, worker_count
-from mars2d.study.workers import leave_if_imported_again
-
-__all__ = [
-    "LIMITS",
-    "Tournament",
-    "TournamentInterrupted",
-    "play_all",
-    "play_schedule",
-    "tournament",
-]
+from mars2d.study.work import each_done, worker_count
+from mars2d.study.workers import Failure, leave_if_imported_again
 
 LIMITS = Limits()
 """The default limits of a law."""

@@ -11,8 +11,6 @@ from mars2d.core.errors import Mars2dError
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 
-__all__ = ["Button", "Header", "Prompt", "draw_footer", "draw_plate", "draw_prompt"]
-
 MAX_TYPED = 200
 """How many characters can be typed into a prompt."""
 

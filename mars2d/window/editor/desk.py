@@ -12,8 +12,6 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, Motion, tidy
 from mars2d.window.viewpoint import Viewpoint
 
-__all__ = ["Desk", "Gesture", "History"]
-
 MIN_GRID_STEP = 9.0
 """The smallest step of the grid on the screen, points."""
 MAX_DRAFTS = 500

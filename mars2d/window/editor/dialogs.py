@@ -15,8 +15,6 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.verdict import Judge
 
-__all__ = ["Dialogs", "Outcome"]
-
 
 @dataclass(frozen=True)
 class Outcome:

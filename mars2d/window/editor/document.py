@@ -13,8 +13,6 @@ from mars2d.scenario import toml_file
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.saving import free_name
 
-__all__ = ["Document"]
-
 UNTITLED = Scenario.__dataclass_fields__["title"].default
 
 

@@ -27,8 +27,6 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.item import FIELDS, Item, Kind, Motion
 
-__all__ = ["Draft", "flaw"]
-
 DRAWN = (Map, Waypoints, Beacon)
 """The add-ons that are drawn with the mouse."""
 

@@ -29,11 +29,11 @@ from mars2d.window.editor.chrome import (
     draw_prompt,
 )
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.dialogs import Dialogs, Outcome
+from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
-from mars2d.window.editor.keys import action_of, chord, groups
+from mars2d.window.editor.keys import action_of, groups
 from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall, Workspace
 from mars2d.window.editor.panel import Panel
 from mars2d.window.editor.placing import PlaceBall, PlaceBeacon, PlaceBox, PlaceRobot, PlaceWaypoint
@@ -46,11 +46,10 @@ from mars2d.window.editor.toolbar import WIDTH, Toolbar
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
 from mars2d.window.help import Help
+from mars2d.window.keys import chord
 from mars2d.window.looks import Looks
 from mars2d.window.menu import Menu
 from mars2d.window.viewpoint import Viewpoint, wheel_notches
-
-__all__ = ["Editor", "Outcome"]
 
 TOOLS: dict[str, type[Tool]] = {
     "select": Select,

@@ -16,21 +16,6 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, Motion, angle_of, tidy
 from mars2d.window.editor.readout import size_of, stretch, turned
 
-__all__ = [
-    "MARK",
-    "NOTCH",
-    "PAPER",
-    "Cornering",
-    "Handle",
-    "Moving",
-    "Sizing",
-    "Turning",
-    "draw_handles",
-    "handle_at",
-    "ring_of",
-    "spanned",
-]
-
 REACH = 9.0
 """The radius in which a handle is hit, points."""
 

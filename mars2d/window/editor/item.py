@@ -7,8 +7,6 @@ from typing import Literal, NamedTuple
 
 from mars2d.core.plane import Point
 
-__all__ = ["FIELDS", "Item", "Kind", "Motion", "angle_of", "tidy"]
-
 Kind = Literal["robot", "prop", "outline", "wall", "waypoint", "beacon", "workspace"]
 
 FIELDS: dict[Kind, str] = {

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from mars2d.window.keys import Key, chord
-
-__all__ = ["GROUPS", "MOUSE", "action_of", "chord", "groups"]
+from mars2d.window.keys import Key
 
 TOOLS = (
     Key("select", ("v",), ("V",), "select and move"),

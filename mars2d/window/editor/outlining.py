@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from mars2d.core.plane import Outline, Point, rectangle
-from mars2d.core.scene import Scene, faded
-from mars2d.output.layers.bodies import INK
+from mars2d.core.scene import INK, Scene, faded
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, PAPER, Handle, handle_at
@@ -15,8 +14,6 @@ from mars2d.window.editor.picking import edge_at, foot_on
 from mars2d.window.editor.readout import sides, stretch
 from mars2d.window.editor.select import Handling
 from mars2d.window.editor.tool import Maker, Making, Tool
-
-__all__ = ["DrawPolygon", "DrawRectangle", "DrawWall", "Workspace"]
 
 CLOSE = 10.0
 """A click this near to the first corner closes a polygon, points."""

@@ -9,8 +9,6 @@ import pygame
 
 from mars2d.output.raster.painter import Painter
 
-__all__ = ["WIDTH", "Panel", "Row"]
-
 WIDTH, MAX_SHARE = 268.0, 0.34
 """The panel's width, points, and at most this share of the window."""
 ROW, SIZE, PAD = 26.0, 14.0, 14.0

@@ -12,8 +12,6 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.item import Item
 from mars2d.window.picking import body_at
 
-__all__ = ["edge_at", "foot_on", "inside", "item_at", "items_within"]
-
 NEAR = 6.0
 """A point this far from a line or body still hits it, points of the screen."""
 

@@ -23,8 +23,6 @@ from mars2d.window.editor.picking import item_at
 from mars2d.window.editor.readout import size_of, turned
 from mars2d.window.editor.tool import Maker, Making
 
-__all__ = ["PlaceBall", "PlaceBeacon", "PlaceBox", "PlaceRobot", "PlaceWaypoint"]
-
 GHOST = faded(MARK, 0.7)
 
 

@@ -34,8 +34,6 @@ from mars2d.window.editor.panel import Row
 from mars2d.window.editor.readout import described
 from mars2d.window.menu import Entry, Menu
 
-__all__ = ["Properties"]
-
 Pixel = tuple[int, int]
 
 SEVERAL = "several"

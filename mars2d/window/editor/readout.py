@@ -12,8 +12,6 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, angle_of
 from mars2d.window.readout import in_both_units
 
-__all__ = ["described", "minus", "sides", "size_of", "stretch", "turned"]
-
 
 def described(desk: Desk) -> list[str]:
     """Return lines about the selection: name, position, size."""

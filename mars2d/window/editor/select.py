@@ -22,8 +22,6 @@ from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.tool import Tool
 
-__all__ = ["Handling", "Select"]
-
 
 class Handling(Tool):
     """The base of tools that drag handles."""

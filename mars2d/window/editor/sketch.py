@@ -13,8 +13,6 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, PAPER
 from mars2d.window.editor.item import Item
 
-__all__ = ["Sketch", "draw_culprits", "draw_idle", "draw_selected"]
-
 IDLE, IDLE_SIZE = LIGHT.waiting.ink, 12.0
 RED = LIGHT.error.ink
 

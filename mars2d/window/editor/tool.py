@@ -9,8 +9,6 @@ from mars2d.core.scene import Scene
 from mars2d.window.editor.desk import Desk, Gesture
 from mars2d.window.editor.item import Item
 
-__all__ = ["Maker", "Making", "Tool"]
-
 CLICK = 5.0
 """A press that moves by less than this is a click, points."""
 

@@ -7,16 +7,14 @@ from collections.abc import Callable
 import numpy as np
 import pygame
 
-from mars2d.core.scene import PALETTE, Scene, faded
-from mars2d.output.layers.bodies import INK, NEUTRAL, OBSTACLE, prop_edge
+from mars2d.core.scene import INK, PALETTE, Scene, faded
+from mars2d.output.layers.bodies import NEUTRAL, OBSTACLE, prop_edge
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.window.editor.chrome import draw_plate
 from mars2d.window.editor.handles import MARK, PAPER
 from mars2d.window.editor.keys import TOOLS, VIEW
 from mars2d.window.keys import Key
-
-__all__ = ["WIDTH", "Toolbar"]
 
 WIDTH = 58.0
 """The toolbar's width, points."""

@@ -14,8 +14,6 @@ from mars2d.window.editor.item import Item
 from mars2d.window.editor.picking import item_at
 from mars2d.window.editor.tool import Tool
 
-__all__ = ["Tie"]
-
 
 class Tie(Tool):
     """Ties bodies by joints of a kind: a click on another body, or on the floor, ends it."""

@@ -19,8 +19,6 @@ from mars2d.window.editor.draft import Draft, flaw
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.picking import inside
 
-__all__ = ["Fault", "Judge", "Verdict", "judge"]
-
 MAX_FAULTS = 50
 """The search stops after this many faults."""
 MIN_INTERVAL = 0.1

@@ -9,8 +9,6 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.window.display import PICTURES_A_SECOND, show_drawn, started_display
 from mars2d.window.editor.editor import Editor
 
-__all__ = ["EditorWindow"]
-
 IDLE_WAIT = 100
 """How long to wait for an event before the editor is drawn again, milliseconds."""
 

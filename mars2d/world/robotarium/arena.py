@@ -16,8 +16,6 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.world.robotarium.placement import generate_initial_conditions
 from mars2d.world.world import World
 
-__all__ = ["MOST_ROBOTS", "Robotarium"]
-
 Float = NDArray[np.float64]
 
 WIDTH, HEIGHT, DIAMETER, TIME_STEP = 3.2, 2.0, 0.11, 0.033  # m, m, m, s

@@ -21,15 +21,6 @@ from mars2d.world.robotarium.mappings import (
     slowed,
 )  # fmt: skip
 
-__all__ = [
-    "create_single_integrator_barrier_certificate",
-    "create_single_integrator_barrier_certificate2",
-    "create_single_integrator_barrier_certificate_with_boundary",
-    "create_unicycle_barrier_certificate",
-    "create_unicycle_barrier_certificate2",
-    "create_unicycle_barrier_certificate_with_boundary",
-]
-
 Float = NDArray[np.float64]
 Certificate = Callable[[Float, Float], Float]
 

@@ -10,13 +10,6 @@ from numpy.typing import NDArray
 from mars2d.core.plane import wrap
 from mars2d.world.robotarium.mappings import create_si_to_uni_dynamics, slowed
 
-__all__ = [
-    "create_clf_unicycle_pose_controller",
-    "create_clf_unicycle_position_controller",
-    "create_hybrid_unicycle_pose_controller",
-    "create_si_position_controller",
-]
-
 Float = NDArray[np.float64]
 Law = Callable[[Float, Float], Float]
 

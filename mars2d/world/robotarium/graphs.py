@@ -5,16 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "completeGL",
-    "cycle_GL",
-    "delta_disk_neighbors",
-    "lineGL",
-    "randomGL",
-    "random_connectedGL",
-    "topological_neighbors",
-]
-
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 

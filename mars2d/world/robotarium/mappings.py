@@ -12,13 +12,6 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "create_si_to_uni_dynamics",
-    "create_si_to_uni_dynamics_with_backwards_motion",
-    "create_si_to_uni_mapping",
-    "create_uni_to_si_dynamics",
-]
-
 Float = NDArray[np.float64]
 Mapping = Callable[[Float, Float], Float]
 

@@ -10,14 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.errors import InputError
 from mars2d.core.plane import rectangle, wrap
 
-__all__ = [
-    "at_pose",
-    "at_position",
-    "determine_font_size",
-    "determine_marker_size",
-    "generate_initial_conditions",
-]
-
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 

@@ -19,8 +19,6 @@ from mars2d.world.loop import Interrupted
 from mars2d.world.robotarium import barriers, controllers, graphs, mappings, placement
 from mars2d.world.robotarium.arena import Robotarium
 
-__all__ = ["run_script"]
-
 UTILITIES = {
     "transformations": mappings,
     "controllers": controllers,

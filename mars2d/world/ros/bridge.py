@@ -13,8 +13,6 @@ from mars2d.world.loop import RealTime
 from mars2d.world.ros.messages import WORLD, clock, fill, odometry, scan, transform
 from mars2d.world.world import World
 
-__all__ = ["Bridge"]
-
 PATIENCE = 0.5
 """How long a command holds if no other comes, seconds of simulated time."""
 

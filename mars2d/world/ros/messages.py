@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 
 from mars2d.sensors.base import Fan
 
-__all__ = ["WORLD", "clock", "fill", "odometry", "scan", "transform"]
-
 Tree = dict[str, Any]
 Triple = Sequence[float]
 

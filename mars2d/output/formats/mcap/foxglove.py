@@ -15,8 +15,6 @@ from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_colors, prop
 from mars2d.output.layers.ground import obstacles, workspace
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Topics", "nanoseconds", "schema_of"]
-
 Float = NDArray[np.float64]
 
 GROUND_HEIGHT = -0.1

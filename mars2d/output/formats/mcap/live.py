@@ -10,8 +10,6 @@ from mars2d.core.extras import extra
 from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
 from mars2d.output.formats.mcap.log import Logged, newest_row
 
-__all__ = ["Live"]
-
 HOST = "127.0.0.1"
 """It serves this machine alone."""
 

@@ -29,8 +29,6 @@ from mars2d.record.record import Record
 from mars2d.record.recorder import Recorder
 from mars2d.scenario.scenario import Scenario
 
-__all__ = ["Log", "Logged", "newest_row"]
-
 HEAD = struct.Struct("<BQHIQQ")
 """How the operation of a message begins: its kind and length, channel, sequence, two times."""
 

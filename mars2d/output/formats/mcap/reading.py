@@ -32,8 +32,6 @@ from mars2d.record.message import MESSAGE as MESSAGES
 from mars2d.record.message import as_of
 from mars2d.record.record import Record
 
-__all__ = ["BROKEN_OFF", "read"]
-
 BROKEN_OFF = "The log breaks off here: the run was killed, or still goes on"
 """The `over_message` of a record whose log does not tell how the run ended."""
 

@@ -19,8 +19,6 @@ from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE
 from mars2d.record.record import COLUMNS, FORMER, Record
 
-__all__ = ["Row", "changes_at", "cut", "decoded", "encoded", "schema", "with_arrays_as_bytes"]
-
 Float = NDArray[np.float64]
 
 

@@ -17,19 +17,6 @@ from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 from mars2d.output.formats.guard import check_size
 
-__all__ = [
-    "CHANNEL",
-    "MAGIC",
-    "MESSAGE",
-    "MESSAGE_HEAD",
-    "METADATA",
-    "SCHEMA",
-    "Operation",
-    "Torn",
-    "parsed",
-    "scan",
-]
-
 MAGIC = b"\x89MCAP0\r\n"
 
 SCHEMA, CHANNEL, MESSAGE, CHUNK, METADATA, DATA_END = 3, 4, 5, 6, 12, 15

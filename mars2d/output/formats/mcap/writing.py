@@ -33,8 +33,6 @@ from mars2d.scenario.scenario import Scenario
 if TYPE_CHECKING:
     from mcap.writer import Writer
 
-__all__ = ["BEGIN", "END", "TOPIC", "Tape", "pack", "require", "write"]
-
 TOPIC = "/mars2d/row"
 """The topic of the rows."""
 

@@ -9,8 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["MISSING", "Columns", "Int", "fitted", "rounded"]
-
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
 

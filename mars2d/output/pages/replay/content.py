@@ -55,8 +55,6 @@ from mars2d.sensors.base import Sensor
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
-__all__ = ["content_of"]
-
 MAX_ROWS = 20_000
 """The most rows of a replay."""
 

@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from mars2d.core.scene import Arrow, Circle, Image, Line, Polygon, Scene, Shape, Text
 from mars2d.output.pages.replay.columns import Columns, Int, rounded
 
-__all__ = ["Drawing", "Flat", "Float", "flat", "follows", "kept_rows", "pack", "shapes_of"]
-
 Float = NDArray[np.float64]
 
 Style = tuple[Any, ...]

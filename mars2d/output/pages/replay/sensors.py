@@ -17,15 +17,6 @@ from mars2d.sensors.base import Fan, Sensor
 if TYPE_CHECKING:
     from mars2d.record.record import Record
 
-__all__ = [
-    "Carried",
-    "beams_left_out",
-    "carried",
-    "drawings",
-    "fans_of",
-    "pack_fans",
-]
-
 FEW_SCENES = 8
 """The most scenes of a sensor that is never thinned."""
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mars2d.core.scene import THEORY
 from mars2d.output.figures.figure import GRID, INK, MUTED, new_figure
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import open_experiment
@@ -20,22 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure as Drawing
     from numpy.typing import ArrayLike
-
-__all__ = [
-    "BAD",
-    "MEASURED",
-    "OTHERS",
-    "THEORY",
-    "Study",
-    "addon",
-    "charts",
-    "from_zero",
-    "logarithmic",
-    "name",
-    "run",
-    "some_rows",
-    "top_speed",
-]
 
 MEASURED, BAD = "#0072b2", "#b42318"
 """The colours of measurements, and of a limit."""

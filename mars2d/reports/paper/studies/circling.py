@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mars2d.addons import Beacon
+from mars2d.core.scene import THEORY
 from mars2d.reports.paper.studies.base import (
     MEASURED,
     OTHERS,
-    THEORY,
     Study,
     addon,
     charts,
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
     from mars2d.record.record import Record
-
-__all__ = ["radius_and_gaps"]
 
 
 def radius_and_gaps(records: Sequence[Record]) -> Study:

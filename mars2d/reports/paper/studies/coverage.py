@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from mars2d.addons import Voronoi
 from mars2d.core.errors import counted
+from mars2d.core.scene import THEORY
 from mars2d.reports.paper.studies.base import (
     MEASURED,
     OTHERS,
-    THEORY,
     Study,
     addon,
     charts,
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
     from mars2d.record.record import Record
-
-__all__ = ["coverage_cost", "two_ends"]
 
 Float = NDArray[np.float64]
 

@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.reports.paper.studies.base import OTHERS, THEORY, Study, charts, logarithmic, name, run
+from mars2d.core.scene import THEORY
+from mars2d.reports.paper.studies.base import OTHERS, Study, charts, logarithmic, name, run
 from mars2d.scenario.prediction import Prediction
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
     from mars2d.record.record import Record
-
-__all__ = ["cyclic_growth", "cyclic_radius"]
 
 Float = NDArray[np.float64]
 

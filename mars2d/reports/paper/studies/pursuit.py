@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons import Game, Voronoi
+from mars2d.core.scene import THEORY
 from mars2d.reports.paper.studies.base import (
     BAD,
     MEASURED,
     OTHERS,
-    THEORY,
     Study,
     addon,
     charts,
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
     from mars2d.record.record import Record
-
-__all__ = ["cell_area", "speed_ratio"]
 
 Float = NDArray[np.float64]
 

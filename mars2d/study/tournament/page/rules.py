@@ -11,8 +11,6 @@ from mars2d.output.raster.theme import DARK
 from mars2d.study.tournament.page.words import escaped, read
 from mars2d.study.tournament.rules import Role, Rules
 
-__all__ = ["dot_style", "dots", "rules_page", "rules_section"]
-
 NOTE = re.compile(r"[A-Z][\w ,]{2,24}: ")
 """How a line of a docstring begins that says something new."""
 

@@ -23,8 +23,6 @@ from mars2d.study.tournament.page.words import (
 )
 from mars2d.study.tournament.rules import Rules
 
-__all__ = ["choices", "details", "match_table", "matrix", "shades", "standing_tables"]
-
 SORTED_BY = ' aria-sort="ascending"'
 STANDING_COLUMNS = (
     "Place", "Law", "Points", "Share of points", "Played", "Won", "Drawn", "Lost", "Forfeits",

@@ -20,19 +20,6 @@ from mars2d.core.errors import counted
 from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Match
 
-__all__ = [
-    "DASH",
-    "clean",
-    "escaped",
-    "facts",
-    "laws_of",
-    "named",
-    "read",
-    "round_of",
-    "rounds_of",
-    "time_cell",
-]
-
 DASH = "\N{EN DASH}"
 """Shown in place of missing values."""
 
