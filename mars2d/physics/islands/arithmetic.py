@@ -104,8 +104,10 @@ def _product(a: cython.double, b: cython.double) -> tuple[cython.double, cython.
 
 
 @cython.cfunc
-def decay_base(rate: cython.double, h: cython.double) -> cython.double:
-    """Return a number near exp(-rate) whose power of h any C library rounds to the same number.
+def decay_base(rate: cython.double, base: cython.double, h: cython.double) -> cython.double:
+    """Return a number near `base` whose power of h any C library rounds to the same number.
+
+    base: exp(-rate).
 
     The engine asks its C library for it in each step. Powers that are nearly in the middle between
     two numbers are rounded to one by some libraries, and to the other by others; here exp(-rate h)
@@ -136,7 +138,7 @@ def decay_base(rate: cython.double, h: cython.double) -> cython.double:
         low = rest - (high - x)
     near: cython.double = 1.0 + high
     beside: cython.double = (high - (near - 1.0)) + low
-    return power(0.36787944117144233, rate) * (1.0 - beside / near / h)
+    return base * (1.0 - beside / near / h)
 
 
 @cython.cfunc

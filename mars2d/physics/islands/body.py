@@ -454,6 +454,12 @@ class Body:
         self.vx, self.vy, self.spin = self.end_x, self.end_y, self.end_spin
 
     @cython.cfunc
+    def is_told(self) -> cython.bint:
+        """Return whether it is a robot that is commanded to move."""
+        told: cython.bint = self.forward != 0.0 or self.left != 0.0 or self.turning != 0.0
+        return self.is_robot and told
+
+    @cython.cfunc
     def follows(self) -> cython.bint:
         """Return whether it is a robot that moves as it is commanded at once."""
         return self.is_robot and not self.slips and not self.limited

@@ -165,13 +165,12 @@ class Touch:
             self.any, self.first, self.time = True, self.last, time
         self.goes_on = False
 
-    def start(self) -> float:
-        """Return when it began, or the control step."""
-        return self.time
-
-    @cython.cfunc
-    def precedes(self, other: Touch) -> cython.bint:
-        """Return whether it comes before another touch of the same body."""
+    def __lt__(self, other: Touch) -> bool:
+        """Return whether it began earlier, or comes before it by bodies and normal."""
+        if self.time != other.time:
+            return self.time < other.time
+        if self.a != other.a:
+            return self.a < other.a
         if self.b != other.b:
             return self.b < other.b
         if self.first.normal_x != other.first.normal_x:
@@ -287,30 +286,17 @@ def take_touches(bodies: list[Body]) -> list[Any]:
     left: list[Any]
     body: Body
     touch: Touch
-    other: Touch
-    k: cython.int
-    first: cython.int
     for body in bodies:
         if not body.contacts:
             continue
         left = []
-        first = len(taken)
         for touch in body.contacts:
             if touch.goes_on:
                 left.append(touch)
-            if not touch.any:
+            if touch.any:
+                taken.append(touch)
+            else:
                 touch.begin()
-                continue
-            k = len(taken)
-            taken.append(touch)
-            while k > first:
-                other = taken[k - 1]
-                if not touch.precedes(other):
-                    break
-                taken[k] = other
-                k -= 1
-            taken[k] = touch
         body.contacts = left
-    if len(taken) > 1:
-        taken.sort(key=Touch.start)  # which leaves those of one time as they are
+    taken.sort()
     return taken

@@ -211,9 +211,7 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
         body.group, body.springy, body.tied = body, False, False
         body.hit_x = body.hit_y = body.hit_turn = body.pressure = 0.0
         body.push_work = body.rub_work = body.excess = body.hit_power = body.hit_depth = 0.0
-        body.crowd, body.driven = 1, False
-        if body.is_robot:
-            body.driven = body.forward != 0.0 or body.left != 0.0 or body.turning != 0.0
+        body.crowd, body.driven = 1, body.is_told()
     if solver.find_contacts() > 0:
         take_hits(solver, numbers, impact, h)
         if gains(solver):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, length
+from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponential, length
 from mars2d.physics.islands.body import Body, Piece
 from mars2d.physics.islands.chipmunk import (
     GEAR,
@@ -66,6 +66,9 @@ from mars2d.physics.islands.tie import Tie
 
 ENDS = ((0.0, 0.0), (0.0, 0.0))
 
+STILL = 1e-6
+"""The speed up to which a body is at rest, m/s."""
+
 
 @cython.final
 @cython.cclass
@@ -96,6 +99,8 @@ class Solver:
     stale: cython.bint  # whether bodies have moved without it since its last step
     mend_rate: cython.double
     joint_mend_rate: cython.double
+    mend_base: cython.double  # e to the power of minus the rate
+    joint_mend_base: cython.double
     mend: cython.double  # what the engine is told for steps as long as the last one
     joint_mend: cython.double
     surfaces: object  # kept for the space, which knows its address
@@ -113,6 +118,7 @@ class Solver:
         """
         self.space, self.room = new_space(slop), room
         self.mend_rate, self.joint_mend_rate = mend_rate, joint_mend_rate
+        self.mend_base, self.joint_mend_base = exponential(-mend_rate), exponential(-joint_mend_rate)
         self.mend = self.joint_mend = 0.0
         self.surfaces = surfaces
         if surfaces is not None:
@@ -278,7 +284,7 @@ class Solver:
     def make_parts(self, tie: Tie) -> cython.void:
         """Make the parts of a joint start again."""
         if self.joint_mend == 0.0 and self.last_step < 1e300:
-            self.joint_mend = decay_base(self.joint_mend_rate, self.last_step)
+            self.joint_mend = decay_base(self.joint_mend_rate, self.joint_mend_base, self.last_step)
         k: cython.int
         a: Handle = tie.a.handle
         b: Handle = ground_of(self.space) if tie.to_world else tie.b.handle
@@ -380,7 +386,7 @@ class Solver:
         k: cython.int
         if h != self.last_step:
             self.last_step = h
-            self.mend, self.joint_mend = decay_base(self.mend_rate, h), 0.0
+            self.mend, self.joint_mend = decay_base(self.mend_rate, self.mend_base, h), 0.0
         if ratio != 1.0:
             for k in range(self.find_contacts()):
                 scale(self.arbiters.at(k), ratio)
@@ -410,6 +416,24 @@ class Solver:
         self.engage(body)
 
     @cython.cfunc
+    def rests(self) -> cython.bint:
+        """Return whether nothing moves, and nothing is told, pulled or tied to."""
+        body: Body
+        for body in self.bodies:
+            if body.pulled or body.is_told() or body.top_speed() > STILL:
+                return False
+        return not self.ties
+
+    @cython.cfunc
+    def relax(self) -> cython.void:
+        """Let bodies press each other no longer: rigid ones at rest keep no tension."""
+        self.stale = True
+        body: Body
+        for body in self.bodies:
+            if body.engaged and (self.used_by(body) > 0.0 or used_of(body.gear) > 0.0):
+                self.renew(body)
+
+    @cython.cfunc
     def go(self, h: cython.double, growth: cython.double) -> cython.void:
         """Step by h seconds, with all bodies moving as they are aimed, and read the result.
 
@@ -429,6 +453,8 @@ class Solver:
             for body in self.bodies:
                 if body.solved and body.engaged:
                     self.renew(body)
+        if self.rests():
+            self.relax()
         self.forget(h)
         tie: Tie
         for tie in self.ties:
