@@ -49,6 +49,7 @@ class Accuracy:
     pressed: cython.double
     closed: cython.double
     touch: cython.double
+    blow: cython.double
     swaying: cython.double
     turned: cython.double
     growth: cython.double
@@ -80,7 +81,7 @@ class Accuracy:
             numbers["growth"], numbers["linger"], numbers["slack"],
         )  # fmt: skip
         self.mend_rate, self.joint_mend_rate = numbers["mend_rate"], numbers["joint_mend_rate"]
-        self.closed, self.touch = numbers["closed"], numbers["touch"]
+        self.closed, self.touch, self.blow = numbers["closed"], numbers["touch"], numbers["blow"]
         self.swaying = numbers["swaying"]
         self.taut, self.stretch, self.give = numbers["taut"], numbers["stretch"], numbers["give"]
         self.push_depth, self.spring_step = numbers["push_depth"], numbers["spring_step"]
@@ -443,12 +444,24 @@ class Island:
         for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
         for pair in self.pairs:
-            # What gathers speed has at the touch what it has gathered by then, and no more.
-            gathers: cython.bint = pair.a.gathers or (not pair.is_wall and pair.b.gathers)
-            h = pair.time_to_touch(h, accuracy.touch if gathers else accuracy.entry)
+            h = pair.time_to_touch(h, self.depth_of(pair))
         for tie in self.ties:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.give, accuracy.taut))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
+
+    @cython.cfunc
+    def depth_of(self, pair: Pair) -> cython.double:
+        """Return how deep a pair may be when a blow turns it.
+
+        What gathers speed has at the touch what it has gathered by then, and no more. And where no
+        drive pushes, a blow along a normal that has turned inside would change angular momentum.
+        """
+        if pair.a.gathers or (not pair.is_wall and pair.b.gathers):
+            return self.accuracy.touch
+        told: cython.bint = pair.a.is_told() or (not pair.is_wall and pair.b.is_told())
+        if pair.gap > self.accuracy.closed and not told:
+            return self.accuracy.blow
+        return self.accuracy.entry
 
     @cython.cfunc
     def contact_limit(self, left: cython.double) -> cython.double:
