@@ -35,7 +35,6 @@ from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust
 from mars2d.physics.islands.tie import Tie
 
-
 STUCK = 16
 """After how many substeps in a row with bodies too deep in each other they are mended faster."""
 
