@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.interrupt import noted_interrupts
+from mars2d.core.interrupt import interrupts
 from mars2d.record.record import Record
 from mars2d.scenario.experiment import open_module
 from mars2d.world.loop import Interrupted
@@ -38,7 +38,7 @@ def run_script(path: Path) -> Record:
     """
     arenas: list[Robotarium] = []
     try:
-        noted = noted_interrupts(lambda: arenas[-1].world.record if arenas else None)
+        noted = interrupts(kept=lambda: arenas[-1].world.record if arenas else None)
         with noted as check, _seeded(), _importable(arenas):
             open_module(path)
             check()
