@@ -1,9 +1,9 @@
-"""What parts may use of a robot, a scenario, a frame, a record and a world, as Protocols.
+"""What parts may use of a scenario, a frame, a robot and a world, as Protocols.
 
 Sensors and add-ons lie below the scenario and the world, so they can't import those classes. They
-annotate what they are handed with these Protocols, which `Scenario`, `Frame`, `Record` and `World`
-satisfy. A base class whose methods users override takes `Any` instead: so an override may name the
-Protocol or the class itself.
+annotate what they are handed with these Protocols, which `Scenario`, `Frame` and `World` satisfy. A
+base class whose methods users override takes `Any` instead: so an override may name the Protocol or
+the class itself.
 """
 
 from __future__ import annotations
@@ -19,40 +19,12 @@ from mars2d.core.plane import Outline
 Float = NDArray[np.float64]
 
 
-class RobotSpec(Protocol):
-    """A robot as the scenario describes it."""
-
-    @property
-    def name(self) -> str | None:
-        """Its name, unique in the scenario."""
-
-    @property
-    def pose(self) -> tuple[float, float, float]:
-        """Where it starts: x, y [m], theta [rad]."""
-
-    @property
-    def radius(self) -> float:
-        """The radius of its chassis, or of a circle round it, metres."""
-
-    @property
-    def drive(self) -> Any:
-        """Its drive, a `mars2d.bodies.Drive`."""
-
-    @property
-    def sensors(self) -> Sequence[Any]:
-        """Its sensors, each a `mars2d.sensors.Sensor`."""
-
-    @property
-    def controller(self) -> Callable[[Any], Any] | None:
-        """Its own law, or None."""
-
-
 class ScenarioLike(Protocol):
     """A scenario, as add-ons see it."""
 
     @property
-    def robots(self) -> Sequence[RobotSpec]:
-        """The robots' descriptions, n."""
+    def robots(self) -> Sequence[Any]:
+        """The robots' descriptions, n of `mars2d.Robot`."""
 
     @property
     def addons(self) -> Sequence[Any]:
@@ -94,9 +66,7 @@ class ScenarioLike(Protocol):
         """Return a robot's index. Raises InputError, which names `field`, if there is none."""
 
 
-class FrameLike(Protocol):
-    """One instant, live or recorded."""
-
+class _Instant(Protocol):
     @property
     def scenario(self) -> ScenarioLike:
         """What is simulated."""
@@ -109,6 +79,10 @@ class FrameLike(Protocol):
     def pose(self) -> Float:
         """The poses (3, n): x, y [m], theta [rad, not wrapped]."""
 
+
+class FrameLike(_Instant, Protocol):
+    """One instant, live or recorded."""
+
     @property
     def path(self) -> Float:
         """The poses (k, 3, n) at all sampling times before."""
@@ -116,33 +90,6 @@ class FrameLike(Protocol):
     @property
     def contact_log(self) -> Callable[[], NDArray[np.void]]:
         """Returns all contacts so far, rows of `mars2d.record.CONTACT`."""
-
-
-class RecordLike(Protocol):
-    """What a run has left."""
-
-    @property
-    def scenario(self) -> ScenarioLike:
-        """What was simulated."""
-
-    @property
-    def time(self) -> Float:
-        """The times (T,) of the rows, seconds."""
-
-    @property
-    def pose(self) -> Float:
-        """The poses (T, 3, n): x, y [m], theta [rad, not wrapped]."""
-
-    @property
-    def contacts(self) -> NDArray[np.void]:
-        """All contacts, rows of `mars2d.record.CONTACT`."""
-
-    @property
-    def contact_rows(self) -> NDArray[np.intp]:
-        """The row (c,) that each contact's control step led to."""
-
-    def __len__(self) -> int:
-        """Return the number of rows, T."""
 
 
 class RobotLike(Protocol):
@@ -181,24 +128,12 @@ class RobotLike(Protocol):
         """The readings of its sensors, as attributes by their names."""
 
 
-class WorldLike(Protocol):
+class WorldLike(_Instant, Protocol):
     """A running world, as add-ons see and use it."""
-
-    @property
-    def scenario(self) -> ScenarioLike:
-        """What is simulated."""
-
-    @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
 
     @property
     def iteration(self) -> int:
         """The number of control steps done."""
-
-    @property
-    def pose(self) -> Float:
-        """The poses (3, n): x, y [m], theta [rad, not wrapped]."""
 
     @property
     def position(self) -> Float:
@@ -207,14 +142,6 @@ class WorldLike(Protocol):
     @property
     def contacts(self) -> NDArray[np.void]:
         """The contacts since the last control step, rows of `mars2d.record.CONTACT`."""
-
-    @property
-    def workspace(self) -> Outline | None:
-        """The polygon in which the robots move [m], or None."""
-
-    @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
 
     @property
     def robots(self) -> Sequence[RobotLike]:
