@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import shutil
 import stat
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, closing, contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from contextvars import ContextVar
 from io import BufferedRandom
 from pathlib import Path
@@ -18,10 +19,6 @@ from mars2d.core.lock import lock
 
 REPLACED_OPEN = sys.platform != "win32"
 """Whether the system lets a file be replaced while it is open."""
-
-
-DESCRIPTORS = Path("/proc/self/fd")
-"""Where Linux has the open files of this process, also those without a name."""
 
 
 def why_unwritable(target: Path) -> str:
@@ -62,16 +59,23 @@ def atomic_write(target: Path, held: BinaryIO | None = None) -> Iterator[BinaryI
     If writing fails, the previous file is left untouched. Its permissions are kept, and a symbolic
     link still points to it. held: the file that is replaced, where the caller has it by `growing`.
     Raises InputError if the file can't be written, for example because the disk is full, or because
-    something else is adding to it.
+    something else is adding to it. Until then its name is hidden.
     """
     refuse_unwritable(target)
     with _not_growing(target, held):
         pass  # else it would be known only after all the work
-    with writing(target), closing(_Part(Path(os.path.realpath(target)))) as part:
-        with part.path.open("r+b") as file:
-            yield file
-        with _not_growing(target, held):
-            part.replace()
+    place = Path(os.path.realpath(target))
+    part = place.with_name(f".mars2d-{token_hex(8)}.part")
+    with writing(target):
+        try:
+            with part.open("x+b") as file:
+                yield file
+            if place.exists():
+                shutil.copymode(place, part)
+            with _not_growing(target, held):
+                part.replace(place)
+        finally:
+            part.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -90,58 +94,6 @@ def _not_growing(target: Path, held: BinaryIO | None) -> Iterator[None]:
         yield
 
 
-class _Part:
-    """A file that is being written, beside that of which it takes the place.
-
-    path: where it can be opened, by FFmpeg once more. It gets a name when it is complete. So a
-    process that is killed leaves nothing behind, unless the system has no files without names:
-    there it has a name that nobody can guess.
-    """
-
-    def __init__(self, target: Path) -> None:
-        self._target = target
-        self._name = target.with_name(f".mars2d-{token_hex(8)}.part")
-        self._named = False
-        try:
-            DESCRIPTORS.stat()
-            self.descriptor = os.open(target.parent, os.O_RDWR | os.O_TMPFILE, 0o666)
-            self.path = DESCRIPTORS / str(self.descriptor)
-        except (AttributeError, OSError):  # not Linux, or not on this file system
-            flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
-            self.descriptor = os.open(self._name, flags, 0o666)
-            self.path, self._named = self._name, True
-        self._keep_permissions()
-
-    def _keep_permissions(self) -> None:
-        """Take over the owner and the permissions of the file that is to be replaced."""
-        with suppress(AttributeError, OSError):  # not on Windows; only root gives files away
-            before = self._target.stat()
-            with suppress(OSError):
-                os.fchown(self.descriptor, before.st_uid, before.st_gid)
-            os.fchmod(self.descriptor, stat.S_IMODE(before.st_mode))
-
-    def replace(self) -> None:
-        """Take the place of the other file."""
-        if not self._named:
-            self._named = True
-            folder = os.open(DESCRIPTORS, os.O_RDONLY)  # Python follows links from a folder only
-            try:
-                os.link(self.path.name, self._name, src_dir_fd=folder, follow_symlinks=True)
-            finally:
-                os.close(folder)
-        os.close(self.descriptor)
-        self.descriptor = -1
-        self._name.replace(self._target)
-        self._named = False
-
-    def close(self) -> None:
-        """Leave nothing behind."""
-        if self.descriptor >= 0:
-            os.close(self.descriptor)
-        if self._named:
-            self._name.unlink(missing_ok=True)
-
-
 def growing(path: Path, *, afresh: bool = False) -> BufferedRandom:
     """Open a file to which data are added for a long time, and lock it until it is closed.
 
@@ -150,29 +102,17 @@ def growing(path: Path, *, afresh: bool = False) -> BufferedRandom:
     """
     refuse_unwritable(path)
     flags = os.O_RDWR | os.O_CREAT | (0 if afresh else os.O_APPEND)
-    for name in ("O_BINARY", "O_NONBLOCK"):  # on Windows; elsewhere, lest a new pipe hangs it
-        flags |= getattr(os, name, 0)
-    while True:
-        with writing(path):
-            file = os.fdopen(os.open(path, flags, 0o666), "w+b" if afresh else "a+b")
-        try:
-            lock(file, path)
-            if _is_at(path, file):
-                if afresh:
-                    file.truncate(0)
-                return file
-        except BaseException:
-            file.close()
-            raise
-        file.close()  # it was replaced before it was locked
-
-
-def _is_at(path: Path, file: BinaryIO) -> bool:
-    """Return whether an open file is the one that has this name."""
+    flags |= getattr(os, "O_BINARY", 0)  # on Windows
+    with writing(path):
+        file = os.fdopen(os.open(path, flags, 0o666), "w+b" if afresh else "a+b")
     try:
-        return os.path.samestat(path.stat(), os.fstat(file.fileno()))
-    except FileNotFoundError:
-        return False
+        lock(file, path)
+    except InputError:
+        file.close()
+        raise
+    if afresh:
+        file.truncate(0)
+    return file
 
 
 _files: ContextVar[tuple[set[Path], ...]] = ContextVar("files", default=())

@@ -31,12 +31,16 @@ def described(error: BaseException) -> str:
     for kind, hint in _HINTS.items():
         if isinstance(error, kind):
             return text + hint(error)
+    line = _line_of(error)
+    for kind, part, code, meant in _TEXTS:
+        if isinstance(error, kind) and part in said and code in line:
+            return f"{text}; {meant}"
     return text
 
 
 def _of_unbound(error: UnboundLocalError) -> str:
     """Return how a law keeps a number: ``integral += ...`` makes a local one."""
-    name, frame = _name_of(error), _innermost(error)
+    name, frame = error.name or _quoted(error), _innermost(error)
     if frame is not None and name in frame.f_globals:
         keep = f"robot.memory.{name}" if "robot" in frame.f_locals else "an object of your own"
         return f"; a function that assigns {name!r} has its own: keep it in {keep}"
@@ -45,7 +49,7 @@ def _of_unbound(error: UnboundLocalError) -> str:
 
 def _of_name(error: NameError) -> str:
     """Return the import that lacks, or the known name that is nearest."""
-    name, frame = _name_of(error), _innermost(error)
+    name, frame = error.name or _quoted(error), _innermost(error)
     if name in ABBREVIATIONS:
         return f"; write `{ABBREVIATIONS[name]}` at the top"
     if name in sys.stdlib_module_names or name in LIBRARIES:
@@ -79,44 +83,24 @@ def _of_import(error: ImportError) -> str:
     line = _import_of(name)
     if line:
         return f"; write `{line}`"
-    known = {each for room in ROOMS for each in _public(room)}
+    known = {each for room in ROOMS for each in import_module(room).__all__}
     return instead(name, "a room") or likely(name, known, 0.7)
 
 
-def _of_type(error: TypeError) -> str:
-    """Return how to write an expression that was called or indexed, though it can't be."""
-    text = str(error)
-    if text.startswith("'numpy.ndarray' object is not callable"):
-        return "; it is an array: write it without the brackets ()"
-    if text.endswith("object is not callable") and "robot.drive(" in _line_of(error):
-        return "; a law returns its command, such as `return v, omega`"
-    return ""
-
-
-def _of_value(error: ValueError) -> str:
-    """Return how to change a copy, or to unpack a pose."""
-    if "read-only" in str(error):
-        return (
-            "; a law can't change the world: it returns its command. To calculate with an array, "
-            "take a copy: pose.copy()"
-        )
-    if "to unpack" in str(error) and ".pose" in _line_of(error):
-        return "; a pose is three numbers: x, y, theta = robot.pose"
-    return ""
-
-
-def _of_index(error: IndexError) -> str:
-    """Return which numbers a pose and a position have."""
-    if ".position[" in _line_of(error):
-        return "; a position is (x, y); the angle is pose[2]"
-    return "; a pose is (x, y, theta), from 0 to 2" if ".pose[" in _line_of(error) else ""
-
-
-def _of_end(error: EOFError) -> str:
-    """Return what a law does in place of asking."""
-    if "input(" not in _line_of(error):
-        return ""
-    return "; nobody answers while a simulation runs: make it a parameter of scenario(...)"
+_TEXTS: list[tuple[type[BaseException], str, str, str]] = [
+    (TypeError, "'numpy.ndarray' object is not callable", "",
+     "it is an array: write it without the brackets ()"),
+    (TypeError, "object is not callable", "robot.drive(",
+     "a law returns its command, such as `return v, omega`"),
+    (ValueError, "read-only", "", ("a law can't change the world: it returns its command. "
+     "To calculate with an array, take a copy: pose.copy()")),
+    (ValueError, "to unpack", ".pose", "a pose is three numbers: x, y, theta = robot.pose"),
+    (IndexError, "", ".position[", "a position is (x, y); the angle is pose[2]"),
+    (IndexError, "", ".pose[", "a pose is (x, y, theta), from 0 to 2"),
+    (EOFError, "", "input(", ("nobody answers while a simulation runs: make it a parameter "
+     "of scenario(...)")),
+]  # fmt: skip
+"""The hint at an exception, by its class, and what its text and the line of code contain."""
 
 
 _HINTS: dict[type[BaseException], Callable[..., str]] = {
@@ -124,12 +108,8 @@ _HINTS: dict[type[BaseException], Callable[..., str]] = {
     NameError: _of_name,
     AttributeError: _of_attribute,
     ImportError: _of_import,
-    TypeError: _of_type,
-    ValueError: _of_value,
-    IndexError: _of_index,
-    EOFError: _of_end,
 }
-"""The hint at an exception, by its class; the first that fits."""
+"""The hint at an exception that has a name in it, by its class; the first that fits."""
 
 
 def _innermost(error: BaseException) -> FrameType | None:
@@ -144,24 +124,15 @@ def _line_of(error: BaseException) -> str:
     return (steps[-1].line or "") if steps else ""
 
 
-def _name_of(error: NameError) -> str:
-    """Return the name that an exception is about; an UnboundLocalError has it in its text only."""
-    return error.name or _quoted(error)
-
-
 def _quoted(error: BaseException) -> str:
     """Return the first name that the text of an exception quotes, or ""."""
     return str(error).partition("'")[2].partition("'")[0]
 
 
-def _public(room: str) -> list[str]:
-    return list(import_module(room).__all__)
-
-
 def _import_of(name: str) -> str:
     """Return the line that imports a name, in whatever letters it is written, or ""."""
     for room in ROOMS:
-        for each in _public(room):
+        for each in import_module(room).__all__:
             if each.lower() == name.lower():
                 return f"from {room} import {each}"
     return ""
