@@ -7,6 +7,7 @@ import inspect
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from math import pi
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -140,8 +141,9 @@ def _parsed(law: Callable[..., Any]) -> tuple[ast.AST, Callable[[Any], str]] | N
 def _waits(law: Callable[..., Any]) -> Iterator[str]:
     """Yield a remark on each call, in a law or a function that it names, that would wait."""
     code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
-    named = [names.get(name) for name in code.co_names] if code else []
-    for function in [law, *(each for each in named if inspect.isfunction(each))]:
+    named: list[Any] = [names.get(name) for name in code.co_names] if code else []
+    helpers = [each for each in named if isinstance(each, FunctionType)]
+    for function in (law, *helpers):
         if (parsed := _parsed(function)) is None:
             continue
         tree, line_of = parsed
