@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.checks import COORDINATE, MAX_COORDINATE
 from mars2d.core.description import accepts, real, wrong
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, one_line
 from mars2d.core.scene import LARGEST_IMAGE, rgb
 
 Pixels = NDArray[np.uint8]
@@ -121,21 +121,8 @@ def read_picture(name: str, image: str, color: str | None = None) -> Picture:
     if holds_pixels(image):
         return _inside(name, image, color)
     path = Path(image)
-    return _read(name, path, _version(path), color)
-
-
-def _read_png(name: str, path: Path) -> Pixels:
-    """Return the pixels (rows, columns, 4) of a PNG. Raises InputError, beginning with `name`."""
-    name = f"{name} = {str(path)!r}"
-    try:
-        with opened_image(name, path, "PNG") as image:
-            return np.asarray(image.convert("RGBA"))
-    except FileNotFoundError:
-        where = "" if path.is_absolute() else f" in {Path.cwd()}"
-        beside = f"Path(__file__).with_name({path.name!r})"
-        raise InputError(
-            f"{name}: there is no such file{where}; beside the experiment it is {beside}"
-        ) from None
+    version = path.stat().st_mtime_ns if path.is_file() else 0
+    return _read(name, path, (path.absolute(), version), color)
 
 
 @lru_cache(maxsize=4)
@@ -153,19 +140,19 @@ def _inside(name: str, image: str, color: str | None) -> Picture:
         return Picture(_over(np.asarray(opened.convert("RGBA")), color))
 
 
-def _version(path: Path) -> tuple[str, int, int]:
-    """Return a key that identifies a file and its present version."""
-    try:
-        known = path.stat()
-        return str(path.absolute()), known.st_mtime_ns, known.st_size
-    except (OSError, ValueError):  # reading the file fails as well, with a message
-        return "", 0, 0
-
-
 @lru_cache(maxsize=4)
-def _read(name: str, path: Path, version: tuple[str, int, int], color: str | None) -> Picture:  # noqa: ARG001
+def _read(name: str, path: Path, version: object, color: str | None) -> Picture:  # noqa: ARG001
     """Return an image laid over a colour; `version` is part of the cache's key."""
-    return Picture(_over(_read_png(name, path), color))
+    name = f"{name} = {str(path)!r}"
+    try:
+        with opened_image(name, path, "PNG") as image:
+            return Picture(_over(np.asarray(image.convert("RGBA")), color))
+    except FileNotFoundError:
+        where = "" if path.is_absolute() else f" in {Path.cwd()}"
+        beside = f"Path(__file__).with_name({path.name!r})"
+        raise InputError(
+            f"{name}: there is no such file{where}; beside the experiment it is {beside}"
+        ) from None
 
 
 def _over(pixels: Pixels, color: str | None) -> Pixels:
@@ -203,12 +190,8 @@ def opened_image(name: str, file: Path | BytesIO, kind: str) -> Iterator[Any]:
         raise
     except UnidentifiedImageError:
         raise InputError(f"{name}: this is no {what} image") from None
-    except Image.DecompressionBombError:
-        most = f"{LARGEST_IMAGE} x {LARGEST_IMAGE}"
-        raise InputError(f"{name}: far more than {most} pixels") from None
     except Exception as error:  # Pillow raises many kinds of errors
-        said = " ".join(str(error).split())[:100] or type(error).__name__
-        raise InputError(f"{name}: can't be read as a {what} image: {said}") from error
+        raise InputError(f"{name}: can't be read as a {what} image: {one_line(error)}") from error
 
 
 def _check(name: str, size: tuple[int, int], mode: str) -> None:
