@@ -6,7 +6,7 @@ import inspect
 import keyword
 from collections import Counter
 from collections.abc import Callable, Iterable
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,9 @@ from mars2d.core.arithmetic import norms
 from mars2d.core.description import Check, Schema, accepts, real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point, is_clearly_convex
+
+MAX_ITEMS = 1_000_000
+"""The longest list that a field may have; an iterator may have no end."""
 
 MAX_COORDINATE = 1e6
 """The largest coordinate, metres: beyond it a double can't resolve a nanometre."""
@@ -28,14 +31,17 @@ NAMES: Schema = {
 }  # fmt: skip
 
 
-def items_of(name: str, value: object, expected: str) -> list[Any]:
-    """Return the items of a list, an array or anything that yields them."""
+def items_of(name: str, value: object, expected: str, most: int = MAX_ITEMS) -> list[Any]:
+    """Return the items of a list, an array or anything that yields them; no more than `most`."""
     if isinstance(value, (str, bytes, dict)) or not isinstance(value, Iterable):
         raise wrong(name, value, expected)
     try:
-        return list(value)
-    except TypeError:  # of an array without axes
+        items = list(islice(value, most + 1))
+    except TypeError:  # an array of no dimension
         raise wrong(name, value, expected) from None
+    if len(items) > most:
+        raise wrong(name, value, f"{expected}, at most {most:,}: it has more, or no end")
+    return items
 
 
 def _coordinates(name: str, value: object, items: list[Any], expected: str) -> list[float]:
@@ -71,29 +77,28 @@ def pose(name: str, value: object) -> tuple[float, float, float]:
 
 
 @accepts(OUTLINE)
-def outline(name: str, value: object, least: int = 2) -> Outline:
-    """Check an outline: a wall of two vertices, or a closed polygon that does not cross itself."""
+def outline(name: str, value: object, least: int = 2, *, closed: bool = True) -> Outline:
+    """Check an outline: a wall of two vertices, or a closed polygon that does not cross itself.
+
+    least: how many vertices it must have. closed: False for an open line of any number of them.
+    """
     what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
+    what = what if closed else "a wall's vertices"
     expected = f"{what}, such as [(x, y), ...] in metres"
     items = items_of(name, value, expected)
     points = [point(f"{name}[{i}]", item) for i, item in enumerate(items)]
-    if len(points) > 2 and points[0] == points[-1]:
+    if closed and len(points) > 2 and points[0] == points[-1]:
         points.pop()  # the ring was given closed
     if len(points) < least:
         raise wrong(name, value, f"{expected}, at least {least} different ones")
-    _check_apart(name, [*points, points[0]] if len(points) > 2 else points)
-    if len(points) > 2:
+    ring = closed and len(points) > 2
+    for i, (a, b) in enumerate(pairwise([*points, points[0]] if ring else points)):
+        if norms(a[0] - b[0], a[1] - b[1]) < 1e-6:
+            after = (i + 1) % len(points)
+            raise InputError(f"{name}: vertices {i} and {after} are the same, {a}")
+    if ring:
         _check_ring(name, points)
     return tuple(points)
-
-
-def _check_apart(name: str, points: list[Point]) -> None:
-    """Raise InputError if consecutive vertices are the same; a closed list ends with the first."""
-    last = len(points) - 1
-    for i, (a, b) in enumerate(pairwise(points)):
-        if norms(a[0] - b[0], a[1] - b[1]) < 1e-6:
-            after = 0 if i + 1 == last and points[last] is points[0] else i + 1
-            raise InputError(f"{name}: vertices {i} and {after} are the same, {a}")
 
 
 def _check_ring(name: str, points: list[Point]) -> None:
@@ -118,39 +123,23 @@ def _check_ring(name: str, points: list[Point]) -> None:
 @accepts({"type": "array", "items": OUTLINE})
 def polylines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of open lines, each of two or more vertices."""
-    return _each(name, value, "walls", _polyline)
-
-
-def _polyline(name: str, value: object) -> Outline:
-    expected = "a wall's vertices, such as [(x, y), ...] in metres, at least 2"
-    points = [point(f"{name}[{i}]", p) for i, p in enumerate(items_of(name, value, expected))]
-    if len(points) < 2:
-        raise wrong(name, value, expected)
-    _check_apart(name, points)
-    return tuple(points)
+    lines = _lists(name, value, "walls")
+    return tuple(outline(each, item, closed=False) for each, item in lines)
 
 
 @accepts({"type": "array", "items": OUTLINE})
 def outlines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of outlines."""
-    return _each(name, value, "outlines", outline)
+    return tuple(outline(each, item) for each, item in _lists(name, value, "outlines"))
 
 
-def _each(
-    name: str, value: object, what: str, check: Callable[[str, Any], Outline]
-) -> tuple[Outline, ...]:
+def _lists(name: str, value: object, what: str) -> list[tuple[str, Any]]:
+    """Return the items of a list of lists of points, each with its name."""
     items = items_of(name, value, f"a list of {what}, each [(x, y), ...] in metres")
-    if items and _is_point(items[0]):
+    first = items[0] if items else None
+    if isinstance(first, (tuple, list, np.ndarray)) and len(first) and np.ndim(first[0]) == 0:
         raise wrong(name, value, f"a list of {what}: put one more pair of brackets round it")
-    return tuple(check(f"{name}[{i}]", item) for i, item in enumerate(items))
-
-
-def _is_point(value: object) -> bool:
-    try:
-        first = next(iter(value))  # type: ignore[call-overload]
-    except (TypeError, StopIteration):
-        return False
-    return isinstance(first, (int, float, np.number))
+    return [(f"{name}[{i}]", item) for i, item in enumerate(items)]
 
 
 def optional(check: Callable[..., Any], *arguments: Any) -> Check:
@@ -196,9 +185,7 @@ def names(name: str, value: object, expected: str) -> tuple[str, ...] | None:
     """Check a list of one or more different names, or None."""
     if value is None:
         return None
-    if not isinstance(value, (tuple, list)) or not value:
-        raise wrong(name, value, expected)
-    if not all(isinstance(item, str) for item in value):
+    if not isinstance(value, (tuple, list)) or not value or any(type(x) is not str for x in value):
         raise wrong(name, value, expected)
     for item in value:
         if value.count(item) > 1:

@@ -7,7 +7,7 @@ import shutil
 import stat
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from io import BufferedRandom
 from pathlib import Path
@@ -15,10 +15,12 @@ from secrets import token_hex
 from typing import BinaryIO
 
 from mars2d.core.errors import InputError, nearest
-from mars2d.core.lock import lock
 
 REPLACED_OPEN = sys.platform != "win32"
 """Whether the system lets a file be replaced while it is open."""
+
+LOCKED_BYTE = 2**40
+"""The byte to lock on systems that lock bytes: far behind the end of any file."""
 
 
 def why_unwritable(target: Path) -> str:
@@ -34,13 +36,6 @@ def why_unwritable(target: Path) -> str:
     if not stat.S_ISREG(mode):
         return "this is a pipe or a device; expected a file"
     return "" if os.access(target, os.W_OK) else "it may only be read"
-
-
-def refuse_unwritable(target: Path) -> None:
-    """Raise InputError for a file that can't be written."""
-    why = why_unwritable(target)
-    if why:
-        raise InputError(f"{target}: can't be written: {why}")
 
 
 @contextmanager
@@ -59,39 +54,23 @@ def atomic_write(target: Path, held: BinaryIO | None = None) -> Iterator[BinaryI
     If writing fails, the previous file is left untouched. Its permissions are kept, and a symbolic
     link still points to it. held: the file that is replaced, where the caller has it by `growing`.
     Raises InputError if the file can't be written, for example because the disk is full, or because
-    something else is adding to it. Until then its name is hidden.
+    something else is adding to it.
     """
-    refuse_unwritable(target)
-    with _not_growing(target, held):
-        pass  # else it would be known only after all the work
-    place = Path(os.path.realpath(target))
-    part = place.with_name(f".mars2d-{token_hex(8)}.part")
+    _refuse_unwritable(target)
+    if held is None:
+        with suppress(OSError), target.open("rb") as file:  # there may be no such file yet
+            lock(file, target, shared=True)
+    whole = Path(os.path.realpath(target))
+    part = whole.with_name(f".mars2d-{token_hex(8)}.part")
     with writing(target):
         try:
-            with part.open("x+b") as file:
-                yield file
-            if place.exists():
-                shutil.copymode(place, part)
-            with _not_growing(target, held):
-                part.replace(place)
+            with part.open("x+b") as new:
+                yield new
+            with suppress(OSError):
+                shutil.copymode(whole, part)
+            part.replace(whole)
         finally:
             part.unlink(missing_ok=True)
-
-
-@contextmanager
-def _not_growing(target: Path, held: BinaryIO | None) -> Iterator[None]:
-    """Let nobody begin to add to a file within the block; InputError where somebody does.
-
-    held: the file, if it is the caller who adds to it.
-    """
-    with ExitStack() as stack:
-        if held is None:
-            with suppress(OSError):  # there is no such file yet, or it can't be read
-                file = stack.enter_context(target.open("rb"))
-                lock(file, target, shared=True)
-        if not REPLACED_OPEN:
-            stack.close()
-        yield
 
 
 def growing(path: Path, *, afresh: bool = False) -> BufferedRandom:
@@ -100,19 +79,47 @@ def growing(path: Path, *, afresh: bool = False) -> BufferedRandom:
     It is made if it is not there. afresh: drop what it holds. Raises InputError where it can't be
     written, and where something else is writing to it.
     """
-    refuse_unwritable(path)
-    flags = os.O_RDWR | os.O_CREAT | (0 if afresh else os.O_APPEND)
-    flags |= getattr(os, "O_BINARY", 0)  # on Windows
+    _refuse_unwritable(path)
     with writing(path):
-        file = os.fdopen(os.open(path, flags, 0o666), "w+b" if afresh else "a+b")
+        path.touch()
+        file = path.open("r+b" if afresh else "a+b")
     try:
         lock(file, path)
-    except InputError:
+        if afresh:
+            file.truncate(0)
+    except BaseException:
         file.close()
         raise
-    if afresh:
-        file.truncate(0)
     return file
+
+
+def lock(file: BinaryIO, path: Path, *, shared: bool = False) -> None:
+    """Lock a file until it is closed or the process ends.
+
+    shared: others may lock it in this way as well; Windows has no such locks. Raises InputError if
+    it is locked already. Does nothing on systems without locks.
+    """
+    with suppress(ImportError, OSError):
+        try:
+            if sys.platform == "win32":
+                import msvcrt
+
+                os.lseek(file.fileno(), LOCKED_BYTE, os.SEEK_SET)
+                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+            else:
+                import fcntl
+
+                fcntl.flock(file, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+        except (BlockingIOError, PermissionError):
+            raise InputError(
+                f"{path}: another process is writing to it, or another part of this one: wait for "
+                "its end, or give another name"
+            ) from None
+
+
+def _refuse_unwritable(target: Path) -> None:
+    if why := why_unwritable(target):
+        raise InputError(f"{target}: can't be written: {why}")
 
 
 _files: ContextVar[tuple[set[Path], ...]] = ContextVar("files", default=())
@@ -148,10 +155,9 @@ def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[s
         if (folder / path).is_file():
             note_file(folder / path)
             return folder / path
-        if (folder / path).exists():
-            kind = "a folder" if (folder / path).is_dir() else "not a file"
+        if (folder / path).is_dir():
             ends = " or ".join(suffixes)
-            raise InputError(f"{path}: {kind}; expected {what}, a file that ends in {ends}")
+            raise InputError(f"{path}: a folder; expected {what}, a file that ends in {ends}")
     known = {
         str(path.parent / file.name)
         for folder in folders

@@ -1,7 +1,7 @@
-"""What parts may use of a robot, a scenario, a frame, a record and a world, as Protocols.
+"""What parts may use of a scenario, a frame, a robot and a world, as Protocols.
 
 Sensors and add-ons lie below the scenario and the world, so they can't import those classes. They
-annotate what they are handed with these Protocols, which `Scenario`, `Frame`, `Record` and `World`
+annotate what they are handed with these Protocols, which `Scenario`, `Frame` and `World`
 satisfy: what a name means, those say. A base class whose methods users override takes `Any`
 instead: so an override may name the Protocol or the class itself.
 """
@@ -22,28 +22,11 @@ Contacts = NDArray[np.void]
 """Rows of `mars2d.record.CONTACT`."""
 
 
-class RobotSpec(Protocol):
-    """A `mars2d.Robot`, as the scenario describes it; its pose is x, y [m], theta [rad]."""
-
-    @property
-    def name(self) -> str | None: ...
-    @property
-    def pose(self) -> tuple[float, float, float]: ...
-    @property
-    def radius(self) -> float: ...
-    @property
-    def drive(self) -> Any: ...
-    @property
-    def sensors(self) -> Sequence[Any]: ...
-    @property
-    def controller(self) -> Callable[[Any], Any] | None: ...
-
-
 class ScenarioLike(Protocol):
     """A `mars2d.Scenario`, as add-ons see it; initial_pose is (3, n)."""
 
     @property
-    def robots(self) -> Sequence[RobotSpec]: ...
+    def robots(self) -> Sequence[Any]: ...
     @property
     def addons(self) -> Sequence[Any]: ...
     @property
@@ -78,22 +61,6 @@ class FrameLike(Protocol):
     def path(self) -> Float: ...
     @property
     def contact_log(self) -> Callable[[], Contacts]: ...
-
-
-class RecordLike(Protocol):
-    """A `mars2d.Record`: time (T,) and pose (T, 3, n); the row (c,) of each contact."""
-
-    @property
-    def scenario(self) -> ScenarioLike: ...
-    @property
-    def time(self) -> Float: ...
-    @property
-    def pose(self) -> Float: ...
-    @property
-    def contacts(self) -> Contacts: ...
-    @property
-    def contact_rows(self) -> NDArray[np.intp]: ...
-    def __len__(self) -> int: ...
 
 
 class RobotLike(Protocol):
@@ -132,10 +99,6 @@ class WorldLike(Protocol):
     def position(self) -> Float: ...
     @property
     def contacts(self) -> Contacts: ...
-    @property
-    def workspace(self) -> Outline | None: ...
-    @property
-    def bounds(self) -> tuple[float, float, float, float]: ...
     @property
     def robots(self) -> Sequence[RobotLike]: ...
     @property

@@ -81,7 +81,7 @@ def settings_of(given: Mapping[str, Any] | None) -> dict[str, tuple[Any, ...]]:
         if not isinstance(name, str):
             raise wrong("settings", name, "names as the keys, such as {'gain': [0.1, 0.2]}")
         several = value if isinstance(value, (list, range)) or _is_array(value) else [value]
-        listed = items_of(f"settings[{name!r}]", several, "values")
+        listed = items_of(f"settings[{name!r}]", several, "values", MAX_RUNS)
         values = tuple(_plain(name, each) for each in listed)
         if not values:
             raise wrong(f"settings[{name!r}]", value, "at least one value")
@@ -126,7 +126,7 @@ def seeds_of(seeds: int | Iterable[int], first: int = 0) -> tuple[int, ...]:
         start = check_seed(first)
         check_seed(start + int(seeds) - 1)
         return tuple(range(start, start + int(seeds)))
-    given = items_of("seeds", seeds, "how many, or a list of them")
+    given = items_of("seeds", seeds, "how many, or a list of them", MAX_RUNS)
     listed = tuple(check_seed(seed) for seed in given)
     if not listed or len({*listed}) < len(listed):
         raise wrong("seeds", seeds, "at least one, and each once")
