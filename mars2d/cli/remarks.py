@@ -142,8 +142,9 @@ def _waits(law: Callable[..., Any]) -> Iterator[str]:
     """Yield a remark on each call, in a law or a function that it names, that would wait."""
     code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
     named: list[Any] = [names.get(name) for name in code.co_names] if code else []
-    helpers = [each for each in named if isinstance(each, FunctionType)]
-    for function in (law, *helpers):
+    helpers: list[Callable[..., Any]] = [law]
+    helpers += [each for each in named if isinstance(each, FunctionType)]
+    for function in helpers:
         if (parsed := _parsed(function)) is None:
             continue
         tree, line_of = parsed

@@ -226,16 +226,19 @@ _PLAIN: dict[object, Check] = {
     "int": _check_int,
     "bool": _check_bool,
     "str": _check_str,
-    float: real,
-    int: _check_int,
-    bool: _check_bool,
-    str: _check_str,
 }
+
+
+def _check_of(field: dataclasses.Field[Any]) -> Check | None:
+    """Return a field's check; a plain one by its annotation, a class or its name."""
+    plain = _PLAIN.get(getattr(field.type, "__name__", field.type))
+    check: Check | None = field.metadata.get("check") or plain
+    return check
 
 
 def schema_of(field: dataclasses.Field[Any]) -> Schema:
     """Return the schema of the values that a field accepts, None aside; {} if it says nothing."""
-    check = field.metadata.get("check") or _PLAIN.get(field.type)
+    check = _check_of(field)
     return {} if check is None else vars(check).get("schema", {})
 
 
@@ -260,7 +263,7 @@ class Description:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            check = field.metadata.get("check") or _PLAIN.get(field.type)
+            check = _check_of(field)
             if check is not None:
                 name = f"{type(self).__name__}.{field.name}"
                 object.__setattr__(self, field.name, check(name, getattr(self, field.name)))

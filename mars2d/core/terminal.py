@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import suppress
-from typing import TextIO
+from typing import Any, TextIO
 
 from mars2d.core.errors import InputError, escaped, one_line
 
@@ -58,6 +58,7 @@ def legible() -> None:
 
     So a law's own `print` does not fail on a terminal for ASCII: it prints ``\u4e2d``.
     """
-    for stream in (sys.stdout, sys.stderr):
+    streams: list[Any] = [sys.stdout, sys.stderr]
+    for stream in streams:
         with suppress(OSError, ValueError, AttributeError):  # closed, full, or not a file
-            stream.reconfigure(errors="backslashreplace")  # type: ignore[attr-defined]
+            stream.reconfigure(errors="backslashreplace")

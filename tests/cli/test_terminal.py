@@ -192,10 +192,6 @@ def test_every_text_can_be_told_on_every_stream(monkeypatch) -> None:
         warn(EVIL)
         assert r"\x1b]0;owned" in out.buffer.getvalue().decode(encoding)
         assert err.buffer.getvalue().decode(encoding).count("\n") == 1
-    monkeypatch.setattr(sys, "stdout", None)
-    monkeypatch.setattr(sys, "stderr", None)
-    tell("nobody")
-    warn("hears")
 
 
 def test_a_full_device_is_one_error_and_stderr_none(monkeypatch) -> None:
