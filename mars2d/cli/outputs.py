@@ -21,8 +21,8 @@ from mars2d.output.figures import figure
 from mars2d.output.films import film
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.world.loop import Interrupted
+from mars2d.world.record import Record
 
 OUTPUTS = {
     "record": tuple(formats.FORMATS),

@@ -21,12 +21,12 @@ from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene
 from mars2d.physics.motion import Start
 from mars2d.record.columns import DiskError, Storage
-from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
 from mars2d.world.channel import Channel
 from mars2d.world.laws import Laws, robot_command, team_command
 from mars2d.world.operator import Operator
+from mars2d.world.record import Record
 from mars2d.world.room import Room
 from mars2d.world.state import Addons, Hooks, State
 from mars2d.world.surroundings import Around
@@ -159,13 +159,15 @@ class Simulation(State):
     @property
     def record(self) -> Record:
         """The record so far."""
-        return self.recorder.record(
-            self.seed,
-            self.over_message if self.over else "not over",
-            self.finished,
-            self.filename,
-            Scene([*self._drawn.shapes]),
-            self.operator.log,
+        return Record.of(
+            self.recorder.record(
+                self.seed,
+                self.over_message if self.over else "not over",
+                self.finished,
+                self.filename,
+                Scene([*self._drawn.shapes]),
+                self.operator.log,
+            )
         )
 
     @property

@@ -15,10 +15,10 @@ from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
-from mars2d.record.record import Record
 from mars2d.record.recorder import History
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.fork import forked
+from mars2d.world.record import Record
 from mars2d.world.simulation import Simulation
 from mars2d.world.state import Addons
 from mars2d.world.surroundings import Around

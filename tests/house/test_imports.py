@@ -30,7 +30,6 @@ LAYERS = [
 """The rooms of the house, low to high: each imports from below only, for types as well."""
 
 LAZY_UPWARDS = {
-    ("record", "output"): "figures, films, pages, files: Record.plot, Record.save, ...",
     ("scenario", "output"): "the picture of a scenario in a notebook",
 }
 """The conveniences that import from above, when they are called."""

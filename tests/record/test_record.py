@@ -17,7 +17,7 @@ from mars2d.bodies.rigid import Inertia
 from mars2d.cli.command_line import main
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.record.contact import CONTACT
-from mars2d.record.record import COLUMNS
+from mars2d.record.rows import COLUMNS
 from mars2d.scenario import serialize
 from mars2d.sensors import Proximity
 from mars2d.world.verify import rerun

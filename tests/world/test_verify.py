@@ -11,7 +11,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.cli import command_line as cli
 from mars2d.core.errors import InputError
-from mars2d.record.record import COLUMNS
+from mars2d.record.rows import COLUMNS
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import open_world
 from mars2d.world.verify import ask_again, other_versions, rerun

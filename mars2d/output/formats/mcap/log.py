@@ -25,8 +25,8 @@ from mars2d.record.columns import DiskError, Scratch
 from mars2d.record.contact import CONTACT
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE
-from mars2d.record.record import Record
 from mars2d.record.recorder import Recorder
+from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
 
 HEAD = struct.Struct("<BQHIQQ")
@@ -59,7 +59,7 @@ class Logged(Protocol):
         """What writes the rows."""
 
     @property
-    def record(self) -> Record:
+    def record(self) -> Rows:
         """The record so far."""
 
     @property
@@ -185,7 +185,7 @@ class Log:
             parts += (HEAD.pack(OPCODE, length, channel, number, ns, ns), data)
         self._file.write(b"".join(parts))
 
-    def close(self, record: Record | None = None) -> None:
+    def close(self, record: Rows | None = None) -> None:
         """Write how the run ended, and pack the file. Raises DiskError where that fails.
 
         record: of the world, if it tells more of the end than the world does.
