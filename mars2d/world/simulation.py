@@ -62,6 +62,7 @@ class Simulation(State):
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
         self.engine_seconds = 0.0
+        self.endless = False  # a fork has no stop time
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
         self._observed = -1  # the iteration that add-ons and sensors were last called for
@@ -273,7 +274,7 @@ class Simulation(State):
         self.command = locked(self._saturate(self.operator.command(wanted)))
         self._write_row()
         self._check_workspace()
-        if self.iteration >= self.scenario.last_iteration:
+        if self.iteration >= self.scenario.last_iteration and not self.endless:
             self.stop(f"Time is over: {self.time:g} s")
         if self.over:
             self._hooks.call("on_stop", self._world)

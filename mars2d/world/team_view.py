@@ -260,7 +260,8 @@ class WorldView(Uncopied):
     def fork(self, *, laws: bool = True) -> WorldView:
         """Return an independent world that goes on from this instant, to try out what would happen.
 
-        It records nothing and calls no watcher; whatever is done there changes nothing here. All
+        It has no stop time, so that a plan may look beyond the end of the run. It records nothing
+        and calls no watcher; whatever is done there changes nothing here. All
         that remembers is copied: laws that are objects, the robots' memories, add-ons, sensors,
         random streams. Functions are shared, with the variables around them. laws: False leaves the
         laws out, so robots stand still but for what `step` commands. The engine starts again from
