@@ -41,7 +41,7 @@ CHECK_EVERY = 1.0
 """The seconds between two checks that the file still has its name."""
 
 
-class _Hands(Protocol):
+class _Operator(Protocol):
     @property
     def log(self) -> Sequence[Intervention]:
         """What was done to the world from outside."""
@@ -71,8 +71,8 @@ class Logged(Protocol):
         """The seed of the run."""
 
     @property
-    def hands(self) -> _Hands:
-        """The operator."""
+    def operator(self) -> _Operator:
+        """What acts on the world from outside."""
 
 
 def newest_row(world: Logged, counts: tuple[int, int, int, int]) -> Row:
@@ -93,7 +93,7 @@ def newest_row(world: Logged, counts: tuple[int, int, int, int]) -> Row:
         contacts=recorder.contacts()[contacts:] if now[0] > contacts else NO_CONTACTS,
         messages=sent[messages:],
         contents=texts[contents:],
-        changes=changes_at(world.hands.log, k),
+        changes=changes_at(world.operator.log, k),
     )
 
 
