@@ -11,11 +11,11 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from mars2d.bodies.colors import prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.scene import PALETTE
 from mars2d.core.usercode import name_of
 from mars2d.output.controls import CONTROLS
-from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.raster.painter import Painter
 from mars2d.output.signals import Signal, as_csv, without_nothing
 from mars2d.record.frame import Frame

@@ -11,8 +11,8 @@ import mars2d
 from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.core.scene import Arrow, Line, Scene
+from mars2d.geometry.dead_reckoning import odometry_covariance
 from mars2d.sensors import Imu, Odometry, Pose
-from mars2d.sensors.odometry import odometry_covariance
 
 
 def followed(robot, commands, **scenario):

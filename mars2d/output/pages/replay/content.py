@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
 from mars2d.core.errors import ordinal
 from mars2d.core.quantity import UNKNOWN, Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
-from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.layers.forces import (
     FAINTEST,
     MAX_CONTACTS,
