@@ -12,6 +12,7 @@ import mars2d
 from mars2d import Scenario
 from mars2d.bodies.drives import Dubins
 from mars2d.scenario.registry import FAMILIES, members
+from tests.cases import each_case
 
 HERE = Path(__file__).parent
 FORMATS = ("npz", "csv", "mcap")
@@ -25,7 +26,7 @@ def scenario() -> Scenario:
     return Scenario.from_file(SCENARIO)
 
 
-@pytest.mark.parametrize("ending", FORMATS)
+@each_case("ending", FORMATS)
 def test_a_record_saved_before_the_rooms_opens_with_the_same_digest_and_scenario(ending, scenario):
     record = mars2d.load(HERE / "saved" / f"run.{ending}")
     assert record.digest == EXPECTED["digest"]

@@ -15,6 +15,7 @@ from mars2d.addons import Map
 from mars2d.bodies import Ball
 from mars2d.sensors import RangeFinder, Sensor
 from mars2d.study.plan import seeds_of, settings_of
+from tests.cases import each_case
 
 ROBOTS = [
     Robot(pose=(x, 0, 0), sensors=[RangeFinder(beams=3, name="r0")]) for x in (-0.31, 0, 0.31)
@@ -51,8 +52,8 @@ def test_an_array_of_the_world_stays_as_it_is() -> None:
 # -- copies ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("act", [copy.copy, copy.deepcopy, pickle.dumps])
-@pytest.mark.parametrize("of", [lambda w: w, lambda w: w.simulation, lambda w: w.robots[0].world])
+@each_case("act", [copy.copy, copy.deepcopy, pickle.dumps])
+@each_case("of", [lambda w: w, lambda w: w.simulation, lambda w: w.robots[0].world])
 def test_a_world_is_not_copied(act, of) -> None:
     world = World(SCENARIO, go)
     world.step()
@@ -85,7 +86,7 @@ def test_a_record_of_a_file_can_be_pickled(tmp_path) -> None:
 # -- lists without an end, and numbers that are masked --------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("make", "name"),
     [
         (lambda: Scenario(robots=itertools.repeat(Robot())), "Scenario.robots"),

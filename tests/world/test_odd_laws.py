@@ -15,6 +15,7 @@ from mars2d.sensors import Sensor
 from mars2d.study.measures import measured
 from mars2d.study.work import Failure
 from mars2d.study.workers import attempt
+from tests.cases import each_case
 
 
 class NoArray:
@@ -156,18 +157,18 @@ RETURNING = [
 ACTS = RETURNING + RAISING
 
 
-@pytest.mark.parametrize("act", ACTS)
+@each_case("act", ACTS)
 def test_a_law_of_a_robot(act):
     error = failed(Scenario(robots=[Robot(name="red", controller=acting(act))], stop_time=1))
     assert error.robot == "red"
 
 
-@pytest.mark.parametrize("act", ACTS)
+@each_case("act", ACTS)
 def test_a_law_of_a_team(act):
     failed(Scenario(stop_time=1), control=acting(act))
 
 
-@pytest.mark.parametrize("act", RAISING)
+@each_case("act", RAISING)
 def test_a_generator(act):
     def law(robot):
         yield 0.0, 0.0
@@ -177,7 +178,7 @@ def test_a_generator(act):
     failed(Scenario(robots=[Robot(controller=law)], stop_time=1))
 
 
-@pytest.mark.parametrize("act", RAISING)
+@each_case("act", RAISING)
 def test_a_sensor(act):
     class Odd(Sensor):
         def read(self, robot, world, rng):
@@ -189,7 +190,7 @@ def test_a_sensor(act):
     assert said.robot == "red"
 
 
-@pytest.mark.parametrize("value", [NoArray(), NoItems(), NoNumber()], ids=names(RETURNED[:3]))
+@each_case("value", [NoArray(), NoItems(), NoNumber()])
 def test_a_reading(value):
     class Odd(Sensor):
         def read(self, robot, world, rng):
@@ -198,7 +199,7 @@ def test_a_reading(value):
     failed(Scenario(robots=[Robot(name="red", sensors=[Odd()])], stop_time=1))
 
 
-@pytest.mark.parametrize("act", RAISING)
+@each_case("act", RAISING)
 def test_an_addon(act):
     class Odd(Addon):
         def on_step(self, world):
@@ -220,14 +221,14 @@ class Odd(float):
         self.act()
 
 
-@pytest.mark.parametrize("act", RAISING)
+@each_case("act", RAISING)
 def test_a_measure(act):
     record = mars2d.run(Scenario(stop_time=1))
     with pytest.raises(LawError, match=r"odd (raised|returned)"):
         measured("odd", lambda _: Odd(act), record)
 
 
-@pytest.mark.parametrize("act", RAISING)
+@each_case("act", RAISING)
 def test_a_task_of_a_study(act):
     assert isinstance(attempt(lambda _: act(), None), Failure)
 

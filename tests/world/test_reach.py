@@ -10,6 +10,7 @@ from mars2d.output.films.footage import Filmed
 from mars2d.output.formats.mcap.log import Logged
 from mars2d.output.pages.notebook import Shown
 from mars2d.sensors import RangeFinder
+from tests.cases import each_case
 
 MACHINERY = {
     "rebuild", "change", "follow", "break_off", "go_on", "recorder", "engine", "simulation",
@@ -57,7 +58,7 @@ def scenario(law=None, **fields):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("sees", ["full", "positions"])
+@each_case("sees", ["full", "positions"])
 def test_no_public_attribute_of_what_a_law_is_given_leads_to_the_machinery(sees):
     given = []
 
@@ -127,7 +128,7 @@ def members(protocol):
     return {name for name in vars(protocol) if not name.startswith("_")}
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("protocol", "given"),
     [
         (ScenarioLike, lambda world: world.scenario),

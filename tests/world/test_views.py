@@ -13,6 +13,7 @@ from mars2d.cli.command_line import BAD_INPUT, main
 from mars2d.core.errors import UnknownNameError
 from mars2d.world.team_view import RobotPositionView, TeamPositionsView
 from mars2d.world.views import VIEWS, Neighbour, PropView, RobotView
+from tests.cases import each_case
 from tests.worlds import untimed
 
 OF_ITSELF = {
@@ -146,7 +147,7 @@ def answers(thing, of):
     return found
 
 
-@pytest.mark.parametrize("sees", ALLOWED)
+@each_case("sees", ALLOWED)
 def test_a_law_may_use_what_its_setting_allows_and_is_refused_the_rest(sees):
     for name, answer in asked(lambda robot: answers(robot, ALLOWED["full"]), sees).items():
         if name in ALLOWED[sees]:
@@ -190,7 +191,7 @@ def test_a_name_that_is_nowhere_is_unknown_and_not_forbidden():
         asked(lambda robot: robot.letters, "full")
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("sees", "question", "unseen"),
     [
         ("positions", lambda robot: robot.neighbours[0].xyzzy, "pose"),
@@ -209,19 +210,19 @@ def test_what_a_law_may_not_see_is_not_listed_as_what_there_is(sees, question, u
 # -- what is allowed is right -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize("sees", ["full", "partial", "positions"])
+@each_case("sees", ["full", "partial", "positions"])
 def test_a_law_sees_its_own_state_and_where_its_neighbours_are(sees):
     assert asked(lambda robot: robot.pose.tolist(), sees) == [1, 2, 3]
     assert asked(lambda robot: robot.position.tolist(), sees) == [1, 2]
     assert asked(lambda robot: [n.position.tolist() for n in robot.neighbours], sees) == [[2, 2]]
 
 
-@pytest.mark.parametrize("sees", ["full", "partial"])
+@each_case("sees", ["full", "partial"])
 def test_with_partial_information_neighbours_have_poses(sees):
     assert asked(lambda robot: robot.neighbours[0].pose.tolist(), sees) == [2, 2, 1]
 
 
-@pytest.mark.parametrize("sees", ["positions", "team"])
+@each_case("sees", ["positions", "team"])
 def test_where_only_positions_are_seen_neighbours_have_no_poses(sees):
     with pytest.raises(LawError) as raised:
         asked(lambda robot: robot.neighbours[0].pose, sees)
@@ -285,9 +286,7 @@ def test_a_robots_own_law_keeps_its_setting_in_a_team_that_sees_less():
 ARRAYS = ("command", "contacts", "pose", "position", "velocity")
 
 
-@pytest.mark.parametrize(
-    ("sees", "name"), [(s, name) for s in ALLOWED for name in ARRAYS if name in ALLOWED[s]]
-)
+@each_case(("sees", "name"), [(s, name) for s in ALLOWED for name in ARRAYS if name in ALLOWED[s]])
 def test_what_a_law_gets_is_no_view_of_something_larger(sees, name):
     value = asked(lambda robot: getattr(robot, name), sees)
     assert value.base is None
@@ -335,7 +334,7 @@ def test_no_route_of_public_names_leads_from_positions_to_a_heading():
     assert secret not in found
 
 
-@pytest.mark.parametrize("sees", ALLOWED)
+@each_case("sees", ALLOWED)
 def test_a_law_can_not_turn_into_another_robot(sees):
     def question(robot):
         robot.index = 1
@@ -344,8 +343,8 @@ def test_a_law_can_not_turn_into_another_robot(sees):
         asked(question, sees)
 
 
-@pytest.mark.parametrize("kind", [RobotView, Neighbour, PropView])
-@pytest.mark.parametrize("name", ["index", "name", "pose"])
+@each_case("kind", [RobotView, Neighbour, PropView])
+@each_case("name", ["index", "name", "pose"])
 def test_what_is_seen_can_not_be_set(kind, name):
     assert getattr(kind, name).fset is None
 
@@ -390,7 +389,7 @@ def test_a_law_can_not_hide_from_the_refusal_by_asking_whether_there_is_a_pose()
         asked(lambda robot: getattr(robot, "pose", None), "sensors")
 
 
-@pytest.mark.parametrize("sees", VIEWS)
+@each_case("sees", VIEWS)
 def test_a_view_can_be_copied(sees):
     assert asked(lambda robot: copy.copy(robot).name, sees) == "robot0"
     assert asked_world(lambda world: copy.copy(world).time) == 0.0
@@ -413,14 +412,13 @@ class Caller:
         return 0.0, robot.pose[2]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("law", "line"),
     [
         (function, function.__code__.co_firstlineno + 1),
         (generator, generator.__code__.co_firstlineno + 2),
         (Caller(), Caller.__call__.__code__.co_firstlineno + 1),
     ],
-    ids=["function", "generator", "object"],
 )
 def test_each_kind_of_law_is_held_to_its_setting(law, line):
     with pytest.raises(LawError) as raised:
@@ -444,14 +442,13 @@ class TeamCaller:
         return 0 * world.pose[:2]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("law", "line"),
     [
         (team_function, team_function.__code__.co_firstlineno + 1),
         (team_generator, team_generator.__code__.co_firstlineno + 2),
         (TeamCaller(), TeamCaller.__call__.__code__.co_firstlineno + 1),
     ],
-    ids=["function", "generator", "object"],
 )
 def test_each_kind_of_a_teams_law_is_held_to_its_setting(law, line):
     with pytest.raises(LawError) as raised:
@@ -462,7 +459,7 @@ def test_each_kind_of_a_teams_law_is_held_to_its_setting(law, line):
     )
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("robot", "scenario", "expression", "message"),
     [
         ('sees="sensors"', "", "robot.pose", "this law sees sensors only: robot.pose is not avail"),
