@@ -86,7 +86,7 @@ def test_a_measure_and_a_task_of_a_study(error):
     def act(_):
         raise error
 
-    with pytest.raises(LawError, match="odd raised|: x"):
+    with pytest.raises(LawError, match=r"odd raised|: x"):
         measured("odd", act, mars2d.run(Scenario(stop_time=1)))
     assert isinstance(attempt(act, None), Failure)
 
