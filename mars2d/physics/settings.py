@@ -67,6 +67,13 @@ MEETING = 1 / 256
 It has gathered speed over this way too: as small a part of it as substeps allow.
 """
 
+BLOW = 1 / 16
+"""How deep bodies may be in each other when they hit and no drive pushes, in parts of the slop.
+
+What has turned about the other since they touched is hit along another normal than at the touch:
+the blow changes the angular momentum of both by as much.
+"""
+
 STRAINED = 0.9
 """How deep it is, in parts of how deep bodies may enter, where more pushes add up than thought."""
 

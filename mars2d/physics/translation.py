@@ -233,6 +233,7 @@ def _accuracy(scenario: Scenario) -> dict[str, float]:
         "pressed": settings.PRESSED * slop,
         "closed": min(settings.CLOSED, settings.MEETING * slop),
         "touch": settings.MEETING * slop,
+        "blow": settings.BLOW * slop,
         "turned": settings.TURNED * overlap * max(1.0, overlap / settings.DEFAULT_OVERLAP),
         "growth": settings.GROWTH,
         "linger": settings.LINGER,

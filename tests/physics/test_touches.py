@@ -315,7 +315,7 @@ def faults_of(world: World, command: object, friction: float, seconds: float) ->
         off = np.abs(momenta(world) - before - given[n:]).max()
         beyond = np.abs(rows["tangential_impulse"]) - friction * rows["normal_impulse"]
         keys = list(zip(rows["time"], rows["a"], rows["b"], strict=True))
-        faults += [f"{world.time}: momentum off by {off}"] * bool(off > 1e-12)
+        faults += [f"{world.time}: momentum off by {off}"] * bool(off > 1e-11)
         faults += [f"{world.time}: out of the cone: {beyond}"] * bool((beyond > 1e-12).any())
         faults += ["part above whole"] * bool((rows["normal_impulse"] > rows["impulse"]).any())
         faults += [f"out of order: {keys}"] * (keys != sorted(keys))

@@ -35,6 +35,9 @@ from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust
 from mars2d.physics.islands.tie import Tie
 
+STUCK = 16
+"""After how many substeps in a row with bodies too deep in each other they are mended faster."""
+
 
 @cython.final
 @cython.cclass
@@ -49,6 +52,7 @@ class Accuracy:
     pressed: cython.double
     closed: cython.double
     touch: cython.double
+    blow: cython.double
     swaying: cython.double
     turned: cython.double
     growth: cython.double
@@ -80,7 +84,7 @@ class Accuracy:
             numbers["growth"], numbers["linger"], numbers["slack"],
         )  # fmt: skip
         self.mend_rate, self.joint_mend_rate = numbers["mend_rate"], numbers["joint_mend_rate"]
-        self.closed, self.touch = numbers["closed"], numbers["touch"]
+        self.closed, self.touch, self.blow = numbers["closed"], numbers["touch"], numbers["blow"]
         self.swaying = numbers["swaying"]
         self.taut, self.stretch, self.give = numbers["taut"], numbers["stretch"], numbers["give"]
         self.push_depth, self.spring_step = numbers["push_depth"], numbers["spring_step"]
@@ -205,7 +209,10 @@ class Island:
     def weigh(self) -> cython.void:
         """Learn from overlaps how many pushes add up, and how hard the solver has to try."""
         accuracy: Accuracy = self.accuracy
+        self.solver.hurries = False
         if self.deepest > accuracy.strained:
+            # What turns fast gets deeper again and again before the engine has mended it.
+            self.solver.hurries = self.tries >= STUCK
             self.strain = min(accuracy.strain_growth * self.strain, self.most_strain)
             # If the solver goes round in a circle it ends elsewhere in it each time.
             self.tries = min(self.tries + 1, 64)
@@ -243,7 +250,7 @@ class Island:
         tie: Tie
         for tie in self.ties:
             solver.tie(tie)
-        self.tries = 0
+        self.tries, solver.hurries = 0, False
         set_iterations(solver.space, self.iterations)
         solver.used = True
 
@@ -443,12 +450,24 @@ class Island:
         for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
         for pair in self.pairs:
-            # What gathers speed has at the touch what it has gathered by then, and no more.
-            gathers: cython.bint = pair.a.gathers or (not pair.is_wall and pair.b.gathers)
-            h = pair.time_to_touch(h, accuracy.touch if gathers else accuracy.entry)
+            h = pair.time_to_touch(h, self.depth_of(pair))
         for tie in self.ties:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.give, accuracy.taut))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
+
+    @cython.cfunc
+    def depth_of(self, pair: Pair) -> cython.double:
+        """Return how deep a pair may be when a blow turns it.
+
+        What gathers speed has at the touch what it has gathered by then, and no more. And where no
+        drive pushes, a blow along a normal that has turned inside would change angular momentum.
+        """
+        if pair.a.gathers or (not pair.is_wall and pair.b.gathers):
+            return self.accuracy.touch
+        told: cython.bint = pair.a.is_told() or (not pair.is_wall and pair.b.is_told())
+        if pair.gap > self.accuracy.closed and not told:
+            return self.accuracy.blow
+        return self.accuracy.entry
 
     @cython.cfunc
     def contact_limit(self, left: cython.double) -> cython.double:
