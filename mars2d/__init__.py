@@ -19,7 +19,6 @@ from mars2d.addons import Addon
 from mars2d.bodies import Car, Differential, Drive, Dubins, Holonomic, Unicycle
 from mars2d.core.errors import InputError, LawError, Mars2dError
 from mars2d.core.former import FormerNames
-from mars2d.record.record import Record, load
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import load_law
 from mars2d.scenario.material_pair import MaterialPair
@@ -30,6 +29,7 @@ from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors import Sensor
+from mars2d.world.record import Record, load
 from mars2d.world.world import World
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from mars2d.core.interrupt import noted_interrupts
 from mars2d.core.usercode import Hangs
 from mars2d.core.watchdog import Watchdog
 from mars2d.record.columns import Column, DiskError, Storage
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from PIL import Image
 
 import mars2d
 from mars2d.cli import command_line as cli
-from tests.each import each
+from tests.cases import each_case
 
 HEAD_ON = """
 from math import pi
@@ -172,7 +172,7 @@ def test_a_film_can_be_an_mp4(compare):
     assert not Path("mars2d_compare").exists()
 
 
-@each(
+@each_case(
     "arguments, expected",
     [
         (["no_such_thing"], "no_such_thing: there is no such file or example"),

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from mars2d.record.record import load
 from mars2d.scenario.experiment import open_experiment
+from mars2d.world.record import load
 from tests.processes import PATIENCE, bare_environment, wait_until, x_server
 from tests.window.person import ROOM, needs_screen
 

@@ -20,9 +20,9 @@ from mars2d import InputError, Robot, Scenario, World
 from mars2d.output.formats.header import as_text, of_record
 from mars2d.study.table import Result, Table
 from tests.browser import Tab
-from tests.each import each
+from tests.cases import each_case
 from tests.output.formats.records import FORMATS, everything, refused
-from tests.output.formats.test_bombs import HEAD, _element, _matrix, _npz
+from tests.output.formats.test_bombs import _npz
 
 ROOT = Path(__file__).parents[2]
 CODE = [*(ROOT / "mars2d").rglob("*.py"), ROOT / "hatch_build.py", *ROOT.glob("docs/make_*.py")]
@@ -131,7 +131,7 @@ def test_nothing_in_the_code_runs_what_it_reads_or_uses_a_network_but_where_it_s
     assert found == {*ALLOWED, *TALKS}
 
 
-@each(
+@each_case(
     "line",
     [
         "eval('1')",
@@ -198,7 +198,7 @@ def test_the_traps_spring(tmp_path) -> None:
     assert (tmp_path / "sprung").is_dir()
 
 
-@each("suffix", [*FORMATS, ".mcap"])
+@each_case("suffix", [*FORMATS, ".mcap"])
 def test_a_pickle_by_any_name_is_no_record(suffix, marker, tmp_path) -> None:
     for protocol in (0, 2, 5):
         (tmp_path / f"run{suffix}").write_bytes(pickle.dumps(Trap(marker), protocol))
@@ -215,18 +215,10 @@ def test_a_pickle_within_an_npz_is_not_read(marker, tmp_path) -> None:
             refused(_npz(tmp_path / "run.npz", {name: content}))
 
 
-@each("kind", [3, 16, 17])
-def test_what_matlab_runs_is_not_read_from_a_mat(kind, marker, tmp_path) -> None:
-    """The classes of the format that hold code: of old objects, function handles, new objects."""
-    names = _element(1, b"MCOS"), _element(1, b"system"), _element(14, pickle.dumps(Trap(marker)))
-    (tmp_path / "run.mat").write_bytes(HEAD + _matrix(kind, [1, 1], *names))
-    refused(tmp_path / "run.mat")
-
-
 NAMES = ["os.system", "trap.Trap", "trap:Trap", "trap", "__import__('trap')", "builtins.eval"]
 
 
-@each("name", NAMES)
+@each_case("name", NAMES)
 def test_a_record_names_no_code(name, marker, tmp_path) -> None:
     """Neither as the type of a part, nor as a function, nor as what another package ships."""
     text = as_text(of_record(everything()))
@@ -258,8 +250,8 @@ def _npy_of(text: str) -> bytes:
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head + data.tobytes()
 
 
-@each("name", NAMES)
-@each(
+@each_case("name", NAMES)
+@each_case(
     "scene",
     [
         'type = "NAME"\n[[robots]]',
@@ -306,7 +298,7 @@ def read_all():
                 mars2d.Scenario.from_file(path)
             elif path.suffix in (".svg", ".dxf", ".wkt", ".geojson", ".yaml"):
                 obstacles(read(path))
-            elif path.suffix in (".npz", ".mat", ".csv", ".nc", ".mcap"):
+            elif path.suffix in (".npz", ".csv", ".mcap"):
                 mars2d.load(path)
         except mars2d.InputError as error:
             assert path.name.startswith("bad"), error
@@ -361,7 +353,7 @@ def test_reading_runs_nothing_imports_nothing_and_opens_nothing_else(tmp_path, c
 SCENE = "format = 1\n[[robots]]\n"
 
 
-@each(
+@each_case(
     "text",
     [
         SCENE + ".".join("a" * 100_000) + " = 1\n",

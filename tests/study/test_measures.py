@@ -15,7 +15,7 @@ from mars2d.core.errors import LawError
 from mars2d.scenario.experiment import open_experiment
 from mars2d.study.measures import BUILT_IN, UNITS, measure_named, measured, measures
 from mars2d.world.loop import simulate
-from tests.each import each
+from tests.cases import each_case
 from tests.worlds import ahead
 
 
@@ -111,7 +111,7 @@ def test_a_function_of_the_experiment_goes_before_one_built_in_if_it_is_of_one_t
         measure_named("two", {"two": lambda a, b: 0})
 
 
-@each(
+@each_case(
     "given, kept",
     [
         (3, 3),
@@ -134,7 +134,7 @@ def test_what_a_measure_returns_becomes_a_plain_number_a_word_or_nothing(caught,
     assert type(value) in (int, float, str, type(None))
 
 
-@each(
+@each_case(
     "given, said",
     [
         ([1, 2], "expected a number, a word, or None"),

@@ -20,7 +20,7 @@ from mars2d.study.code import code_of_run
 from mars2d.study.results import Results
 from mars2d.study.run import TRIALS, StudyFailedError
 from mars2d.study.table import load_table
-from tests.each import each
+from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
 
 DRIFT = '''
@@ -184,7 +184,7 @@ def test_units_are_stated_with_the_sweep_or_with_its_table(here, capsys):
 
 
 @pytest.mark.slow
-@each("workers", [["--workers", "1"], ["--workers", "2"]])
+@each_case("workers", [["--workers", "1"], ["--workers", "2"]])
 def test_a_sweep_whose_every_run_fails_stops_with_the_reason_and_exit_code_1(here, workers, capsys):
     (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
     grid = ["--set", "gain=0.1:1:20", "--measure", "far", "--out", "r.csv"]
@@ -268,7 +268,7 @@ def test_a_measure_that_failed_is_corrected_without_a_run(here):
     assert runs(here) <= max(2, made)
 
 
-@each(
+@each_case(
     "change, again",
     [
         (("robot.rng.uniform()", "robot.rng.uniform() / 2"), True),  # a law
@@ -317,7 +317,7 @@ def test_rows_without_kept_records_are_never_lost(here):
     assert load_table("r.csv").measures == ("far",)
 
 
-@each(
+@each_case(
     "how, said",
     [
         ({"keep": True}, "keep: expected out as well"),
@@ -341,7 +341,7 @@ def test_records_are_kept_beside_a_table_of_an_experiment_in_a_file(here, how, s
 # -- what is refused before the first run ----------------------------------------------------------
 
 
-@each(
+@each_case(
     "how, said",
     [
         ({"measures": "farr"}, "there is no measure 'farr'; did you mean 'far'?"),
@@ -425,7 +425,7 @@ def test_rows_with_errors_are_run_again_only_if_asked(here):
     assert runs(here) == 3
 
 
-@each(
+@each_case(
     "how, said",
     [
         ({"seeds": 1}, "it has the seed 1, which this one has not"),
@@ -592,7 +592,7 @@ def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
     assert runs(here) == before
 
 
-@each(
+@each_case(
     "arguments, said",
     [
         ([], "an EXPERIMENT is needed"),

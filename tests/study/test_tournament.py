@@ -22,7 +22,7 @@ from mars2d.study.isolation import Limits
 from mars2d.study.tournament.folder import PLAYED, Folder, played_before
 from mars2d.study.tournament.schedule import schedule
 from mars2d.study.tournament.tournament import LIMITS, play_all
-from tests.each import each
+from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
 
 CHASE = """
@@ -211,7 +211,7 @@ def test_tables_of_pandas_and_a_notebook_have_the_same(evening):
 # -- going on --------------------------------------------------------------------------------------
 
 
-@each("words", [ALL, SAME])
+@each_case("words", [ALL, SAME])
 def test_the_same_command_plays_nothing_twice(evening, command, words):
     before = (evening.out / PLAYED).read_bytes()
     code, printed, said = command("chase.py", *words, "--out", "out")
@@ -326,7 +326,7 @@ CHANGES = {
 }
 
 
-@each("change", CHANGES.values())
+@each_case("change", CHANGES.values())
 def test_a_match_that_was_changed_in_the_file_is_refused(evening, tmp_path, change):
     lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
     row = json.loads(lines[3])
@@ -340,7 +340,7 @@ def test_a_match_that_was_changed_in_the_file_is_refused(evening, tmp_path, chan
     assert (tmp_path / PLAYED).read_bytes() == forged
 
 
-@each("line", [b"[]", b"3", b'"winner"', b'{"sum": 3}'])
+@each_case("line", [b"[]", b"3", b'"winner"', b'{"sum": 3}'])
 def test_a_line_that_is_no_match_is_refused(evening, tmp_path, line):
     lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
     (tmp_path / PLAYED).write_bytes(_with_line(lines, 3, line + b"\n"))
@@ -447,7 +447,7 @@ def test_shipped_laws_are_found_beside_their_example(tmp_path, monkeypatch):
 # -- what can't be played --------------------------------------------------------------------------
 
 
-@each(
+@each_case(
     "words, message",
     [
         (

@@ -10,7 +10,7 @@ from mars2d import InputError
 from mars2d.study.summary import comparison, summary
 from mars2d.study.table import Result, Table, load_table
 from mars2d.study.units import checked_units, parse_units, unit_of_field
-from tests.each import each
+from tests.cases import each_case
 
 
 def study(setting, units=None):
@@ -22,7 +22,7 @@ def study(setting, units=None):
     return Table("a.py", (setting,), ("end_time", "far"), tuple(results), units or {})
 
 
-@each(
+@each_case(
     "setting, unit",
     [
         ("stop_time", "s"),
@@ -62,7 +62,7 @@ def test_a_unit_that_is_stated_is_kept_in_the_file_and_no_other(tmp_path):
     assert load_table(path) == table
 
 
-@each(
+@each_case(
     "texts, said",
     [
         (["far"], "--unit far: expected NAME=UNIT, such as --unit spread=m"),

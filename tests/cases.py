@@ -1,25 +1,30 @@
-"""Cases in one test: what `pytest.mark.parametrize` does, without an item for each."""
+"""Many cases of one test as one item, which lists those that fail."""
 
 from __future__ import annotations
 
 import inspect
 import traceback
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import wraps
 from typing import Any
 
 import pytest
 
 
-def each(names: str, cases: Iterable[Any]) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def each_case(
+    names: str | Sequence[str], cases: Iterable[Any]
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Let a test go through all cases and tell, at the end, in which of them it failed.
 
-    names: of its arguments, with commas between. Each case has a folder, a monkeypatch and an empty
+    It is written like `pytest.mark.parametrize`. Each case has a folder, a monkeypatch and an empty
     capsys of its own, if the test asks for them; other fixtures are shared.
     """
-    arguments, every = [name.strip() for name in names.split(",")], list(cases)
+    arguments = [name.strip() for name in names.split(",")] if isinstance(names, str) else [*names]
+    every = list(cases)
 
     def wrap(test: Callable[..., None]) -> Callable[..., None]:
+        @wraps(test)
         def run(**fixtures: Any) -> None:
             failures = []
             for number, case in enumerate(every):
@@ -37,8 +42,6 @@ def each(names: str, cases: Iterable[Any]) -> Callable[[Callable[..., None]], Ca
         signature = inspect.signature(test)
         left = [each for name, each in signature.parameters.items() if name not in arguments]
         run.__signature__ = signature.replace(parameters=left)  # type: ignore[attr-defined]
-        run.__name__, run.__doc__, run.__module__ = test.__name__, test.__doc__, test.__module__
-        run.pytestmark = getattr(test, "pytestmark", [])  # type: ignore[attr-defined]
         return run
 
     return wrap
