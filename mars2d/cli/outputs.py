@@ -25,7 +25,7 @@ from mars2d.record.record import Record
 from mars2d.world.loop import Interrupted
 
 OUTPUTS = {
-    "record": formats.SUFFIXES,
+    "record": tuple(formats.FORMATS),
     "figure": figure.SUFFIXES,
     "video": film.SUFFIXES,
     "html": (".html", ".htm"),

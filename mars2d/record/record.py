@@ -368,8 +368,8 @@ class Record:
     def save(self, path: str | Path) -> Path:
         """Write the record to a file and return its path; the ending says in which format.
 
-        ``.npz`` numpy, ``.mat`` Matlab and Octave, ``.csv`` a long table, ``.nc`` netCDF, ``.mcap``
-        a log for Foxglove. Each can be read again by `load`, with the same digest. Raises
+        ``.npz`` numpy, ``.csv`` a long table, ``.mcap`` a log for Foxglove: `load` reads these
+        again, with the same digest. ``.mat`` for Matlab and Octave, ``.nc`` netCDF: exports. Raises
         InputError where it can't be written, MissingExtraError where a library is missing.
         """
         from mars2d.output import formats

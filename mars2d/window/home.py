@@ -19,7 +19,7 @@ from mars2d.window.rest import Rest
 
 HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
-OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mat": "replay", ".mcap": "replay"}
+OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mcap": "replay"}
 """The command that opens a file, by its suffix."""
 HINT = "Type to search"
 

@@ -92,7 +92,7 @@ def test_a_name_may_be_as_long_as_the_system_allows(tmp_path) -> None:
     assert len(mars2d.load(target)) == 11
 
 
-@pytest.mark.parametrize("suffix", [".npz", ".mat", ".csv", ".nc", ".mcap"])
+@pytest.mark.parametrize("suffix", [".npz", ".mat", ".nc", ".mcap"])
 def test_a_pipe_is_refused_before_the_run(tmp_path, suffix) -> None:
     pipe = tmp_path / f"run{suffix}"
     os.mkfifo(pipe)

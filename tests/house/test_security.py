@@ -21,7 +21,7 @@ from mars2d.output.formats.header import as_text, of_record
 from mars2d.study.table import Result, Table
 from tests.browser import Tab
 from tests.output.formats.records import FORMATS, everything, refused
-from tests.output.formats.test_bombs import HEAD, _element, _matrix, _npz
+from tests.output.formats.test_bombs import _npz
 
 ROOT = Path(__file__).parents[2]
 CODE = [*(ROOT / "mars2d").rglob("*.py"), ROOT / "hatch_build.py", *ROOT.glob("docs/make_*.py")]
@@ -199,14 +199,6 @@ def test_a_pickle_within_an_npz_is_not_read(marker, tmp_path) -> None:
             refused(_npz(tmp_path / "run.npz", {name: content}))
 
 
-@pytest.mark.parametrize("kind", [3, 16, 17], ids=["an object", "a function", "opaque"])
-def test_what_matlab_runs_is_not_read_from_a_mat(kind, marker, tmp_path) -> None:
-    """The classes of the format that hold code: of old objects, function handles, new objects."""
-    names = _element(1, b"MCOS"), _element(1, b"system"), _element(14, pickle.dumps(Trap(marker)))
-    (tmp_path / "run.mat").write_bytes(HEAD + _matrix(kind, [1, 1], *names))
-    refused(tmp_path / "run.mat")
-
-
 NAMES = ["os.system", "trap.Trap", "trap:Trap", "trap", "__import__('trap')", "builtins.eval"]
 
 
@@ -284,7 +276,7 @@ def read_all():
                 mars2d.Scenario.from_file(path)
             elif path.suffix in (".svg", ".dxf", ".wkt", ".geojson", ".yaml"):
                 obstacles(read(path))
-            elif path.suffix in (".npz", ".mat", ".csv", ".nc", ".mcap"):
+            elif path.suffix in (".npz", ".csv", ".mcap"):
                 mars2d.load(path)
         except mars2d.InputError as error:
             assert path.name.startswith("bad"), error

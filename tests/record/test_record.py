@@ -260,7 +260,7 @@ def test_the_record_so_far_of_a_world_can_be_saved(tmp_path):
 
 @pytest.mark.parametrize("name", ["run", "run.npy", "run.mat.txt", "run.pkl"])
 def test_a_records_name_says_its_format(record, tmp_path, name):
-    with pytest.raises(InputError, match=r"a name that ends in .npz, .mat, .csv, .nc or .mcap"):
+    with pytest.raises(InputError, match=r"a name that ends in .npz, .csv, .mcap, .mat or .nc"):
         record.save(tmp_path / name)
     assert not (tmp_path / name).exists()
 

@@ -14,7 +14,7 @@ from mars2d.bodies.drives import Dubins
 from mars2d.scenario.registry import FAMILIES, members
 
 HERE = Path(__file__).parent
-FORMATS = ("npz", "mat", "csv", "nc", "mcap")
+FORMATS = ("npz", "csv", "mcap")
 EXPECTED = json.loads((HERE / "saved" / "expected.json").read_text(encoding="utf-8"))
 SCENARIO = HERE.parent / "scenario" / "saved" / "everything_0_1.toml"
 LOST = ("sensor Eyes", "prop Egg", "add-on Fence")

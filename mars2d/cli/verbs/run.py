@@ -70,7 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--record",
         type=Path,
         metavar="OUT",
-        help="save all data: .npz, .mat, .csv, .nc, or .mcap, which is written during the run",
+        help="save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc",
     )
     add_pictures(parser)
     add(

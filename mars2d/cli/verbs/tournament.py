@@ -108,7 +108,7 @@ def _check(arguments: argparse.Namespace) -> None:
     for name in ("view", "record"):
         if getattr(arguments, name) and arguments.match is None:
             raise InputError(f"--{name} needs --match N")
-    check_outputs(arguments, {"record": formats.SUFFIXES, "rules": (".html", ".htm")})
+    check_outputs(arguments, {"record": tuple(formats.FORMATS), "rules": (".html", ".htm")})
     worker_count(arguments.workers)
     if arguments.view and not has_display():
         require_pygame("a window")

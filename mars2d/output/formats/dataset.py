@@ -1,13 +1,15 @@
-"""Datasets of xarray: all columns of a record, with named axes and units."""
+"""Datasets of xarray: all columns of a record, with named axes and units; ``.nc`` files of them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mars2d.core.extras import extra
+from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import (
     COLUMN_UNITS,
@@ -15,6 +17,7 @@ from mars2d.output.formats.columns import (
     MESSAGE_UNITS,
     POSE_UNITS,
     command_units,
+    plain_names,
     sensor_units,
 )
 from mars2d.record.energy import WORK
@@ -101,6 +104,26 @@ def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
         HEADER: headers.as_text(headers.of_record(record)),
     }
     return xr.Dataset(variables, coords=places, attrs=about)
+
+
+def require(path: Path) -> None:
+    """Raise MissingExtraError where xarray isn't installed."""
+    with extra("data", f"{path}: netCDF needs xarray", ".npz, .mat and .csv need nothing"):
+        import xarray  # noqa: F401
+
+
+def write(record: Record, path: Path) -> None:
+    """Write the dataset as netCDF 3, which ncdump, R, Matlab and Panoply open.
+
+    Names of sensors become ASCII. Variables without values are left out: a length of 0 means in
+    netCDF 3 that a dimension can grow. Raises MissingExtraError without xarray.
+    """
+    require(path)
+    dataset = named_dataset(record, plain_names(record.sensors))
+    empty = [name for name, each in dataset.variables.items() if not each.size]
+    content = dataset.drop_vars(empty).to_netcdf(engine="scipy", format="NETCDF3_64BIT")
+    with atomic_write(path) as file:
+        file.write(content)
 
 
 def variable_of(column: str, sensors: Mapping[str, str]) -> str:

@@ -35,7 +35,6 @@ PRELOADED = (
     "mars2d.study.tournament.tournament",
     "mars2d.window.show",
     "matplotlib.backends.backend_agg",
-    "scipy.io",
     "scipy.spatial",
     "shapely",
     "ezdxf",

@@ -21,7 +21,7 @@ from mars2d.record.record import COLUMNS
 from mars2d.scenario import serialize
 from mars2d.sensors import Bumper, Proximity
 
-FORMATS = (".npz", ".mat", ".csv", ".nc")
+FORMATS = (".npz", ".csv")
 
 
 class Grid(Sensor):
