@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import re
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -63,9 +64,10 @@ HEAD = """\
 # Fields
 
 Every field that an experiment can set, with its unit, its default and what it accepts. All values
-are checked when an object is made: anything else is an error that names the field. Fields are given
-by name, as in `Robot(diameter=0.2)`; those marked with * may also be given without their name, in
-their order, as in `Disc(0.2)`. What must be given has no default.
+are checked when an object is made: anything else is an error that names the field. Numbers have an
+interval: (0, 10] is more than 0 and at most 10. Fields are given by name, as in
+`Robot(diameter=0.2)`; those marked with * may also be given without their name, in their order, as
+in `Disc(0.2)`. What must be given has no default.
 
 `object.replace(field=value)` returns a copy with some fields changed; the objects themselves never
 change.
@@ -172,6 +174,11 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
         if check(name, None) is None and "None" not in expected:
             expected += ", or None"
     expected = expected.replace(f" [{field.metadata['unit']}]", "")
+    expected = re.sub(
+        r"a number (>=?) (\S+) and (<=?) ([^\s,]+)",
+        lambda m: f"{'[' if m[1] == '>=' else '('}{m[2]}, {m[4]}{']' if m[3] == '<=' else ')'}",
+        expected,
+    )
     return expected.removesuffix("None") + "`None`" if expected.endswith("None") else expected
 
 
