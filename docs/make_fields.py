@@ -28,7 +28,7 @@ from mars2d import (
 )
 from mars2d.addons import Addon, Burst
 from mars2d.bodies import Joint, Prop
-from mars2d.core.description import Description
+from mars2d.core.description import Description, snake_case
 from mars2d.core.errors import InputError
 from mars2d.core.materials import MATERIALS
 from mars2d.geometry import Compound, Disc, Polygon
@@ -134,6 +134,9 @@ def title(kind: type[Description]) -> str:
 def section(kind: type[Description]) -> str:
     """Return the part about one class."""
     text = f"\n## {title(kind)}\n\n{summary(kind)}\n"
+    if issubclass(kind, Sensor) and kind is not Sensor:
+        page = f"sensors/{snake_case(kind.__name__)}.md#parameters"
+        return text + f"\nIts fields are on [its page]({page}).\n"
     base, fields = base_of(kind), fields_of(kind)
     if base is not None:
         link = f"[{base.__name__}](#{base.__name__.lower()})"
@@ -175,7 +178,7 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
             expected += ", or None"
     expected = expected.replace(f" [{field.metadata['unit']}]", "")
     expected = re.sub(
-        r"a number (>=?) (\S+) and (<=?) ([^\s,]+)",
+        r"a number (>=?) (\S+) and (<=?) ([^\s,]+(?: pi)?)",
         lambda m: f"{'[' if m[1] == '>=' else '('}{m[2]}, {m[4]}{']' if m[3] == '<=' else ')'}",
         expected,
     )
