@@ -19,7 +19,6 @@ from mars2d.core.scene import Scene
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mcap.foxglove import nanoseconds
 from mars2d.output.formats.mcap.row import Row, changes_at, cut
-from mars2d.output.formats.mcap.scanning import MESSAGE as OPCODE
 from mars2d.output.formats.mcap.writing import Tape, pack, require
 from mars2d.record.columns import DiskError, Scratch
 from mars2d.record.contact import CONTACT
@@ -28,6 +27,9 @@ from mars2d.record.message import MESSAGE
 from mars2d.record.recorder import Recorder
 from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
+
+OPCODE = 5
+"""The kind of an operation that is a message."""
 
 HEAD = struct.Struct("<BQHIQQ")
 """How the operation of a message begins: its kind and length, channel, sequence, two times."""
