@@ -8,7 +8,6 @@
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +17,6 @@ from mars2d.core import interrupt  # noqa: F401 - first: Ctrl-C while the others
 from mars2d.addons import Addon
 from mars2d.bodies import Car, Differential, Drive, Dubins, Holonomic, Unicycle
 from mars2d.core.errors import InputError, LawError, Mars2dError
-from mars2d.core.former import FormerNames
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import load_law
 from mars2d.scenario.material_pair import MaterialPair
@@ -83,9 +81,6 @@ _LATER = {
     "tournament": "mars2d.study.tournament.tournament",
 }
 """The names that are imported when they are first asked for: not every program needs them."""
-
-if not any(isinstance(finder, FormerNames) for finder in sys.meta_path):
-    sys.meta_path.append(FormerNames())
 
 
 def __getattr__(name: str) -> Any:

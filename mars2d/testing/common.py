@@ -12,9 +12,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mars2d.core.deadline import Deadline, Late
+from mars2d.core.deadline import Deadline
 from mars2d.core.description import Description
-from mars2d.core.errors import shown
+from mars2d.core.errors import Late, shown
 from mars2d.core.hints import described
 from mars2d.core.scene import Scene
 from mars2d.scenario import serialize

@@ -11,8 +11,8 @@ import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core import checks
-from mars2d.core.deadline import Deadline, Late
-from mars2d.core.errors import InputError, LawError
+from mars2d.core.deadline import Deadline
+from mars2d.core.errors import InputError, Late, LawError
 from mars2d.core.usercode import name_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor

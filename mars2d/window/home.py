@@ -11,7 +11,7 @@ from mars2d.scenario.courses import GAMES, courses, title_of
 from mars2d.scenario.experiment import examples
 from mars2d.window.buttons import Buttons
 from mars2d.window.cards import Card, Page, Shelf
-from mars2d.window.display import PICTURES_A_SECOND, show_drawn, started_display
+from mars2d.window.display import PICTURES_A_SECOND, started_display
 from mars2d.window.looks import Looks
 from mars2d.window.memory import Memory
 from mars2d.window.notes import Notes
@@ -47,7 +47,7 @@ class Home:
     def run(self) -> tuple[str, ...] | None:
         """Return the arguments of the command that opens what was chosen; None to leave.
 
-        Raises InputError without a display, DisplayError if it is lost.
+        Raises InputError without a display.
         """
         with started_display():
             pygame.display.set_caption("MARS2D")
@@ -56,7 +56,7 @@ class Home:
             clock = pygame.time.Clock()
             while self._open:
                 self.draw(pygame.display.get_surface() or screen)
-                show_drawn()
+                pygame.display.flip()
                 clock.tick(PICTURES_A_SECOND)
                 for event in self._rest.events():
                     self.handle(event)

@@ -15,8 +15,8 @@ from mars2d.bodies.joints import Joint
 from mars2d.cli import remarks
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import run_headless
-from mars2d.core.deadline import PATIENCE, Deadline, Late
-from mars2d.core.errors import InputError, LawError, Mars2dError, counted, nearest, one_line
+from mars2d.core.deadline import PATIENCE, Deadline
+from mars2d.core.errors import InputError, Late, LawError, Mars2dError, counted, nearest, one_line
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats

@@ -14,7 +14,7 @@ import numpy as np
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import REPLACED_OPEN, growing
-from mars2d.core.interrupt import noted_interrupts, unbroken
+from mars2d.core.interrupt import interrupts, unbroken
 from mars2d.core.scene import Scene
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mcap.foxglove import nanoseconds
@@ -228,7 +228,7 @@ class Log:
             self._file.close()
 
     def __enter__(self) -> Log:
-        self._interrupts = noted_interrupts()
+        self._interrupts = interrupts()
         self._interrupts.__enter__()
         return self
 
@@ -241,7 +241,7 @@ class Log:
         try:
             self.close()
         finally:
-            self._interrupts.__exit__()
+            self._interrupts.__exit__(None)
 
 
 class _File:
