@@ -10,6 +10,7 @@ from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.scenario.registry import members
 from mars2d.scenario.roles import robots_named
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.worlds import finished
 
 ROLES = {"red": ["r1", "r2"], "blue": ["b1", "b2"]}
@@ -65,7 +66,7 @@ def test_the_ring_is_where_its_center_is():
     assert world.addons.ring.out == (2,)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("speeds", "stop_time", "score"),
     [
         ([0.0, 0.0, 0.0, 0.0], 1.0, {"red": 2, "blue": 2}),  # time is over
@@ -132,7 +133,7 @@ def test_a_person_may_drive_a_role():
 # -- what is refused ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "words"),
     [
         ({"radius": 0}, "Ring.radius = 0: expected a number > 0"),

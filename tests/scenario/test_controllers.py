@@ -19,6 +19,7 @@ from mars2d.scenario.controllers import (
 from mars2d.scenario.python_file import as_python
 from mars2d.scenario.registry import members
 from mars2d.sensors import Proximity, RangeFinder, SonarRing
+from tests.cases import each_case
 
 DRIVES = {
     "unicycle": Unicycle(), "wheels": Differential(), "twist": Differential(command="twist"),
@@ -40,7 +41,7 @@ def alone(robot, **fields):
 # -- along the waypoints -----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("drive", DRIVES.values(), ids=DRIVES)
+@each_case("drive", DRIVES.values())
 def test_the_waypoint_follower_reaches_all_its_points_in_order_and_stops(drive):
     route = [(3, 1), (6, 4), (1.5, 4), (1, 1)]  # the third lies behind
     robot = Robot(pose=(1, 2, 0), drive=drive, controller=FollowWaypoints(speed=0.4))
@@ -128,7 +129,7 @@ def test_where_there_is_no_wall_it_goes_straight_on():
 # -- after another robot -------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("drive", DRIVES.values(), ids=DRIVES)
+@each_case("drive", DRIVES.values())
 def test_a_follower_stays_behind_a_straight_leader_as_far_as_its_gain_says(drive):
     lead = Robot(name="lead", pose=(1, 0, 0), controller=lambda robot: (0.2, 0.0))
     law = FollowRobot(leader="lead", distance=0.5, gain=2.0, speed=0.4)
@@ -181,7 +182,7 @@ def test_a_law_without_its_sensor_says_which_one_it_misses():
 # -- what they want ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("law", "sensors", "want"),
     [
         (Wander(), [], "a sensor called proximity"),
@@ -231,7 +232,7 @@ def test_scenario_files_python_files_and_records_keep_all_ready_made_laws(tmp_pa
     assert mars2d.load(tmp_path / "run.npz").scenario == scenario
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("written", "said"),
     [
         ('"Wonder"', r"laws.toml, line 3, robots\[0\]: .*did you mean 'Wander'"),

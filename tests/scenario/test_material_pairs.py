@@ -19,6 +19,7 @@ from mars2d.scenario.options import override
 from mars2d.scenario.serialize import from_description, to_scenario
 from mars2d.window.editor.draft import Draft
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 
 class Sled(Box):
@@ -75,7 +76,7 @@ def run(scenario: Scenario) -> Record:
 # -- checks -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("make", "message"),
     [
         (lambda: MaterialPair("steal", "ice", friction=0.1), r"MaterialPair\.a.*mean 'steel'"),
@@ -117,7 +118,7 @@ def test_what_can_not_be_is_refused_in_one_clear_line(make, message):
         make()
 
 
-@pytest.mark.parametrize("static", [0.3, float("nan"), 1001.0])
+@each_case("static", [0.3, float("nan"), 1001.0])
 def test_a_surface_of_ones_own_is_checked_as_well(static):
     class Odd(Box):
         @property
@@ -188,14 +189,14 @@ def test_a_toml_file_says_where_a_pair_is_wrong(tmp_path):
     assert error.value.where == "scene.toml, line 4, material_pairs[0]"
 
 
-@pytest.mark.parametrize("suffix", formats.SUFFIXES)
-def test_a_record_holds_all_of_it_and_runs_again(suffix, tmp_path):
+def test_a_record_holds_all_of_it_and_runs_again(tmp_path):
     record = run(rich())
     assert len(record.contacts) > 5
-    again = mars2d.load(record.save(tmp_path / f"run{suffix}"))
-    assert again.digest == record.digest
-    assert surfaces_of(again.scenario) == surfaces_of(record.scenario)
-    assert again.scenario.material_pairs == record.scenario.material_pairs
+    for suffix in formats.SUFFIXES:
+        again = mars2d.load(record.save(tmp_path / f"run{suffix}"))
+        assert again.digest == record.digest
+        assert surfaces_of(again.scenario) == surfaces_of(record.scenario)
+        assert again.scenario.material_pairs == record.scenario.material_pairs
     assert rerun(again) is None
 
 

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -12,6 +11,7 @@ from mars2d.scenario import serialize
 from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.scenario.pretty import Brackets, laid_out
 from mars2d.scenario.python_file import as_python
+from tests.cases import each_case
 from tests.worlds import without_laws
 
 EVERYTHING = Path(__file__).parent / "everything.toml"
@@ -32,7 +32,7 @@ def test_all_kinds_of_parts_are_listed():
     assert max(map(len, named)) <= 100
 
 
-@pytest.mark.parametrize("name", examples())
+@each_case("name", examples())
 def test_an_example_is_listed_but_for_its_code(name, tmp_path):
     experiment = open_experiment(name)
     text = as_python(experiment.scenario, experiment.control, tmp_path)
@@ -111,7 +111,7 @@ def test_any_title_can_be_listed(title):
     assert executed(text).title == title
 
 
-@pytest.mark.parametrize("width", range(12, 60))
+@each_case("width", range(12, 60))
 def test_what_is_laid_out_keeps_its_items_and_its_width(width):
     inner = [Brackets("(", [f"{i}.0", "-1.5"], ")") for i in range(8)]
     node = Brackets("f(", [Brackets("a=[", inner, "]", filled=True), "b=2"], ")")

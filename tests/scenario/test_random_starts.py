@@ -21,6 +21,7 @@ from mars2d.scenario.schema import schema
 from mars2d.scenario.starts import footprint
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 FILE = """
 from mars2d import Robot, Scenario
@@ -144,7 +145,7 @@ def law(robot):
     return 0.1, 0.0
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2, 3, 2**63 - 1])
+@each_case("seed", [0, 1, 2, 3, 2**63 - 1])
 def test_all_start_in_their_area_apart_and_clear_of_everything(seed):
     found = crowd().started(seed)
     found.replace()  # refuses starts that overlap, or that are in a wall
@@ -227,7 +228,7 @@ def test_no_run_of_a_sweep_fails_for_its_start(tmp_path):
     assert failed["placed.py"] == 0
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("changes", "words"),
     [
         (

@@ -16,6 +16,7 @@ from mars2d.cli import command_line as cli
 from mars2d.scenario import serialize, toml_file
 from mars2d.scenario.experiment import examples, open_experiment
 from mars2d.scenario.law_reference import Reference
+from tests.cases import each_case
 from tests.worlds import without_laws
 
 EVERYTHING = (Path(__file__).parent / "everything.toml").read_text(encoding="utf-8")
@@ -64,7 +65,7 @@ def test_the_file_of_all_kinds_is_laid_out_as_it_is_saved(tmp_path):
     assert text == EVERYTHING.replace("everything.toml", "scene.toml")
 
 
-@pytest.mark.parametrize("name", examples())
+@each_case("name", examples())
 def test_an_example_comes_back_but_for_its_code(name, tmp_path):
     experiment = open_experiment(name)
     text, missing, again = saved(experiment.scenario, tmp_path, experiment.control)
@@ -76,7 +77,7 @@ def test_an_example_comes_back_but_for_its_code(name, tmp_path):
     assert max(map(len, named)) <= 100
 
 
-@pytest.mark.parametrize("name", ["billiards", "go_to_point", "push_box", "sumo", "tug_of_war"])
+@each_case("name", ["billiards", "go_to_point", "push_box", "sumo", "tug_of_war"])
 def test_a_run_of_the_file_is_that_of_the_experiment(name, tmp_path):
     experiment = open_experiment(name, {"addons": []})
     experiment.scenario.save(tmp_path / "scene.toml", experiment.control)
@@ -203,7 +204,7 @@ def test_a_file_alone_means_its_control(tmp_path):
     assert open_experiment(tmp_path / "scene.toml").control.__name__ == "control"
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("text", "found"),
     [
         ("walk.py:walk", ("walk.py", "walk")),
@@ -405,7 +406,7 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("text", "expected"), WRONG, ids=range(len(WRONG)))
+@each_case(("text", "expected"), WRONG)
 def test_what_is_wrong_is_pointed_at(text, expected, tmp_path):
     with pytest.raises(InputError) as caught:
         read(tmp_path, text if text[:1] != "\n" else f"format = 1{text}\n")
@@ -413,7 +414,7 @@ def test_what_is_wrong_is_pointed_at(text, expected, tmp_path):
     assert "scene.toml" in str(caught.value) or "walk.py" in str(caught.value)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("data", "expected"),
     [
         (b"format = 1\ntitle = '\xe9'", "scene.toml, line 2: expected text in UTF-8"),
@@ -493,7 +494,7 @@ def test_a_changed_file_is_read_or_refused_in_words(block, tmp_path):
     assert 5 < good < 95
 
 
-@pytest.mark.parametrize("name", ["addo-s", '"a.b"', '"a[1"', '""', '"\\n"', "robots-1"])
+@each_case("name", ["addo-s", '"a.b"', '"a[1"', '""', '"\\n"', "robots-1"])
 def test_a_table_of_any_name_is_refused(name, tmp_path):
     with pytest.raises(InputError, match=r"scene\.toml"):
         read(tmp_path, f"format = 1\n[[robots]]\n[[{name}]]\ntype = 'Map'\n")

@@ -35,6 +35,7 @@ from mars2d.testing import (
 )
 from mars2d.testing.file import trials
 from mars2d.testing.state import fingerprint
+from tests.cases import each_case
 
 
 def texts(findings, kind: str) -> list[str]:
@@ -333,7 +334,7 @@ SENSORS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("fault", SENSORS)
+@each_case("fault", SENSORS)
 def test_a_fault_of_a_sensor_is_named(fault):
     SHARED.clear()
     make, words = SENSORS[fault]
@@ -617,7 +618,7 @@ ADDONS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("fault", ADDONS)
+@each_case("fault", ADDONS)
 def test_a_fault_of_an_addon_is_named(fault):
     SHARED.clear()
     make, words = ADDONS[fault]
@@ -664,7 +665,7 @@ def gather(world):
     return np.vstack([0.1 * np.ones(3), world.rng.uniform(-1, 1, 3)])
 
 
-@pytest.mark.parametrize("law", [wander, patrol, gather])
+@each_case("law", [wander, patrol, gather])
 def test_sound_laws_pass_without_a_finding(law):
     check_controller(law)
     assert controller_findings(law) == ()
@@ -787,7 +788,7 @@ LAWS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("fault", LAWS)
+@each_case("fault", LAWS)
 def test_a_fault_of_a_law_is_named(fault):
     SHARED.clear()
     law, options, words = LAWS[fault]
@@ -816,7 +817,7 @@ def test_a_law_is_tried_on_the_robots_of_a_scenario_that_have_it():
     assert seen(controller_findings(unlucky, scenario=scenario), "wrong", "random")
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("law", "words"),
     [
         (
@@ -883,7 +884,7 @@ DRIVES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("fault", DRIVES)
+@each_case("fault", DRIVES)
 def test_a_fault_of_a_drive_is_named(fault):
     make, words = DRIVES[fault]
     findings = drive_findings(make())
@@ -901,7 +902,7 @@ def spin(*_):
             pass
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("findings", "part"),
     [
         (sensor_findings, lambda: sensor(spin)),
@@ -966,13 +967,13 @@ def test_the_sensors_of_mars2d_are_sound(name):
     check_sensor(members("sensors")[name](**SENSORS_NEED.get(name, {})))
 
 
-@pytest.mark.parametrize("name", sorted(members("addons")))
+@each_case("name", sorted(members("addons")))
 def test_the_addons_of_mars2d_are_sound(name):
     addon = members("addons")[name](**ADDONS_NEED.get(name, {}))
     check_addon(addon, sensors=[sensors.Odometry(), sensors.Proximity(range=1.0)])
 
 
-@pytest.mark.parametrize("name", sorted(members("bodies")))
+@each_case("name", sorted(members("bodies")))
 def test_the_drives_of_mars2d_are_sound(name):
     check_drive(members("bodies")[name]())
 
@@ -1037,7 +1038,7 @@ def test_a_file_of_parts_and_laws_without_a_scenario_is_checked(tmp_path, capsys
     ]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("method", "does", "words"),
     [
         ("draw(self, scene, frame)", "self.drawn = frame.time", "Halo.draw raised Frozen"),
