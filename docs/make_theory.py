@@ -19,7 +19,8 @@ from mars2d.bodies import Ball, Box, Gate, Joint, Prop, Puck, Rope, Spring
 from mars2d.core.materials import GRAVITY
 from mars2d.record import episodes
 from mars2d.record.record import Record
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import simulate
 
 Float = NDArray[np.float64]

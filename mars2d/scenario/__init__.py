@@ -1,13 +1,8 @@
 """The frozen description of an experiment, its files and its laws."""
 
 from mars2d.scenario.animation import Animation
-from mars2d.scenario.experiment import (
-    Experiment,
-    examples,
-    load_law,
-    open_experiment,
-    open_module,
-)
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment, load_law, open_experiment, open_module
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.scenario.parameters import Range
 from mars2d.scenario.prediction import Prediction

@@ -33,6 +33,7 @@ from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
 from mars2d.core.usercode import called, quiet, stack_of
 from mars2d.scenario import law_parameters, parameters
+from mars2d.scenario.examples import examples
 from mars2d.scenario.law_parameters import PREFIX
 from mars2d.scenario.map_option import MapOption, reading_options
 from mars2d.scenario.options import override
@@ -218,16 +219,6 @@ class Experiment:
 
 
 LISTED = "; mars2d list shows the examples"
-
-
-def examples() -> dict[str, Path]:
-    """Return the shipped examples: name to file."""
-    package = Path(__file__).parents[1]
-    for folder in (package / "examples", package.parent / "examples"):  # a wheel's, a checkout's
-        if folder.is_dir():
-            files = sorted(folder.glob("*.py"))
-            return {file.stem: file for file in files if not file.stem.startswith("_")}
-    return {}
 
 
 def open_experiment(

@@ -41,7 +41,8 @@ from mars2d.cli import command_line as cli
 from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
 from mars2d.geometry import shapes
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.registry import FAMILIES, members
 from mars2d.study import work
 from mars2d.window import keys

@@ -7,7 +7,8 @@ import pytest
 from mars2d import InputError, Range, Robot, Scenario, load, run
 from mars2d.addons import Map
 from mars2d.bodies import Box
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.hot_reload import alike
 from mars2d.scenario.options import settings_in_words
 from mars2d.scenario.parameters import Parameter, arguments_of

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 import mars2d
 from mars2d import Animation, Robot, Scenario, Sensor, load_law
 from mars2d.scenario import serialize
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.pretty import Brackets, laid_out
 from mars2d.scenario.python_file import as_python
 from tests.cases import each_case

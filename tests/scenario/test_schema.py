@@ -17,7 +17,8 @@ from mars2d import Robot, Scenario
 from mars2d.core.description import Description, schema_of
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.scenario import serialize
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.schema import schema
 from tests.cases import each_case
 from tests.house.test_any_scenario import any_scenario, scenarios

@@ -14,7 +14,8 @@ from mars2d.addons import Density, Floor, Map
 from mars2d.bodies.props import Ball, Box, Gate
 from mars2d.cli import command_line as cli
 from mars2d.scenario import serialize, toml_file
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.law_reference import Reference
 from tests.cases import each_case
 from tests.worlds import without_laws

@@ -19,7 +19,8 @@ from mars2d.addons import Map
 from mars2d.cli import command_line as cli
 from mars2d.core.deadline import Deadline
 from mars2d.core.description import entry, number
-from mars2d.scenario.experiment import examples, open_experiment, open_module
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.scenario.registry import members
 from mars2d.sensors import ANGLE, COLOR, DISTANCE, FLAG, NUMBER
 from mars2d.testing import (

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mars2d.core.extras import pip_line
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
 from tests.cases import each_case
 from tests.house.test_examples import DIGESTS
 
