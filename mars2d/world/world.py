@@ -124,11 +124,6 @@ class World(WorldView):
         """Drives robots, puts bodies elsewhere, pulls and holds them."""
         return self._simulation.operator
 
-    @property
-    def hands(self) -> Operator:
-        """The same as `operator`."""
-        return self._simulation.operator
-
     def change(
         self,
         scenario: Scenario,

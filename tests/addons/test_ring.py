@@ -7,6 +7,7 @@ import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Ring
 from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.scenario import load_scenario
 from mars2d.scenario.registry import members
 from mars2d.scenario.roles import robots_named
 from mars2d.world.verify import rerun
@@ -118,7 +119,7 @@ def test_a_scenario_file_keeps_it(tmp_path):
     file = tmp_path / "sumo.toml"
     still = bout([0.0] * 4, ring=ring)
     still.replace(robots=[r.replace(controller=None) for r in still.robots]).save(file)
-    assert Scenario.from_file(file).addons == (ring,)
+    assert load_scenario(file).addons == (ring,)
 
 
 def test_what_all_contests_derive_from_is_no_add_on_to_be_listed():

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from mars2d.record.record import load
+from mars2d.scenario import save_scenario
 from mars2d.scenario.experiment import open_experiment
 from tests.processes import PATIENCE, bare_environment, wait_until, x_server
 from tests.window.person import ROOM, needs_screen
@@ -43,8 +44,8 @@ def windows_on(display):
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("gone")
     (folder / "room.py").write_text(ROOM)
-    experiment = open_experiment(folder / "room.py")
-    experiment.scenario.replace(robots=experiment.scenario.robots[1:]).save(folder / "drawn.toml")
+    scenario = open_experiment(folder / "room.py").scenario
+    save_scenario(scenario.replace(robots=scenario.robots[1:]), folder / "drawn.toml")
     short = ["run", "room.py", "--headless", "--stop-time", "5", "--record", "past.npz"]
     process = mars(folder, *short)
     process.communicate(timeout=PATIENCE)

@@ -21,6 +21,8 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+from mars2d.scenario import load_scenario
+
 KINDS = ("toml", "npz", "mat", "csv", "nc", "mcap", "dxf", "svg", "yaml", "geojson", "wkt")
 RECORDS = ("npz", "mat", "csv", "nc", "mcap")
 
@@ -91,7 +93,7 @@ def read(path: Path) -> None:
 
     kind = path.suffix[1:]
     if kind == "toml":
-        scenario = mars2d.Scenario.from_file(path)
+        scenario = load_scenario(path)
         hash(scenario)
     elif kind in RECORDS:
         record = mars2d.load(path, largest=50_000_000)

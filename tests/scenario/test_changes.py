@@ -60,7 +60,7 @@ def test_what_needs_a_new_start_is_refused_by_name_and_nothing_happens(changes, 
     with pytest.raises(InputError, match=f"this needs a new start: .*({words})"):
         world.change(BEFORE.replace(**changes))
     assert world.scenario is BEFORE
-    assert world.hands.log == []
+    assert world.operator.log == []
     world.step()
 
 
@@ -283,7 +283,7 @@ def test_what_is_no_law_is_refused_and_nothing_happens():
     with pytest.raises(InputError, match="control = 3"):
         world.change(BEFORE.replace(addons=[BLOCK]), 3)
     assert world.obstacles == ()
-    assert world.hands.log == []
+    assert world.operator.log == []
 
 
 def test_add_ons_that_stay_keep_what_they_know():

@@ -8,6 +8,7 @@ import pytest
 import mars2d
 from mars2d import Car, Differential, Holonomic, InputError, LawError, Robot, Scenario, Unicycle
 from mars2d.addons import Map, Waypoints
+from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.controllers import (
     ByHand,
     Controller,
@@ -221,8 +222,8 @@ def _all_laws():
 
 def test_scenario_files_python_files_and_records_keep_all_ready_made_laws(tmp_path):
     scenario = _all_laws()
-    assert scenario.save(tmp_path / "laws.toml") == ()
-    assert Scenario.from_file(tmp_path / "laws.toml") == scenario
+    assert save_scenario(scenario, tmp_path / "laws.toml") == ()
+    assert load_scenario(tmp_path / "laws.toml") == scenario
     (tmp_path / "laws.py").write_text(as_python(scenario))
     runs = [
         mars2d.run(source) for source in (scenario, tmp_path / "laws.toml", tmp_path / "laws.py")
@@ -246,7 +247,7 @@ def test_a_wrong_law_in_a_file_is_said_with_its_place(written, said, tmp_path):
     path = tmp_path / "laws.toml"
     path.write_text(f"format = 1\n[[robots]]\ncontroller = {written}\n")
     with pytest.raises(InputError, match=said):
-        Scenario.from_file(path)
+        load_scenario(path)
 
 
 def test_a_law_of_ones_own_may_derive_from_controller_and_is_named_as_code(tmp_path):
@@ -259,7 +260,7 @@ def test_a_law_of_ones_own_may_derive_from_controller_and_is_named_as_code(tmp_p
     scenario = Scenario(robots=[Robot(controller=Ahead())], stop_time=1)
     record = mars2d.run(scenario)
     assert record.pose[-1, 0, 0] == pytest.approx(0.25)
-    assert scenario.save(tmp_path / "own.toml") == ("law Ahead",)
+    assert save_scenario(scenario, tmp_path / "own.toml") == ("law Ahead",)
     assert "# This is code, which is not written down: law Ahead" in as_python(scenario)
     record.save(tmp_path / "own.npz")
     assert mars2d.load(tmp_path / "own.npz").scenario.robots[0].controller is None

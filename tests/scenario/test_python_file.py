@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import mars2d
 from mars2d import Animation, Robot, Scenario, Sensor, load_law
-from mars2d.scenario import serialize
+from mars2d.scenario import load_scenario, serialize
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.pretty import Brackets, laid_out
@@ -25,7 +25,7 @@ def executed(text):
 
 
 def test_all_kinds_of_parts_are_listed():
-    scenario = Scenario.from_file(EVERYTHING)
+    scenario = load_scenario(EVERYTHING)
     text = as_python(scenario)
     assert executed(text) == scenario
     assert as_python(executed(text)) == text

@@ -16,7 +16,7 @@ from hypothesis import given
 from mars2d import Robot, Scenario
 from mars2d.core.description import Description, schema_of
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.scenario import serialize
+from mars2d.scenario import load_scenario, save_scenario, serialize
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.schema import schema
@@ -46,7 +46,7 @@ def test_it_accepts_a_file_with_everything():
 @each_case("name", sorted(examples()))
 def test_it_accepts_each_example_as_it_is_saved(name, tmp_path):
     path = tmp_path / "scene.toml"
-    open_experiment(name).scenario.save(path)
+    save_scenario(open_experiment(name).scenario, path)
     assert faults(path.read_text(encoding="utf-8")) == []
 
 
@@ -58,7 +58,7 @@ def test_it_accepts_whatever_is_saved(data, tmp_path_factory):
     except Mars2dError:
         return
     path = tmp_path_factory.mktemp("schema") / "scene.toml"
-    without_laws(scenario).save(path)
+    save_scenario(without_laws(scenario), path)
     assert faults(path.read_text(encoding="utf-8")) == []
 
 
@@ -119,7 +119,7 @@ def test_gate_and_schema_refuse_the_same_mistakes(text, tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text(text)
     with pytest.raises(InputError):
-        Scenario.from_file(path)
+        load_scenario(path)
     assert faults(text)
 
 
@@ -132,7 +132,7 @@ def test_the_schema_refuses_nothing_that_the_gate_takes(data, tmp_path_factory):
     except Mars2dError:
         return
     path = tmp_path_factory.mktemp("schema") / "scene.toml"
-    without_laws(scenario).save(path)
+    save_scenario(without_laws(scenario), path)
     assert faults(path.read_text(encoding="utf-8")) == []
 
 
@@ -153,7 +153,7 @@ def test_every_field_says_what_it_accepts_but_for_code():
 
 
 def test_saved_files_lead_editors_to_it(tmp_path):
-    Scenario(robots=[Robot()]).save(tmp_path / "a.toml")
+    save_scenario(Scenario(robots=[Robot()]), tmp_path / "a.toml")
     assert (tmp_path / "a.toml").read_text().startswith("#:schema mars2d.schema.json\n")
 
 

@@ -76,7 +76,7 @@ def state_of(window):
         "slider": [slider._line.left, slider._line.right, slider._line.centery],
         "robots": seen.pose.T.round(4).tolist(),
         "props": seen.prop_pose.T.round(4).tolist(),
-        "pulls": 0 if timeline is None else len(timeline.world.hands.pulls),
+        "pulls": 0 if timeline is None else len(timeline.world.operator.pulls),
         "over_body": window.grab.over,
         "busy": window.grab.busy,
         "driving": next(iter(director.driven), None),

@@ -83,7 +83,7 @@ def test_no_public_attribute_of_what_a_law_is_given_leads_to_the_machinery(sees)
 
 
 def test_a_law_that_wants_the_machinery_is_told_that_there_is_none():
-    world = World(Scenario(), lambda world: world.hands.hold(0))
+    world = World(Scenario(), lambda world: world.operator.hold(0))
     with pytest.raises(LawError, match="a world has no 'hands'"):
         world.step()
 

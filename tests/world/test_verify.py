@@ -136,9 +136,9 @@ def test_a_run_with_a_hand_in_it_is_the_same_again():
     world = World(scenario(), meet)
     for k in range(30):
         if k == 5:
-            world.hands.place("crate", (0.3, 1.2, 0.4))
+            world.operator.place("crate", (0.3, 1.2, 0.4))
         if 10 <= k < 20:
-            world.hands.steer("red", (0.0, 0.1 * (k - 10)))
+            world.operator.steer("red", (0.0, 0.1 * (k - 10)))
         world.step()
     world.break_off("enough")
     assert rerun(world.record) is None

@@ -71,7 +71,7 @@ class Logged(Protocol):
         """The seed of the run."""
 
     @property
-    def hands(self) -> _Hands:
+    def operator(self) -> _Hands:
         """The operator."""
 
 
@@ -93,7 +93,7 @@ def newest_row(world: Logged, counts: tuple[int, int, int, int]) -> Row:
         contacts=recorder.contacts()[contacts:] if now[0] > contacts else NO_CONTACTS,
         messages=sent[messages:],
         contents=texts[contents:],
-        changes=changes_at(world.hands.log, k),
+        changes=changes_at(world.operator.log, k),
     )
 
 
