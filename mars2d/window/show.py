@@ -10,7 +10,8 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.interrupt import interrupts
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.controllers import ByHand
-from mars2d.scenario.experiment import Experiment, examples
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.roles import MOST_PEOPLE
 from mars2d.window.display import Preferences
 from mars2d.window.source import Playback

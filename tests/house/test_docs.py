@@ -41,7 +41,9 @@ from mars2d.cli import command_line as cli
 from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
 from mars2d.geometry import shapes
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario import load_scenario
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.registry import FAMILIES, members
 from mars2d.study import work
 from mars2d.window import keys
@@ -142,7 +144,7 @@ class Reader:
     def toml(self, block: Block) -> None:
         if not self.saved(block):
             Path("shown.toml").write_text("format = 1\n" + block.text, encoding="utf-8")
-            mars2d.Scenario.from_file(Path("shown.toml").absolute())
+            load_scenario(Path("shown.toml").absolute())
 
     def python(self, block: Block, expected: str) -> None:
         if self.saved(block):
