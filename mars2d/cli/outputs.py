@@ -21,11 +21,11 @@ from mars2d.output.figures import figure
 from mars2d.output.films import film
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.world.loop import Interrupted
+from mars2d.world.record import Record
 
 OUTPUTS = {
-    "record": formats.SUFFIXES,
+    "record": tuple(formats.FORMATS),
     "figure": figure.SUFFIXES,
     "video": film.SUFFIXES,
     "html": (".html", ".htm"),

@@ -7,8 +7,7 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.layout import interface_scale
-from mars2d.scenario.courses import GAMES, courses, title_of
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import courses, examples_folder, games, title_of
 from mars2d.window.buttons import Buttons
 from mars2d.window.cards import Card, Page, Shelf
 from mars2d.window.display import PICTURES_A_SECOND, started_display
@@ -19,7 +18,7 @@ from mars2d.window.rest import Rest
 
 HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
-OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mat": "replay", ".mcap": "replay"}
+OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mcap": "replay"}
 """The command that opens a file, by its suffix."""
 HINT = "Type to search"
 
@@ -74,23 +73,19 @@ class Home:
     def _all_shelves(self) -> list[Shelf]:
         own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]
         new = Card("New drawing", "Draw a scenario with the mouse.", ("edit",), sign="+")
-        games = [
-            self._example_card(name, "play", *(("--role", role) if role else ()))
-            for name, role in GAMES.items()
-            if name in examples()
-        ]
+        play = [self._example_card(name, "play") for name in games()]
         of_courses = [
             Shelf(course, [self._example_card(name) for name in names])
             for course, names in courses().items()
         ]
-        return [Shelf("Your own", [new, *own]), Shelf("Play", games), *of_courses]
+        return [Shelf("Your own", [new, *own]), Shelf("Play", play), *of_courses]
 
-    def _example_card(self, name: str, verb: str = "demo", *more: str) -> Card:
-        return Card(*title_of(name), (verb, name, *more), self._thumbnail(name))
+    def _example_card(self, name: str, verb: str = "demo") -> Card:
+        return Card(*title_of(name), (verb, name), self._thumbnail(name))
 
     def _thumbnail(self, name: str) -> Path:
         looks = "dark" if self.painter.theme.dark else "light"
-        return examples()[name].parent / "thumbnails" / f"{name}_{looks}.png"
+        return examples_folder() / "thumbnails" / f"{name}_{looks}.png"
 
     # -- drawing --------------------------------------------------------------------------------
 

@@ -12,12 +12,12 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, Mars2dError, shown
 from mars2d.core.interrupt import interrupts
 from mars2d.core.streams import check_seed
-from mars2d.record.record import Record
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import robots_named
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import Interrupted, simulate
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from mars2d.core.deadline import Deadline, patience
 from mars2d.core.errors import InputError, Late, LawError
 from mars2d.core.interrupt import give_up, interrupts
 from mars2d.record.columns import Column, DiskError, Storage
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:

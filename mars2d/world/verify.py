@@ -17,10 +17,10 @@ from mars2d.core.errors import InputError, counted
 from mars2d.physics.settings import versions
 from mars2d.record.contact import CONTACT, rows_of
 from mars2d.record.interventions import Change, Intervention, Steer
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import MOVING
+from mars2d.world.record import Record
 from mars2d.world.world import World
 
 

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from mars2d.record.record import load
+from mars2d.scenario import save_scenario
 from mars2d.scenario.experiment import open_experiment
+from mars2d.world.record import load
 from tests.processes import PATIENCE, bare_environment
 from tests.window.person import ROOM
 
@@ -33,7 +34,7 @@ def mars(folder, *arguments, **environment):
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("gone")
     (folder / "room.py").write_text(ROOM)
-    open_experiment(folder / "room.py").scenario.save(folder / "drawn.toml")
+    save_scenario(open_experiment(folder / "room.py").scenario, folder / "drawn.toml")
     short = ["run", "room.py", "--headless", "--stop-time", "5", "--record", "past.npz"]
     process = mars(folder, *short)
     process.communicate(timeout=PATIENCE)

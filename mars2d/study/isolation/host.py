@@ -24,7 +24,7 @@ import numpy as np
 from mars2d.core.errors import Mars2dError
 from mars2d.core.hints import described
 from mars2d.core.usercode import stack_of, users_line
-from mars2d.scenario.experiment import law_in
+from mars2d.scenario.code_file import law_in
 from mars2d.study.isolation.limits import MB
 from mars2d.study.isolation.mirror_world import MirrorWorld
 from mars2d.study.isolation.observation import Briefing
