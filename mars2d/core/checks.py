@@ -200,11 +200,6 @@ def unique(name: str, keys: list[str]) -> None:
             raise InputError(f"{name}: two are called {key!r}; give one another name=...")
 
 
-def law(name: str, value: object, subject: str) -> object:
-    """Check a control law: a function of one argument, the `subject`."""
-    return function(name, value, subject)
-
-
 def function(name: str, value: object, *arguments: str) -> object:
     """Check a function of these arguments, which are described in words."""
     count = {1: "one argument", 2: "two arguments"}[len(arguments)]

@@ -174,7 +174,7 @@ class Laws:
         if control is None:
             self._central = None
         elif self.function is not control:
-            checks.law("control", control, "the world")
+            checks.function("control", control, "the world")
             self._central = Law(control, team_view, self._still)
         before = dict(self._own)
         self._own = []
