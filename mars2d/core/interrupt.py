@@ -12,8 +12,8 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
+from contextlib import suppress
 from math import inf
 from pathlib import Path
 from types import FrameType
@@ -127,23 +127,3 @@ def give_up(where: str) -> None:
         rescue(kept())
     finally:
         os._exit(code)
-
-
-@contextmanager
-def interrupts_blocked() -> Iterator[None]:
-    """Block SIGINT within the block, so that processes started in it never receive Ctrl-C.
-
-    A process inherits the blocked signals of the one that starts it. A Ctrl-C for this process is
-    delivered at the end of the block. Has no effect on Windows.
-    """
-    if sys.platform == "win32":
-        yield
-        return
-    from multiprocessing.resource_tracker import ensure_running
-
-    ensure_running()  # else it would be started here, and unblock the signal
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
