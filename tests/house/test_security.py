@@ -46,7 +46,6 @@ NETWORK = {
 
 ALLOWED = {
     ("scenario/experiment.py", "exec_module"): "an experiment is a program, which its user runs",
-    ("world/channel.py", "marshal.loads"): "a copy of what marshal.dumps has just made of JSON",
     ("addons/maps/svg.py", "xml"): "after a DOCTYPE, without which are no entities",
     ("study/workers.py", "pickle.loads"): "from and to our own worker processes",
     ("study/isolation/host.py", "pickle.loads"): "in a law's process, from the match",
