@@ -13,6 +13,7 @@ import pytest
 
 from mars2d.cli.command_line import main
 from mars2d.cli.verbs import VERBS
+from tests.cases import each_case
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "promises.md"
@@ -87,9 +88,7 @@ def collected(places: list[str]) -> dict[str, set[str]]:
     return {node: {*marks} for _, *marks, node in rows}
 
 
-@pytest.mark.parametrize(
-    "words", [pytest.param(words, id=shlex.join(words)) for words in commands("python")]
-)
+@each_case("words", list(commands("python")))
 def test_the_programs_named_are_there_and_take_these_options(words):
     path = words[1] if words[1] != "-m" else words[2].replace(".", "/") + "/__main__.py"
     text = (ROOT / path).read_text(encoding="utf-8")
@@ -97,9 +96,7 @@ def test_the_programs_named_are_there_and_take_these_options(words):
         assert f'"{option}"' in text, option
 
 
-@pytest.mark.parametrize(
-    "words", [pytest.param(words, id=shlex.join(words)) for words in commands("mars2d")]
-)
+@each_case("words", list(commands("mars2d")))
 def test_the_verbs_named_are_there_and_take_these_options(words, capsys):
     assert words[1] in VERBS
     with pytest.raises(SystemExit):

@@ -20,6 +20,7 @@ from mars2d import InputError, Robot, Scenario, World
 from mars2d.output.formats.header import as_text, of_record
 from mars2d.study.table import Result, Table
 from tests.browser import Tab
+from tests.cases import each_case
 from tests.output.formats.records import FORMATS, everything, refused
 from tests.output.formats.test_bombs import _npz
 
@@ -129,21 +130,36 @@ def test_nothing_in_the_code_runs_what_it_reads_or_uses_a_network_but_where_it_s
     assert found == {*ALLOWED, *TALKS}
 
 
-@pytest.mark.parametrize(
+@each_case(
     "line",
     [
-        "eval('1')", "exec('1')", "compile('1', '', 'exec')", "__import__('os')",
-        "import os\nos.system('true')", "from os import system", "from os import popen as p",
-        "import pickle\nf = cache(pickle.loads)", "from pickle import loads as l\nl(b'')",
-        "import numpy as np\nnp.load('x')", "import yaml as y\ny.load('a', y.Loader)",
-        "import subprocess\nsubprocess.run('ls', shell=True)", "f(shell=yes)",
-        "import numpy as np\nnp.savez(f, allow_pickle=True)", "import scipy.io as s\ns.loadmat(f)",
-        "from scipy.io import loadmat", "import tempfile\ntempfile.mktemp()", "import shelve",
-        "spec.loader.exec_module(module)", "from xml.dom import minidom", "get(u, verify=False)",
-        "import xml.sax", "import ssl", "from urllib.request import urlopen",
+        "eval('1')",
+        "exec('1')",
+        "compile('1', '', 'exec')",
+        "__import__('os')",
+        "import os\nos.system('true')",
+        "from os import system",
+        "from os import popen as p",
+        "import pickle\nf = cache(pickle.loads)",
+        "from pickle import loads as l\nl(b'')",
+        "import numpy as np\nnp.load('x')",
+        "import yaml as y\ny.load('a', y.Loader)",
+        "import subprocess\nsubprocess.run('ls', shell=True)",
+        "f(shell=yes)",
+        "import numpy as np\nnp.savez(f, allow_pickle=True)",
+        "import scipy.io as s\ns.loadmat(f)",
+        "from scipy.io import loadmat",
+        "import tempfile\ntempfile.mktemp()",
+        "import shelve",
+        "spec.loader.exec_module(module)",
+        "from xml.dom import minidom",
+        "get(u, verify=False)",
+        "import xml.sax",
+        "import ssl",
+        "from urllib.request import urlopen",
         "import marshal\nmarshal.loads(b'')",
     ],
-)  # fmt: skip
+)
 def test_what_is_looked_for_would_be_found(line) -> None:
     assert found_in(line)
 
@@ -181,7 +197,7 @@ def test_the_traps_spring(tmp_path) -> None:
     assert (tmp_path / "sprung").is_dir()
 
 
-@pytest.mark.parametrize("suffix", [*FORMATS, ".mcap"])
+@each_case("suffix", [*FORMATS, ".mcap"])
 def test_a_pickle_by_any_name_is_no_record(suffix, marker, tmp_path) -> None:
     for protocol in (0, 2, 5):
         (tmp_path / f"run{suffix}").write_bytes(pickle.dumps(Trap(marker), protocol))
@@ -201,7 +217,7 @@ def test_a_pickle_within_an_npz_is_not_read(marker, tmp_path) -> None:
 NAMES = ["os.system", "trap.Trap", "trap:Trap", "trap", "__import__('trap')", "builtins.eval"]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@each_case("name", NAMES)
 def test_a_record_names_no_code(name, marker, tmp_path) -> None:
     """Neither as the type of a part, nor as a function, nor as what another package ships."""
     text = as_text(of_record(everything()))
@@ -233,17 +249,23 @@ def _npy_of(text: str) -> bytes:
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head + data.tobytes()
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize(
+@each_case("name", NAMES)
+@each_case(
     "scene",
     [
-        'type = "NAME"\n[[robots]]', '[[robots]]\ntype = "NAME"', '[[robots]]\ndrive = "NAME"',
-        '[[robots]]\nsensors = ["NAME"]', '[[robots]]\nshape = { type = "NAME" }',
-        '[[robots]]\n[[addons]]\ntype = "NAME"', '[[robots]]\n[[props]]\ntype = "NAME"',
-        '[[robots]]\nname = { type = "NAME" }', 'neighbours = "NAME"\n[[robots]]',
-        'control = "NAME"\n[[robots]]', '[[robots]]\ncontroller = "NAME"',
+        'type = "NAME"\n[[robots]]',
+        '[[robots]]\ntype = "NAME"',
+        '[[robots]]\ndrive = "NAME"',
+        '[[robots]]\nsensors = ["NAME"]',
+        '[[robots]]\nshape = { type = "NAME" }',
+        '[[robots]]\n[[addons]]\ntype = "NAME"',
+        '[[robots]]\n[[props]]\ntype = "NAME"',
+        '[[robots]]\nname = { type = "NAME" }',
+        'neighbours = "NAME"\n[[robots]]',
+        'control = "NAME"\n[[robots]]',
+        '[[robots]]\ncontroller = "NAME"',
     ],
-)  # fmt: skip
+)
 def test_a_scenario_file_names_no_code_but_that_of_laws(scene, name, marker, tmp_path) -> None:
     (tmp_path / "scene.toml").write_text("format = 1\n" + scene.replace("NAME", name))
     with pytest.raises(InputError) as caught:
@@ -330,7 +352,7 @@ def test_reading_runs_nothing_imports_nothing_and_opens_nothing_else(tmp_path, c
 SCENE = "format = 1\n[[robots]]\n"
 
 
-@pytest.mark.parametrize(
+@each_case(
     "text",
     [
         SCENE + ".".join("a" * 100_000) + " = 1\n",
@@ -343,7 +365,6 @@ SCENE = "format = 1\n[[robots]]\n"
         SCENE + "mass = " + "9" * 1_000_000,
         SCENE + "mass = 0x" + "f" * 1_000_000,
     ],
-    ids=["key", "table", "quoted", "in line", "tables", "lists", "braces", "digits", "hex"],
 )
 def test_a_scenario_file_that_would_be_read_for_ever_is_refused(text, child, tmp_path) -> None:
     (tmp_path / "scene.toml").write_text(text)

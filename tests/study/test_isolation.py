@@ -26,6 +26,7 @@ from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
 from mars2d.study.isolation import Guard, Limits, Verdict, fork_server
 from mars2d.world.loop import simulate
 from mars2d.world.world import World
+from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
 from tests.worlds import untimed
 
@@ -173,7 +174,7 @@ MATCHES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("match", MATCHES)
+@each_case("match", MATCHES)
 def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path) -> None:
     make, roles, *texts = MATCHES[match]
     files = [law(tmp_path, text, f"law{k}.py") for k, text in enumerate(texts)]
@@ -225,8 +226,8 @@ def control(robot):
 # -- what a law may see --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("sees", "expression", "words"),
+@each_case(
+    "sees, expression, words",
     [
         ("positions", "robot.neighbours[0].pose", "sees positions only: a neighbour's pose"),
         ("positions", "robot.world", "sees itself and its neighbours' positions only"),
@@ -531,7 +532,7 @@ def undented(text: str) -> str:
     return "\n".join(line.removeprefix("        ") for line in lines) + "\n"
 
 
-@pytest.mark.parametrize("fault", NASTY)
+@each_case("fault", NASTY)
 def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_path) -> None:
     kind, words, text = NASTY[fault]
     limits = LIMITS
@@ -562,7 +563,7 @@ def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_p
 
 
 @needs_proc
-@pytest.mark.parametrize("attack", BEYOND)
+@each_case("attack", BEYOND)
 def test_what_isolation_does_not_stop_is_told(attack, tmp_path) -> None:
     happens, text = BEYOND[attack]
     law(tmp_path, GOOD, "good.py")
@@ -845,9 +846,9 @@ def test_where_there_is_no_fork_server_a_law_starts_by_itself(tmp_path, monkeypa
 def test_a_fork_server_that_was_killed_is_replaced(tmp_path) -> None:
     laws = {"a": (law(tmp_path, GOOD), [0])}
     played(pair(), laws)
-    for each in fork_server._servers.values():
-        each._process.kill()
-        each._process.wait()
+    for server in fork_server._servers.values():
+        server._process.kill()
+        server._process.wait()
     record, _, error = played(pair(), laws)
     assert error is None
     assert record.finished
@@ -899,7 +900,7 @@ class Seen(NamedTuple):
     bearing: float
 
 
-@pytest.mark.parametrize("what", [Seen(1.0), {"left": [Seen(1.0)]}, lambda: 1])
+@each_case("what", [Seen(1.0), {"left": [Seen(1.0)]}, lambda: 1])
 def test_a_reading_that_no_other_process_knows_is_no_fault_of_the_law(what, tmp_path) -> None:
     scenario = pair(sensors=[Eyes(what=what, recorded=False)])
     _, guard, error = played(scenario, {"a": (law(tmp_path, GOOD), [0])})
