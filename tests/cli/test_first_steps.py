@@ -7,7 +7,8 @@ import pytest
 
 import mars2d
 from mars2d.cli import command_line as cli
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import contest_of
 from tests.cases import each_case
 

@@ -7,7 +7,8 @@ import numpy as np
 from mars2d import Car, Holonomic, Robot, Scenario, Unicycle
 from mars2d.cli.command_line import main
 from mars2d.cli.remarks import Bounds, before
-from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
 from tests.cases import each_case
 

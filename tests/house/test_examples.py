@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
 from tests.cases import each_case
 from tests.house.make_golden import SETTINGS, Golden
 

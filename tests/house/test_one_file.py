@@ -17,6 +17,7 @@ from mars2d.bodies import Joint, Prop
 from mars2d.bodies.constraints import Constraint, MaxDistance, Pin, SpringDamper
 from mars2d.core.description import number
 from mars2d.geometry import Disc
+from mars2d.scenario import save_scenario
 from mars2d.sensors import DISTANCE
 from tests.cases import each_case
 
@@ -113,7 +114,7 @@ def test_the_command_line_lists_what_the_recipes_add(child, extended):
 RUN = """
 import json, sys
 import mars2d
-from mars2d import Robot, Scenario, World
+from mars2d import Robot, Scenario, World, load_scenario, save_scenario
 from mars2d.addons import Fence
 from mars2d.bodies import Brick, Bungee, Crab
 from mars2d.sensors import Compass
@@ -126,8 +127,8 @@ scenario = Scenario(
     addons=[Fence(length=2.0)], stop_time=3.0,
 )
 record = mars2d.run(scenario, control=lambda world: (0.3, 0.2))
-assert scenario.save("room.toml") == ()
-again = Scenario.from_file("room.toml")
+assert save_scenario(scenario, "room.toml") == ()
+again = load_scenario("room.toml")
 assert again == scenario, again
 assert mars2d.run(again, control=lambda world: (0.3, 0.2)).digest == record.digest
 for ending in sys.argv[2:]:
@@ -227,7 +228,7 @@ def test_a_record_says_which_parts_of_ones_own_it_could_not_keep(towed, ending, 
     assert loaded.digest == towed.digest
     lost = {"drive Sideways", "sensor Echo", "joint Cord", "prop Coin"}
     assert set(loaded.missing) == lost
-    assert set(towing().save(tmp_path / "scenario.toml")) == lost
+    assert set(save_scenario(towing(), tmp_path / "scenario.toml")) == lost
 
 
 def test_parts_of_ones_own_are_drawn_and_replayed(towed, tmp_path):

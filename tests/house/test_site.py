@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
 from tests.cases import each_case
 from tests.processes import served
 

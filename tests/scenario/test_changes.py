@@ -9,6 +9,7 @@ from mars2d.bodies.joints import Rope, Spring
 from mars2d.bodies.props import Box, Puck
 from mars2d.sensors import Proximity
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 RED, BLUE = Robot(name="red"), Robot(name="blue", pose=(2, 0, 0))
 BLOCK = Map([[(1.0, 1.0), (1.5, 1.0), (1.5, 1.5)]], name="block")
@@ -27,7 +28,7 @@ def robots(**changes):
 # -- what needs a new start --------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("changes", "words"),
     [
         ({"sampling_time": 0.2}, "Scenario.sampling_time is another one"),

@@ -16,7 +16,7 @@ from mars2d.study.isolation import Verdict
 from mars2d.study.tournament import page as pages
 from mars2d.study.tournament.league import Tournament, league
 from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.page import league_page
+from mars2d.study.tournament.page import league_page, save_html
 from mars2d.study.tournament.page.tables import COLOR_STEPS, shades
 from mars2d.study.tournament.page.words import DASH
 from tests.browser import Tab
@@ -79,7 +79,7 @@ def tournament(records):
 
 @pytest.fixture(scope="module")
 def path(tournament, tmp_path_factory):
-    return tournament.save_html(tmp_path_factory.mktemp("league") / "league.html")
+    return save_html(tournament, tmp_path_factory.mktemp("league") / "league.html")
 
 
 @pytest.fixture
@@ -239,7 +239,7 @@ def test_who_plays_all_roles_stands_in_one_table_and_the_matrix_adds_both_ways_u
     )
     every = (*matches, broken)
     cup = Tournament("Cup", "x", ROLES, every, tuple(league(every, ROLES)))
-    tab = open_tab(cup.save_html(tmp_path / "cup.html"))
+    tab = open_tab(save_html(cup, tmp_path / "cup.html"))
     assert tab.text("table.league caption") == "All laws"
     cells = [row.split() for row in tab.page.locator("table.matrix tbody tr").all_inner_texts()]
     assert cells == [["a", DASH, "62"], ["b", "38", DASH]]
@@ -404,7 +404,7 @@ def test_replays_that_are_too_many_are_left_out_from_the_end_and_it_says_so(
     sizes = [len(each.replay) for each in tournament.matches]
     monkeypatch.setattr(pages, "MAX_REPLAYS_SIZE", sum(sizes[:15]))
     left = sum(size > 0 for size in sizes[15:])
-    tab = open_tab(tournament.save_html(tmp_path / "few.html"))
+    tab = open_tab(save_html(tournament, tmp_path / "few.html"))
     assert f"{left} are left out, from match 16 on" in tab.text("#facts")
     tab.page.locator('tr[data-match="16"] .watch').click()
     tab.page.get_by_text("This replay is left out").wait_for()

@@ -11,7 +11,8 @@ from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.addons import Communication
 from mars2d.addons.base import Addon
 from mars2d.core.errors import InputError
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.world.loop import open_world
 from tests.cases import each_case

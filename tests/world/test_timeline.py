@@ -11,7 +11,8 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.cli import outputs
 from mars2d.core.errors import InputError
-from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
 from mars2d.world.past import PARKED
 from mars2d.world.simulation import Simulation

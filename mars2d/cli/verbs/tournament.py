@@ -20,13 +20,13 @@ from mars2d.scenario.roles import contest_of
 from mars2d.study.isolation.limits import Limits
 from mars2d.study.plan import Plan, parse_all, settings_of
 from mars2d.study.tournament.folder import played_before
-from mars2d.study.tournament.league import PAGE, Tournament
+from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.league_text import league_text, matches
 from mars2d.study.tournament.match import Match, Played, replayed
 from mars2d.study.tournament.page.rules import rules_page
 from mars2d.study.tournament.rules import Rules
 from mars2d.study.tournament.schedule import Schedule, schedule
-from mars2d.study.tournament.tournament import LIMITS, TournamentInterrupted, play_schedule
+from mars2d.study.tournament.tournament import LIMITS, PAGE, TournamentInterrupted, play_schedule
 from mars2d.study.work import worker_count
 from mars2d.world.record import Record
 

@@ -7,14 +7,12 @@ from collections.abc import Mapping
 from contextlib import suppress
 from hashlib import sha256
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
-from mars2d.output.formats.guard import check_size
 from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
@@ -42,9 +40,6 @@ MEANING = {
     "columns": "the shapes of its columns", "exact": "its columns", "messages": "its messages",
 }  # fmt: skip
 """The values of a header in words."""
-
-OBJECTS = 16
-"""How many bytes of memory one byte of JSON may take when it is read."""
 
 NOT_KEPT = np.empty(0)
 """In place of a column that files of the former version do not have."""
@@ -103,12 +98,11 @@ def as_text(header: Mapping[str, Any]) -> str:
     return json.dumps({**header, SUMS: _sums(header)})
 
 
-def of_text(path: Path, text: str | bytes, largest: int) -> dict[str, Any]:
-    """Return the header in a file's JSON; InputError where it is too large, or of another version.
+def of_text(text: str | bytes) -> dict[str, Any]:
+    """Return the header in a file's JSON; InputError where it is of another version, or changed.
 
     Raises various exceptions where it is no header at all.
     """
-    check_size(path, OBJECTS * len(text), largest)
     header: dict[str, Any] = json.loads(text)
     check_format(header)
     check_sums(header, header["format"])

@@ -10,7 +10,6 @@ import io
 from base64 import b64decode, b64encode
 from collections.abc import Iterator, Mapping
 from itertools import chain, islice, repeat
-from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -73,28 +72,13 @@ def read(path: Path, largest: int) -> Rows:
         check_size(path, size, largest)
         csv.field_size_limit(max(csv.field_size_limit(), size))  # no cell is longer than the file
         text = "".join(_pieces(csv.reader(file, strict=True)))
-        header = headers.of_text(path, text, largest)
-        check_size(path, 8 * _claimed(header, size), largest)
+        header = headers.of_text(text)
         file.seek(0)
         values, names = _values(header, csv.reader(file, strict=True))
         record = headers.restored(header, values)
         if names not in (None, [str(body.name) for body in record.scenario.bodies]):
             raise InputError(MIXED)
         return record
-
-
-def _claimed(header: Mapping[str, Any], size: int) -> int:
-    """Return how many values a table claims to hold. Raises ValueError if its file is too small.
-
-    Each value takes at least a byte, and each column at least a byte of the first line.
-    """
-    kept = [header["columns"][name] for name in headers.names_of_bodies(header)]
-    values: int = sum(prod(shape) for _, shape in kept)
-    wide = sum(prod(shape[2:]) for _, shape in kept)
-    known = all(kind in headers.KINDS and min(shape) >= 0 for kind, shape in kept)
-    if not known or max(values, wide) > size:
-        raise ValueError("columns")
-    return values
 
 
 def _pieces(table: Iterator[list[str]]) -> Iterator[str]:

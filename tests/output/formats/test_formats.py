@@ -223,8 +223,7 @@ def test_what_cannot_have_been_done_to_a_run_is_refused(number, change, tmp_path
 
 @pytest.mark.parametrize(
     "column",
-    [["<f8", [10**12, 3, 3]], ["<f8", [-1, 3, 3]], ["<f8", [3, 3]], ["S999999999", [21, 3, 3]],
-     ["|O", [21, 3, 3]], ["<f8", "x"], ["<f8", [0, 3, 10**12]], 5, None],
+    [["<f8", [-1, 3, 3]], ["<f8", [3, 3]], ["|O", [21, 3, 3]], ["<f8", "x"], 5, None],
 )  # fmt: skip
 def test_a_header_that_lies_about_a_column_is_refused(column, tmp_path):
     path = everything().save(tmp_path / "run.csv")
@@ -444,3 +443,11 @@ def test_exports_are_written_for_others_and_not_read_back(tmp_path):
     for name in ("run.mat", "run.nc"):
         with pytest.raises(InputError, match=rf"{name}: an export for other programs; expected a"):
             mars2d.load(everything().save(tmp_path / name))
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_a_file_larger_than_asked_for_is_refused_and_told_how_to_read(suffix, tmp_path):
+    path = everything().save(tmp_path / f"run{suffix}")
+    text = refused(path, "holds, or claims to hold, .* more than the 200 bytes", largest=200)
+    enough = float(text.split("largest=")[1].rstrip(")"))
+    assert 200 < enough < 100 * path.stat().st_size

@@ -14,12 +14,11 @@ import numpy as np
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import REPLACED_OPEN, growing
-from mars2d.core.interrupt import noted_interrupts, unbroken
+from mars2d.core.interrupt import interrupts, unbroken
 from mars2d.core.scene import Scene
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mcap.foxglove import nanoseconds
 from mars2d.output.formats.mcap.row import Row, changes_at, cut
-from mars2d.output.formats.mcap.scanning import MESSAGE as OPCODE
 from mars2d.output.formats.mcap.writing import Tape, pack, require
 from mars2d.record.columns import DiskError, Scratch
 from mars2d.record.contact import CONTACT
@@ -28,6 +27,9 @@ from mars2d.record.message import MESSAGE
 from mars2d.record.recorder import Recorder
 from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
+
+OPCODE = 5
+"""The kind of an operation that is a message."""
 
 HEAD = struct.Struct("<BQHIQQ")
 """How the operation of a message begins: its kind and length, channel, sequence, two times."""
@@ -226,7 +228,7 @@ class Log:
             self._file.close()
 
     def __enter__(self) -> Log:
-        self._interrupts = noted_interrupts()
+        self._interrupts = interrupts()
         self._interrupts.__enter__()
         return self
 
@@ -239,7 +241,7 @@ class Log:
         try:
             self.close()
         finally:
-            self._interrupts.__exit__()
+            self._interrupts.__exit__(None)
 
 
 class _File:

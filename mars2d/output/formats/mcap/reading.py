@@ -13,18 +13,9 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.guard import reading
+from mars2d.output.formats.guard import check_size, reading
 from mars2d.output.formats.mcap.row import Row, decoded
-from mars2d.output.formats.mcap.scanning import (
-    CHANNEL,
-    MAGIC,
-    MESSAGE,
-    MESSAGE_HEAD,
-    METADATA,
-    Torn,
-    parsed,
-    scan,
-)
+from mars2d.output.formats.mcap.scanning import MAGIC, Torn, scan
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
@@ -49,21 +40,23 @@ def read(path: Path, largest: int) -> Rows:
     """
     require(path)
     with reading(path), path.open("rb") as file:
-        rows, count = _Rows(), 0
+        from mcap.records import Channel, Message, Metadata
+
+        rows, count, size = _Rows(), 0, 0
         header: Any = None
         end: Any = None
         channels: set[int] = set()
         try:
-            for operation in scan(path, file, largest, channels):
-                kind, data = operation
-                if kind == MESSAGE:
-                    rows.add(decoded(data[MESSAGE_HEAD.size :]))
-                elif kind == CHANNEL:
-                    channel = parsed(operation)
-                    if channel.topic == TOPIC:
-                        channels.add(channel.id)
-                elif kind == METADATA:
-                    told = parsed(operation)
+            for told in scan(path, file):
+                if isinstance(told, Message):
+                    if told.channel_id in channels:
+                        size += len(told.data)
+                        check_size(path, size, largest)
+                        rows.add(decoded(told.data))
+                elif isinstance(told, Channel):
+                    if told.topic == TOPIC:
+                        channels.add(told.id)
+                elif isinstance(told, Metadata):
                     if told.name == BEGIN:
                         header = json.loads(told.metadata["header"])
                         headers.check_format(header)

@@ -13,18 +13,9 @@ from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.guard import MAX_LIMIT
 from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
 from mars2d.output.formats.mcap.row import Row, cut, encoded, schema
-from mars2d.output.formats.mcap.scanning import (
-    CHANNEL,
-    MESSAGE,
-    MESSAGE_HEAD,
-    METADATA,
-    SCHEMA,
-    parsed,
-    scan,
-)
+from mars2d.output.formats.mcap.scanning import scan
 from mars2d.record.columns import DiskError
 from mars2d.record.message import as_of
 from mars2d.record.rows import Rows
@@ -154,6 +145,8 @@ def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int], held: Bina
     rows that they replaced are left out. held: see `atomic_write`. Raises DiskError, and leaves the
     file as it is.
     """
+    from mcap.records import Channel, Message, Metadata, Schema
+
     # Each world's rows count up to the first row at which a later world began.
     ends = [*accumulate([NEVER, *begun[:0:-1]], min)][::-1]
     world = -1
@@ -161,20 +154,16 @@ def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int], held: Bina
         with path.open("rb") as source, atomic_write(path, held) as file:
             writer = _writer(file)
             writer.start(profile="", library="mars2d")
-            for operation in scan(path, source, MAX_LIMIT):
-                kind, data = operation
-                if kind == MESSAGE:
-                    channel, row, time, _ = MESSAGE_HEAD.unpack_from(data)
+            for told in scan(path, source):
+                if isinstance(told, Message):
+                    row, time = told.sequence, told.log_time
                     if row < ends[world]:
-                        writer.add_message(channel, time, data[MESSAGE_HEAD.size :], time, row)
-                elif kind == SCHEMA:
-                    told = parsed(operation)
+                        writer.add_message(told.channel_id, time, told.data, time, row)
+                elif isinstance(told, Schema):
                     writer.register_schema(told.name, told.encoding, told.data)
-                elif kind == CHANNEL:
-                    told = parsed(operation)
+                elif isinstance(told, Channel):
                     writer.register_channel(told.topic, told.message_encoding, told.schema_id)
-                elif kind == METADATA:
-                    told = parsed(operation)
+                elif isinstance(told, Metadata):
                     world += told.name == BEGIN
                     if told.name != BEGIN:
                         writer.add_metadata(told.name, told.metadata)
