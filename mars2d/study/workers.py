@@ -23,7 +23,6 @@ from typing import Any, NamedTuple, TypeVar
 
 from mars2d.core.errors import InputError, shown
 from mars2d.core.hints import described
-from mars2d.core.interrupt import interrupts_blocked
 from mars2d.study import ONE_THREAD
 
 T = TypeVar("T")
@@ -204,7 +203,7 @@ class _Worker:
         self.connection, theirs = SPAWN.Pipe()
         self.process = SPAWN.Process(target=_serve, args=(theirs,))
         try:
-            with interrupts_blocked(), _one_thread():
+            with _deaf(), _one_thread():
                 self.process.start()
         finally:
             theirs.close()
@@ -347,6 +346,19 @@ class _Crew:
                 )
         self._workers[place] = _Worker()
         return how
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Start processes that ignore Ctrl-C from their first moment: they inherit that."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager
