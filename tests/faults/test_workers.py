@@ -7,7 +7,6 @@ import sys
 import pytest
 
 import mars2d
-from tests.processes import running, wait_until
 
 pytestmark = [
     pytest.mark.slow,
@@ -44,47 +43,13 @@ def scenario(pursuer="one.py", evader="two.py"):
 """
 
 
-FAMILY = """
-import multiprocessing, os, signal, subprocess
-from mars2d import Scenario
-
-scenario = Scenario(stop_time=1)
-
-def note(pid):
-    open(f"{pid}.pid", "w").close()
-
-def control(world):
-    if world.iteration == 3:
-        note(subprocess.Popen(["sleep", "100000"]).pid)
-        child = multiprocessing.get_context("fork").Process(target=signal.pause)
-        child.start()
-        note(child.pid)
-    if world.iteration == 6 and world.seed == 1:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return 0, 0
-"""
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
-def test_processes_that_a_law_has_started_end_with_the_sweep(tmp_path, monkeypatch) -> None:
-    (tmp_path / "study.py").write_text(FAMILY)
-    monkeypatch.chdir(tmp_path)
-    table = mars2d.sweep("study.py", seeds=3, workers=2)
-    errors = [result.error for result in table.results]
-    assert [bool(error) for error in errors] == [False, True, False]
-    assert "was killed by SIGKILL" in errors[1]
-    pids = [int(each.stem) for each in tmp_path.glob("*.pid")]
-    assert len(pids) == 8  # what killed its process was tried twice
-    wait_until(lambda: not any(map(running, pids)))
-
-
 def test_a_worker_that_dies_costs_a_study_one_row(tmp_path, monkeypatch) -> None:
     (tmp_path / "study.py").write_text(STUDY)
     monkeypatch.chdir(tmp_path)
     table = mars2d.sweep("study.py", seeds=4, measures="end", workers=2, out="rows.csv")
     errors = [result.error for result in table.results]
     assert [bool(error) for error in errors] == [False, False, True, False]
-    assert "was killed by SIGKILL" in errors[2]
+    assert "the process that ran it ended" in errors[2]
     assert [result.measures.get("end") for result in table.results] == [2.0, 2.0, None, 2.0]
 
 
@@ -97,5 +62,5 @@ def test_a_worker_that_dies_costs_a_tournament_one_match(tmp_path, monkeypatch) 
         "game.py", {"pursuer": "one.py", "evader": "two.py"}, seeds=3, workers=2, out="league"
     )
     assert [bool(played.error) for played in result.matches] == [False, True, False]
-    assert "was killed by SIGKILL" in result.matches[1].error
+    assert "the process that ran it ended" in result.matches[1].error
     assert not any(played.verdicts for played in result.matches)
