@@ -21,7 +21,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from mars2d.core.errors import InputError, passes, shown
+from mars2d.core.errors import InputError, shown
 from mars2d.core.hints import described
 from mars2d.core.interrupt import interrupts_blocked
 from mars2d.study import ONE_THREAD
@@ -57,9 +57,7 @@ def attempt(function: Callable[[T], R], task: T) -> R | Failure:
     """Return the function's result for a task, or a Failure if it raises."""
     try:
         return function(task)
-    except BaseException as error:
-        if passes(error):
-            raise
+    except (Exception, SystemExit) as error:
         return Failure(reason(error))
 
 

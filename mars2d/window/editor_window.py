@@ -6,7 +6,7 @@ import pygame
 
 from mars2d.core.errors import Mars2dError
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.display import PICTURES_A_SECOND, show_drawn, started_display
+from mars2d.window.display import PICTURES_A_SECOND, started_display
 from mars2d.window.editor.editor import Editor
 from mars2d.window.show import show_experiment
 
@@ -37,7 +37,7 @@ class EditorWindow:
             surface = pygame.display.get_surface()
             assert surface is not None
             self.draw(surface)
-            show_drawn()
+            pygame.display.flip()
             clock.tick(PICTURES_A_SECOND)
             for event in (pygame.event.wait(IDLE_WAIT), *pygame.event.get()):
                 if event.type == pygame.QUIT:

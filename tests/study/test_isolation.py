@@ -24,6 +24,7 @@ from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
 from mars2d.study.isolation import Guard, Limits, Verdict, fork_server
 from mars2d.world.loop import simulate
 from mars2d.world.world import World
+from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
 from tests.worlds import untimed
 
@@ -171,7 +172,7 @@ MATCHES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("match", MATCHES)
+@each_case("match", MATCHES)
 def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path) -> None:
     make, roles, *texts = MATCHES[match]
     files = [law(tmp_path, text, f"law{k}.py") for k, text in enumerate(texts)]
@@ -223,8 +224,8 @@ def control(robot):
 # -- what a law may see --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("sees", "expression", "words"),
+@each_case(
+    "sees, expression, words",
     [
         ("positions", "robot.neighbours[0].pose", "sees positions only: a neighbour's pose"),
         ("positions", "robot.world", "sees itself and its neighbours' positions only"),
@@ -340,7 +341,7 @@ def undented(text: str) -> str:
     return "\n".join(line.removeprefix("        ") for line in lines) + "\n"
 
 
-@pytest.mark.parametrize("fault", MISTAKES)
+@each_case("fault", MISTAKES)
 def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_path) -> None:
     kind, words, text = MISTAKES[fault]
     limits = LIMITS
@@ -621,7 +622,7 @@ class Seen(NamedTuple):
     bearing: float
 
 
-@pytest.mark.parametrize("what", [Seen(1.0), {"left": [Seen(1.0)]}, lambda: 1])
+@each_case("what", [Seen(1.0), {"left": [Seen(1.0)]}, lambda: 1])
 def test_a_reading_that_no_other_process_knows_is_no_fault_of_the_law(what, tmp_path) -> None:
     scenario = pair(sensors=[Eyes(what=what, recorded=False)])
     _, guard, error = played(scenario, {"a": (law(tmp_path, GOOD), [0])})

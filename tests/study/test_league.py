@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-import pytest
-
 from mars2d.study.isolation import Verdict
 from mars2d.study.tournament.league import Tournament, head_to_head, league
 from mars2d.study.tournament.league_text import league_text
 from mars2d.study.tournament.match import Match, Played
 from mars2d.study.tournament.page import save_html
+from tests.cases import each_case
 
 ROLES = ("pursuer", "evader")
 
@@ -182,8 +181,8 @@ def test_matches_without_a_result_are_told_with_their_error():
     assert "1  a             0             -       0" in text
 
 
-@pytest.mark.parametrize(
-    ("digests", "said"),
+@each_case(
+    "digests, said",
     [
         ("aabb", "The 2 seeds gave the same match in each pairing: nothing in it is random."),
         ("aabc", "The 2 seeds gave the same match, since nothing in it is random: a against x."),

@@ -20,6 +20,7 @@ from mars2d.study.tournament.page import league_page, save_html
 from mars2d.study.tournament.page.tables import COLOR_STEPS, shades
 from mars2d.study.tournament.page.words import DASH
 from tests.browser import Tab
+from tests.cases import each_case
 
 EVIL = "</script><script>alert(1)</script>'\"&amp;<img src=x onerror=alert(1)>\u2028{{title}}"
 HUNTERS, RUNNERS = ("lead", "straight", f"hunt {EVIL}"), ("zigzag", f"run {EVIL}")
@@ -312,7 +313,7 @@ def test_a_cell_of_the_matrix_has_the_share_and_picks_its_matches(tab):
     assert tab.page.locator("#law").input_value() == last.get_attribute("data-law")
 
 
-@pytest.mark.parametrize("theme", [LIGHT, DARK])
+@each_case("theme", [LIGHT, DARK])
 def test_shares_can_be_read_on_their_colours(theme):
     root = ":root.dark" if theme.dark else ":root"
     colors = re.findall(rf"^{root} \.s\d+ {{ background: (#\w+)", shades(), flags=re.M)
@@ -438,7 +439,7 @@ def test_names_messages_and_output_are_text(tab, tournament):
     assert frame.locator("script").count() == 2
 
 
-@pytest.mark.parametrize("size", [(1920, 1080), (360, 640)])
+@each_case("size", [(1920, 1080), (360, 640)])
 def test_it_fits_screens_of_all_sizes(open_tab, path, size):
     tab = open_tab(path, size)
     assert tab.page.evaluate("document.documentElement.scrollWidth") <= size[0]

@@ -10,7 +10,8 @@ from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
 from mars2d.core.terminal import warn
 from mars2d.output.raster import require_pygame
-from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.options import parse_setting
 from mars2d.scenario.scenario import Scenario
 

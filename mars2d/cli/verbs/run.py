@@ -46,10 +46,10 @@ from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.prediction import Prediction
 from mars2d.world.loop import Interrupted
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher
 
 FOXGLOVE = 8765

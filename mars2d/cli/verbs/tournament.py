@@ -15,7 +15,6 @@ from mars2d.core.scene import color_word
 from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import contest_of
 from mars2d.study.isolation.limits import Limits
@@ -29,6 +28,7 @@ from mars2d.study.tournament.rules import Rules
 from mars2d.study.tournament.schedule import Schedule, schedule
 from mars2d.study.tournament.tournament import LIMITS, PAGE, TournamentInterrupted, play_schedule
 from mars2d.study.work import worker_count
+from mars2d.world.record import Record
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mars2d.core.errors import InputError, Mars2dError, likely, one_line, shown
 from mars2d.output.formats.guard import check_limit, reading
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
@@ -68,7 +68,7 @@ MAX_STEM = 50
 """How many letters of a name are kept in the new name of a record that is kept elsewhere."""
 
 
-def save(record: Record, path: str | Path) -> Path:
+def save(record: Rows, path: str | Path) -> Path:
     """Write a record in the format that the path's ending names; see `Record.save`."""
     target = _path(path)
     try:
@@ -82,7 +82,7 @@ def save(record: Record, path: str | Path) -> Path:
     return target
 
 
-def load(path: str | Path, largest: float) -> Record:
+def load(path: str | Path, largest: float) -> Rows:
     """Read a record in the format that the path's ending names; see `mars2d.load`."""
     source = _path(path)
     limit = check_limit(largest)
@@ -99,7 +99,7 @@ def load(path: str | Path, largest: float) -> Record:
         raise InputError(
             f"{source}: an export for other programs; expected a record: {' or '.join(SUFFIXES)}"
         )
-    record: Record = module.read(source, limit)
+    record: Rows = module.read(source, limit)
     return record
 
 
@@ -145,7 +145,7 @@ def _module(path: Path) -> Any:
 # -- records that can't be saved where they should be -----------------------------------------
 
 
-def save_or_rescue(record: Record, path: Path) -> None:
+def save_or_rescue(record: Rows, path: Path) -> None:
     """Save a record; where that fails, keep it elsewhere.
 
     Raises InputError, which says why it failed and where the record is now. The error's `record` is
@@ -161,16 +161,16 @@ def save_or_rescue(record: Record, path: Path) -> None:
         raise failure from error
 
 
-def save_branches(record: Record, beside: Path) -> list[Path]:
+def save_branches(record: Rows, beside: Path) -> list[Path]:
     """Save the branches of a record beside it, under free names; return these."""
     saved = []
     for branch in record.branches:
         names = (beside.with_stem(f"{beside.stem}_branch{k}") for k in count(1))
-        saved.append(branch.save(next(name for name in names if not name.exists())))
+        saved.append(save(branch, next(name for name in names if not name.exists())))
     return saved
 
 
-def rescued(record: Record, path: Path) -> Path | None:
+def rescued(record: Rows, path: Path) -> Path | None:
     """Save a record under a new name where there is room, and return that name; None if nowhere.
 
     path: where it should have been saved. The new file is an .npz, which can hold every record.

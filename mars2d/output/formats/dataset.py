@@ -22,7 +22,7 @@ from mars2d.output.formats.columns import (
 )
 from mars2d.record.energy import WORK
 from mars2d.record.message import STATUS
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -54,7 +54,7 @@ DIMENSIONS = {
 }
 
 
-def to_xarray(record: Record) -> Dataset:
+def to_xarray(record: Rows) -> Dataset:
     """Return all columns of a record as a dataset, with units as attributes.
 
     ``pose``: time, axis (x, y, theta), robot. ``command``: time, input, robot. ``prop_pose``: time,
@@ -68,7 +68,7 @@ def to_xarray(record: Record) -> Dataset:
     return named_dataset(record, {name: name for name in record.sensors})
 
 
-def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
+def named_dataset(record: Rows, sensors: Mapping[str, str]) -> Dataset:
     """Return the dataset of `to_xarray`, with other names for sensors."""
     with extra("data", "datasets need xarray"):
         import xarray as xr
@@ -112,7 +112,7 @@ def require(path: Path) -> None:
         import xarray  # noqa: F401
 
 
-def write(record: Record, path: Path) -> None:
+def write(record: Rows, path: Path) -> None:
     """Write the dataset as netCDF 3, which ncdump, R, Matlab and Panoply open.
 
     Names of sensors become ASCII. Variables without values are left out: a length of 0 means in
@@ -132,7 +132,7 @@ def variable_of(column: str, sensors: Mapping[str, str]) -> str:
     return f"sensor_{sensors[name]}" if family == "sensor" else column.replace(":", "_")
 
 
-def _dimensions(record: Record, column: str, sensors: Mapping[str, str]) -> tuple[str, ...]:
+def _dimensions(record: Rows, column: str, sensors: Mapping[str, str]) -> tuple[str, ...]:
     if column in DIMENSIONS:
         return DIMENSIONS[column]
     family, _, name = column.partition(":")
@@ -144,7 +144,7 @@ def _dimensions(record: Record, column: str, sensors: Mapping[str, str]) -> tupl
     return ("time", "robot" if all_carry else f"{called}_robot", *others)
 
 
-def _attributes(record: Record, column: str) -> dict[str, str]:
+def _attributes(record: Rows, column: str) -> dict[str, str]:
     family, _, name = column.partition(":")
     unit = COLUMN_UNITS.get(column)
     if column in ("pose", "prop_pose"):

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import plain_names
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 NAME = "out_data"
 
@@ -29,7 +29,7 @@ INDICES = {"contact:a", "contact:b", "message:sender", "message:receiver", "mess
 """Columns of indices from 0 on. Obstacles, whose indices are negative, count from -1 anyway."""
 
 
-def write(record: Record, path: Path) -> None:
+def write(record: Rows, path: Path) -> None:
     """Write a record to a file. Raises InputError where it can't be written."""
     from scipy.io import savemat
 
@@ -56,7 +56,7 @@ def _for_matlab(name: str, column: NDArray[Any]) -> NDArray[Any]:
     return values + (values >= 0) if name in INDICES else values
 
 
-def _looks(record: Record) -> dict[str, Any]:
+def _looks(record: Rows) -> dict[str, Any]:
     """Return the fields of Table 1 of the paper except the history, and the names of all bodies."""
     scenario, robots = record.scenario, record.scenario.robots
     drives = [robot.drive for robot in robots]
@@ -103,7 +103,7 @@ def _looks(record: Record) -> dict[str, Any]:
     }
 
 
-def _carriers(record: Record) -> dict[str, Any]:
+def _carriers(record: Rows) -> dict[str, Any]:
     """Return for each sensor the robots that carry it, counted from 1."""
     fields = plain_names(record.sensors)
     return {fields[name]: np.array(record.sensor_robots[name]) + 1.0 for name in fields}

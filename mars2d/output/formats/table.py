@@ -21,7 +21,7 @@ from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import KEYS, LAST, Part, parts_of
 from mars2d.output.formats.guard import check_size, reading
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 PIECE_LENGTH = 30_000
 """The characters of JSON in a cell; a cell of a spreadsheet holds 32 767."""
@@ -38,7 +38,7 @@ NAN = np.array(np.nan).view(np.uint64) << np.uint64(1)
 Columns = Mapping[str, NDArray[Any]]
 
 
-def write(record: Record, path: Path) -> None:
+def write(record: Rows, path: Path) -> None:
     """Write a record to a file. Raises InputError where it can't be written."""
     columns, header = headers.numbers_of(record), headers.with_shapes(record)
     parts = _parts(header)
@@ -65,7 +65,7 @@ def write(record: Record, path: Path) -> None:
         table.writerows([*repeat("", len(KEYS) + len(parts)), piece] for piece in pieces)
 
 
-def read(path: Path, largest: int) -> Record:
+def read(path: Path, largest: int) -> Rows:
     """Read the record in a file; InputError where there is none, or it is larger than allowed."""
     with reading(path), path.open(encoding="utf-8-sig", newline="") as file:
         size = path.stat().st_size

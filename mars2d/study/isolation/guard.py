@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from math import ceil
 from pathlib import Path
-from typing import Self, cast
+from typing import Self
 
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.streams import check_seed
@@ -112,7 +112,7 @@ class Guard:
 
     def _asking(self, robot: int) -> Callable[[RobotView], tuple[float, float]]:
         def control(view: RobotView) -> tuple[float, float]:
-            world = cast("Simulation", view._world)
+            world = view._world
             if world.iteration != self._iteration or world is not self._world:
                 self._ask_all(world)
             process = self._processes[self._drivers[robot]]

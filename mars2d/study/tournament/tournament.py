@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mars2d.core.interrupt import noted_interrupts
+from mars2d.core.interrupt import interrupts
 from mars2d.study.code import WatchedFiles
 from mars2d.study.isolation.limits import Limits
 from mars2d.study.run import CountingBar
@@ -112,7 +112,7 @@ def play_schedule(
         interrupted = False
         bar = CountingBar(len(missing)) if show_progress else None
         try:
-            with noted_interrupts() as check:
+            with interrupts() as check:
                 for played in play_all(missing, limits, replays, executor, workers):
                     done.append(played)
                     if folder is not None:

@@ -355,7 +355,7 @@ def test_a_world_that_one_steps_oneself_can_be_logged(tmp_path) -> None:
         for _ in range(5):
             world.step([[0.1], [0.2]])
             log.follow(world)
-        world.hands.place(0, (1, 1, 0))
+        world.operator.place(0, (1, 1, 0))
         world.step([[0.1], [0.2]])
     read = mars2d.load(tmp_path / "run.mcap")
     assert read.digest == world.record.digest
@@ -617,7 +617,7 @@ def test_a_log_follows_the_branches_of_a_timeline(tmp_path) -> None:
         timeline.advance()
     assert len(mars2d.load(path)) == 50
     timeline.go(20)
-    timeline.change(lambda world: world.hands.steer(0, (0.0, 0.5)))
+    timeline.change(lambda world: world.operator.steer(0, (0.0, 0.5)))
     for _ in range(10):
         timeline.advance()
     read = mars2d.load(path)

@@ -21,7 +21,7 @@ from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE as MESSAGES
 from mars2d.record.message import as_of
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 BROKEN_OFF = "The log breaks off here: the run was killed, or still goes on"
 """The `over_message` of a record whose log does not tell how the run ended."""
@@ -33,7 +33,7 @@ SIZES = {
 """How many numbers a body, or whatever works on bodies, has in each column."""
 
 
-def read(path: Path, largest: int) -> Record:
+def read(path: Path, largest: int) -> Rows:
     """Read the record in a file; InputError where there is none, or it is larger than allowed.
 
     A log that breaks off anywhere has all rows up to there; its `Record.over_message` says so.
@@ -146,7 +146,7 @@ class _Rows:
         self._changes = [each for each in self._changes if each[0] < count]
         self._count = count
 
-    def record(self, header: dict[str, Any], end: dict[str, Any] | None) -> Record:
+    def record(self, header: dict[str, Any], end: dict[str, Any] | None) -> Rows:
         """Return the record. Raises the exceptions of `headers.to_record`.
 
         end: how the run ended, None where the log does not tell.

@@ -18,7 +18,7 @@ from mars2d.output.formats.mcap.row import Row, cut, encoded, schema
 from mars2d.output.formats.mcap.scanning import scan
 from mars2d.record.columns import DiskError
 from mars2d.record.message import as_of
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ class Tape:
         yield from self._topics.messages(row, scenario)
         yield self._row, encoded(row)
 
-    def end(self, record: Record) -> None:
+    def end(self, record: Rows) -> None:
         """Write how the run ended."""
         header = headers.of_record(record)
         told = {name: header[name] for name in ("over_message", "finished", "digest")}
@@ -101,7 +101,7 @@ class Tape:
         return self._channel(topic, kind.DESCRIPTOR.full_name, lambda: schema_of(kind))
 
 
-def write(record: Record, path: Path) -> None:
+def write(record: Rows, path: Path) -> None:
     """Write a record to a file. Raises InputError where it can't be written.
 
     A record that no run gives is refused, too, for example half of one: it could not be read again.
@@ -123,7 +123,7 @@ def write(record: Record, path: Path) -> None:
         writer.finish()
 
 
-def _check_whole(record: Record, path: Path) -> None:
+def _check_whole(record: Rows, path: Path) -> None:
     """Refuse a record whose times, or whose messages' status at the end, are of no run."""
     rows = len(record)
     start, end = (float(record.time[0]), float(record.time[-1])) if rows else (0.0, 0.0)
