@@ -216,7 +216,7 @@ def test_ctrl_c_leaves_whole_files_and_nobody_behind(bench, name) -> None:
         interrupted(bench, name, chosen.uniform(0.02, 0.8), times, forked=True)
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", COMMANDS)
 def test_ctrl_c_at_many_moments_of_each_command(bench, name) -> None:
     chosen = random.Random(name)

@@ -447,8 +447,8 @@ def test_too_many_panels_and_none_are_refused(record, count):
 )
 def test_files_have_their_format_and_are_reproducible(record, tmp_path, suffix, start):
     first, second = tmp_path / f"a{suffix}", tmp_path / f"b{suffix}"
-    assert save_figure(record, first, times) == first
-    save_figure(record, str(second), times)
+    assert save_figure(record, first) == first
+    save_figure(record, str(second))
     assert first.read_bytes().startswith(start)
     assert first.read_bytes() == second.read_bytes()
     for dated in (b"CreationDate", b"dc:date"):

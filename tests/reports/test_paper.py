@@ -209,7 +209,7 @@ def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, 
     assert (tmp_path / name).read_bytes() == (cheap / name).read_bytes()
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
     done = mars("paper", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
@@ -438,7 +438,7 @@ def test_times_after_the_end_of_a_run_show_its_end():
 # -- processes --------------------------------------------------------------------------------
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_what_comes_out_does_not_depend_on_the_number_of_processes(tmp_path):
     every = [
         figure(Run("random_walk", "W", "S.", options={"stop_time": 20}), number=number)
@@ -471,7 +471,7 @@ def is_group(number):
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child there")
 @pytest.mark.parametrize(
-    "only", [pytest.param("2,4,7", marks=pytest.mark.soak), "7"]
+    "only", [pytest.param("2,4,7", marks=pytest.mark.nightly), "7"]
 )  # in processes of their own, and in one
 def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
     folder = tmp_path / "out"

@@ -223,7 +223,7 @@ def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monke
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("suffix", [".mp4", pytest.param(".gif", marks=pytest.mark.soak)])
+@pytest.mark.parametrize("suffix", [".mp4", pytest.param(".gif", marks=pytest.mark.nightly)])
 def test_a_film_of_a_program_that_is_killed_can_be_seen(suffix, tmp_path):
     code = (
         "import sys, time, pygame; from pathlib import Path\n"

@@ -429,7 +429,7 @@ def test_a_run_that_is_killed_loses_no_finished_step(tmp_path) -> None:
     check_kills(6, tmp_path)
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_a_run_that_is_killed_a_hundred_times_loses_no_finished_step(tmp_path) -> None:
     check_kills(100, tmp_path)
 
