@@ -7,7 +7,7 @@ from typing import Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import chord_share, cosine_sine, length
-from mars2d.physics.islands.chipmunk import NOTHING, Handle
+from mars2d.physics.islands.chipmunk import Handle
 
 
 @cython.final
@@ -67,7 +67,7 @@ class Piece:
         """Take corners (x, y) counter-clockwise, directions (x, y) in which it ends, a radius."""
         self.corners = [Corner(x, y) for x, y in corners]
         self.edges = [Edge(u, v, max([u * x + v * y for x, y in corners])) for u, v in directions]
-        self.radius, self.shape, self.flush = radius, NOTHING, None
+        self.radius = radius
 
     @cython.cfunc
     def turn(self, c: cython.double, s: cython.double) -> cython.void:
@@ -278,56 +278,10 @@ class Body:
     def __init__(self, number: int, is_robot: bool, pieces: list[Piece], surface: Any) -> None:
         """Take its number, its pieces, its friction and restitution; `describe` does the rest."""
         self.number, self.is_robot, self.pieces, self.surface = number, is_robot, pieces, surface
-        self.mass = self.moment = self.lead = 0.0
-        self.is_disc = self.slips = self.solved = self.in_robot_frame = self.holds = (
-            self.engaged
-        ) = False
-        self.pulled = self.touches = self.near = self.done = self.placed = self.made = False
-        self.stopped = self.limited = self.gathers = self.ahead = self.laid = False
-        self.radius = self.offset_x = self.offset_y = self.offset = self.reach = 0.0
-        self.x = self.y = self.angle = self.vx = self.vy = self.spin = 0.0
-        self.center_x = self.center_y = 0.0
-        self.forward = self.left = self.turning = self.force = self.torque = self.rim = 0.0
-        self.grips, self.wheeled, self.no_load_speed = False, False, 1e300
-        self.grip_ahead = self.grip_across = 1e300
-        self.strength = self.bound = self.bound_ahead = self.bound_across = 0.0
-        self.tread_ahead = self.tread_across = self.skid = 0.0
-        self.since, self.effort = 1 << 20, 0.0
-        self.grip = self.twist_grip = self.lever = self.slows = self.stops = 0.0
-        self.rest_grip = self.rest_twist_grip = 0.0
-        self.allowed = self.twist_allowed = self.held = self.twist_held = 0.0
-        self.pull_x = self.pull_y = self.pull_torque = 0.0
-        self.bend = 0.0
-        self.moved_x = self.moved_y = self.moved_angle = 0.0
-        self.aim_x = self.aim_y = self.aim_spin = 0.0
-        self.end_x = self.end_y = self.end_spin = self.lead_x = self.lead_y = 0.0
-        self.back_x = self.back_y = self.back_angle = self.gone = 0.0
-        self.back_vx = self.back_vy = self.back_spin = 0.0
-        self.speed = self.way = self.fastest = self.start_x = self.start_y = 0.0
-        self.slack = self.strain = 1.0
-        self.home = self.island = self.solver = None
-        self.kept = self.kept_slips = False
-        self.kept_x = self.kept_y = self.kept_angle = self.kept_effort = 0.0
-        self.kept_vx = self.kept_vy = self.kept_spin = 0.0
-        self.kept_since = 0
-        self.energy = self.by_holder = self.by_push = self.by_rub = 0.0
-        self.by_joint = self.by_hand = 0.0
-        self.kept_energy = self.kept_by_holder = self.kept_by_push = self.kept_by_rub = 0.0
-        self.kept_by_joint = self.kept_by_hand = 0.0
-        self.group, self.tied = None, False
-        self.before_x = self.before_y = self.before_spin = self.after_x = self.after_y = 0.0
-        self.drag_x = self.drag_y = self.drag_turn = self.pull_turn = 0.0
-        self.hit_x = self.hit_y = self.hit_turn = self.pressure = 0.0
-        self.shift = self.hit_power = self.hit_depth = self.held_by = 0.0
-        self.lasting = self.eased = False
-        self.push_work = self.rub_work = self.excess = self.push_power = self.rub_power = 0.0
-        self.share, self.crowd, self.springy, self.driven = 1.0, 1, False, False
-        self.held_x = self.held_y = self.held_turn = self.hold_work = self.hold_energy = 0.0
-        self.moved, self.wall_pairs, self.wall_gap, self.wall_skin = 0.0, [], -1.0, -1.0
-        self.cell = self.next = -1
-        self.contacts, self.first_touch = [], None
-        self.handle = self.control = self.pivot = self.side = self.gear = NOTHING
-        self.shapes = []
+        self.no_load_speed = self.grip_ahead = self.grip_across = 1e300
+        self.since, self.slack, self.strain, self.share, self.crowd = 1 << 20, 1.0, 1.0, 1.0, 1
+        self.wall_gap = self.wall_skin = -1.0
+        self.wall_pairs, self.contacts, self.shapes = [], [], []
 
     def describe(self, what: dict[str, Any]) -> None:
         """Set the properties, by the names above; those that do not apply may be left out."""

@@ -37,11 +37,6 @@ class Row:
     vx: cython.double
     vy: cython.double
 
-    def __init__(self) -> None:
-        """Make one in which nothing has happened."""
-        self.impulse_x = self.impulse_y = self.normal_x = self.normal_y = 0.0
-        self.x = self.y = self.vx = self.vy = 0.0
-
     @cython.cfunc
     def add_speed(self, body: Body, sign: cython.double) -> cython.void:
         """Add the velocity of the point as one of a body, or subtract it."""
@@ -91,9 +86,7 @@ class Touch:
 
     def __init__(self, a: int, b: int, last: Row) -> None:
         """Take the numbers of both, and the contact by which it is found."""
-        self.a, self.b, self.goes_on, self.now, self.last = a, b, False, None, last
-        self.time, self.first, self.kept = 0.0, last, None
-        self.begin()
+        self.a, self.b, self.first, self.last = a, b, last, last
 
     @cython.cfunc
     def begin(self) -> cython.void:

@@ -102,9 +102,7 @@ class Flush:
 
     def __init__(self, piece: Piece, room: float) -> None:
         """Take the piece, and `room`."""
-        self.piece, self.room, self.handle = piece, room, None
-        self.x = self.y = self.deepest = self.px = self.py = 0.0
-        self.leans = False
+        self.piece, self.room = piece, room
 
     @cython.cfunc
     def straighten(self, arbiter: Handle) -> cython.void:

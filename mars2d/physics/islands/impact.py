@@ -66,9 +66,6 @@ class Impact:
     def __init__(self, body: Body) -> None:
         """Stand for none yet; body: any."""
         self.a = self.b = body
-        self.has_a = self.has_b = False
-        self.normal_x = self.normal_y = self.push = self.rub = self.depth = 0.0
-        self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
 
     @cython.cfunc
     def take(self, arbiter: Handle, numbers: list[Body]) -> cython.void:

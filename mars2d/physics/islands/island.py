@@ -137,11 +137,7 @@ class Island:
         self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
         self.thrust = Thrust()
         self.bodies, self.pairs, self.ties = [], [], []
-        self.solved = self.any_solved = self.any_touch = False
-        self.contact_step = self.push_step = 1e300
-        self.strain = self.least_strain = self.most_strain = 1.0
-        self.iterations, self.tries = accuracy.iterations, 0
-        self.deepest = self.limit = 0.0
+        self.contact_step = 1e300
         self.impact = Impact(numbers[0])
 
     @cython.cfunc

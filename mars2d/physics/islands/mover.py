@@ -59,8 +59,7 @@ class Mover:
         self.accuracy, self.glide, self.bodies, self.ties = accuracy, glide, bodies, ties
         self.thrust = Thrust()
         self.neighbours = Neighbours(bodies, walls, passing)
-        self.taken = []
-        self.spare, self.solvers, self.islands, self.found = [], [], [], 0
+        self.taken, self.spare, self.solvers, self.islands = [], [], [], []
         body: Body
         for body in bodies:
             body.slack = accuracy.slack

@@ -38,17 +38,15 @@ class Neighbours:
     wide: cython.int
     size: cython.double
     first: list[int]
-    found: list[Any]
 
     def __init__(self, bodies: list[Body], walls: list[Wall], passing: set[Any]) -> None:
         """Take bodies, walls, and pairs of bodies that pass through each other."""
         self.bodies, self.walls, self.passing = bodies, walls, passing
-        self.pairs, self.found, self.first = [], [], []
+        self.pairs, self.first = [], []
         self.largest = max([body.radius for body in bodies])
         self.skin, self.size = -1.0, 1.0
         self.wide = 3 + int((4.0 * len(bodies)) ** 0.5)
         for body in bodies:
-            body.moved, body.wall_skin = 0.0, -1.0
             body.wall_gap = -1.0 if walls else 1e300
         if len(bodies) <= FEW:
             self.skin = 1e300

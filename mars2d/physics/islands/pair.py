@@ -126,9 +126,6 @@ class Pair:
         """Take two bodies, or one twice and a wall."""
         self.a, self.b = a, b
         self.is_wall = wall is not None
-        self.gap = self.normal_x = self.normal_y = 0.0
-        self.point_x = self.point_y = self.into_a = self.into_b = 0.0
-        self.next_touch, self.walled_in, self.start_gap = None, None, 0.0
         if wall is None:
             self.other, self.radii = b.number, a.radius + b.radius
         else:
@@ -303,9 +300,6 @@ class PiecePair(Pair):
         Pair.__init__(self, a, b, wall)
         self.p, self.q = p, q
         self.rounding = p.radius + q.radius
-        self.between_x = self.between_y = self.way_x = self.way_y = self.square = 0.0
-        self.of_second, self.parted = False, -1e300
-        self.edge_x = self.edge_y = self.reach = 0.0
 
     @cython.cfunc
     def measure(self) -> cython.bint:

@@ -64,9 +64,7 @@ class Seams:
     def __init__(self, numbers: list[float]) -> None:
         """Take x, y of the start, the direction, the length, `reach`, and the twelve of `met`."""
         self.x, self.y, self.ux, self.uy, self.far, self.reach = numbers[:6]
-        self.met, self.handle = numbers[6:], None
-        self.corners = 0
-        self.dx = self.dy = self.low = self.high = 0.0
+        self.met = numbers[6:]
 
     @cython.cfunc
     def mend(self, arbiter: Handle, is_first: cython.bint) -> cython.void:

@@ -78,10 +78,6 @@ class Held:
     handle: Handle
     ground: Handle
 
-    def __init__(self) -> None:
-        """Hold nothing yet."""
-        self.handle = self.ground = NOTHING
-
 
 @cython.final
 @cython.cclass
@@ -118,14 +114,14 @@ class Solver:
         """
         self.space, self.room = new_space(slop), room
         self.mend_rate, self.joint_mend_rate = mend_rate, joint_mend_rate
-        self.mend_base, self.joint_mend_base = exponential(-mend_rate), exponential(-joint_mend_rate)
-        self.mend = self.joint_mend = 0.0
+        self.mend_base = exponential(-mend_rate)
+        self.joint_mend_base = exponential(-joint_mend_rate)
         self.surfaces = surfaces
         if surfaces is not None:
             watch(self.space, surfaces)
         self.bodies, self.walls, self.ties = [], {}, []
         self.arbiters = Arbiters()
-        self.last_step, self.used, self.stale, self.idle = 1e300, False, False, False
+        self.last_step = 1e300
 
     # -- who is in it -------------------------------------------------------------------------
 

@@ -76,7 +76,7 @@ class Surfaces:
         self.bodies, self.of_bodies, self.of_walls = bodies, of_bodies, of_walls
         self.rule, self.bounce_rule = rules
         self.frictions, self.statics, self.restitutions = pairs
-        self.sticks, self.count, self.handle = sticks, round(sqrt(len(pairs[0]))), None
+        self.sticks, self.count = sticks, round(sqrt(len(pairs[0])))
 
     @cython.cfunc
     def settle(self, arbiter: Handle) -> cython.void:

@@ -34,12 +34,6 @@ class Thrust:
     bent: cython.bint  # whether the commanded velocity turns
     strains: cython.bint  # whether its drive does all that it can
 
-    def __init__(self) -> None:
-        """Begin with nothing."""
-        self.way_x = self.way_y = self.angle = self.vx = self.vy = self.spin = 0.0
-        self.quickens = self.turns = 0.0
-        self.keeps = self.bent = self.strains = False
-
     @cython.cfunc
     def over(self, body: Body, h: cython.double) -> cython.void:
         """Aim a robot at where it will be after h seconds, and work out its velocity then."""

@@ -72,10 +72,6 @@ class Tie:
         self.springy = is_what["springy"]
         self.least, self.largest, self.rebound = limits
         self.parts, self.joints = parts, []
-        self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
-        self.normal_x = self.normal_y = self.apart = self.slack = self.turn = 0.0
-        self.angle = self.turning = 0.0
-        self.hits = False
 
     @cython.cfunc
     def measure(self) -> cython.void:
