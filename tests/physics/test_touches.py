@@ -12,6 +12,7 @@ import pytest
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Box, Puck
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import island as islands
 from mars2d.physics.islands.contacts import (
     Row,
@@ -438,7 +439,7 @@ def told(monkeypatch):
         "point_of": lambda one, k, second: (one.on_second if second else one.on_first)[k],
     }  # fmt: skip
     for name, way in ways.items():
-        monkeypatch.setattr(islands, name, way)
+        monkeypatch.setattr(chipmunk, name, way)
     bodies = log_of(0, 1, 2)
     for k, body in enumerate(bodies):
         place(body, complex(k, 0))

@@ -21,8 +21,6 @@ Handle: TypeAlias = Any
 Vector: TypeAlias = Any
 """A vector of the engine, with x and y."""
 
-NOTHING: Handle = None
-
 PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING, GROOVE = range(8)
 """The kinds of joints."""
 
@@ -68,19 +66,9 @@ def new_space(slop: float) -> Handle:
     space = lib.cpSpaceNew()
     lib.cpSpaceSetCollisionSlop(space, slop)
     lib.cpSpaceSetCollisionPersistence(space, 1)
-    lib.cpSpaceAddWildcardHandler(space, _SEWN).preSolveFunc = _MEND
-    lib.cpSpaceAddWildcardHandler(space, _JOINED).preSolveFunc = _STRAIGHTEN
+    lib.cpSpaceAddWildcardHandler(space, SEWN).preSolveFunc = _MEND
+    lib.cpSpaceAddWildcardHandler(space, JOINED).preSolveFunc = _STRAIGHTEN
     return space
-
-
-def set_iterations(space: Handle, count: int) -> None:
-    """Set how often the solver goes over contacts and joints."""
-    lib.cpSpaceSetIterations(space, count)
-
-
-def ground_of(space: Handle) -> Handle:
-    """Return the body of a space that stands still."""
-    return lib.cpSpaceGetStaticBody(space)
 
 
 def step(space: Handle, h: float, bias: float) -> None:
@@ -95,6 +83,7 @@ def step(space: Handle, h: float, bias: float) -> None:
         raise _caught.pop()
 
 
+set_iterations, ground_of = lib.cpSpaceSetIterations, lib.cpSpaceGetStaticBody
 free_space = lib.cpSpaceFree
 
 # -- bodies and shapes ------------------------------------------------------------------------
@@ -149,7 +138,7 @@ def weight_at(body: Handle, ahead: float) -> None:
 _BODY = 2 * _POINTER // 8
 """Where the structs of bodies have their mass, behind two pointers, in numbers of eight bytes."""
 
-LEAD, CENTER, FAST, ANGLE, SPIN, TURN, MENDED, TURNED = (
+LEAD, CENTER, FAST, ANGLE, SPIN, TURN, BIAS, SPIN_BIAS = (
     _BODY + k for k in (4, 6, 8, 12, 13, 15, 22, 24)
 )
 """Where the engine's bodies have these, in numbers of eight bytes.
@@ -186,10 +175,10 @@ def frame_of(body: Handle) -> Handle:
 def _MOVE(body: Handle, h: float) -> None:  # noqa: N802
     numbers = ffi.cast("double *", body)
     for k in range(2):
-        numbers[CENTER + k] += (numbers[FAST + k] + numbers[MENDED + k]) * h
-        numbers[MENDED + k] = 0.0
-    angle = numbers[ANGLE] + (numbers[SPIN] + numbers[TURNED]) * h
-    numbers[TURNED] = 0.0
+        numbers[CENTER + k] += (numbers[FAST + k] + numbers[BIAS + k]) * h
+        numbers[BIAS + k] = 0.0
+    angle = numbers[ANGLE] + (numbers[SPIN] + numbers[SPIN_BIAS]) * h
+    numbers[SPIN_BIAS] = 0.0
     _turn(numbers, angle, *cosine_sine(angle))
 
 
@@ -206,7 +195,7 @@ def bodies_are_as_thought() -> bool:
     wanted = {
         LEAD: (0.25, -0.5), CENTER: (4 + 0.25 * c + 0.5 * s, 5 + 0.25 * s - 0.5 * c),
         FAST: (6.0, 7.0), ANGLE: (0.75,), SPIN: (8.0,), TURN: (c, s, -s, c, 4.0, 5.0),
-        MENDED: (0.0, 0.0), TURNED: (0.0,),
+        BIAS: (0.0, 0.0), SPIN_BIAS: (0.0,),
     }  # fmt: skip
     found = [
         abs(numbers[place + k] - value)
@@ -226,7 +215,7 @@ def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
 def settle_down(body: Handle) -> None:
     """Let a body forget by which velocity its overlaps are to be mended in the next step."""
     numbers = ffi.cast("double *", body)
-    numbers[MENDED] = numbers[MENDED + 1] = numbers[TURNED] = 0.0
+    numbers[BIAS] = numbers[BIAS + 1] = numbers[SPIN_BIAS] = 0.0
 
 
 def push(body: Handle, x: float, y: float, torque: float) -> None:
@@ -246,7 +235,7 @@ def make_joint(
 ) -> Handle:
     """Return a joint that has not held anything yet, in the memory of one outside of spaces.
 
-    joint: that one, or NOTHING. ends: the anchors in the frames of a and b, and where none are
+    joint: that one, or None. ends: the anchors in the frames of a and b, and where none are
     needed, any. p, q, r: the kind's numbers, in the order in which the engine takes them. A groove
     of a goes from (-p, -q) to (p, q).
     """
@@ -368,7 +357,7 @@ def springs_are_as_thought() -> bool:
     )
     off = 0.0
     for kind, rest, lost, felt, feels in kinds:
-        spring = _made(kind, NOTHING, ground, body, ends, 0.125, 4.0, 1.5)
+        spring = _made(kind, None, ground, body, ends, 0.125, 4.0, 1.5)
         add_joint(space, spring)
         step(space, 0.0625, 0.5)
         found = [_numbers(spring, *each) for each in ((rest, 3), (lost, 1), (felt, 1))]
@@ -387,9 +376,9 @@ def impulses_are_where_thought() -> bool:
     """Whether drives' impulses are found where they are read: a body is stopped to find out."""
     space, body = new_space(0.0), new_body(2.0, 3.0, 0)
     ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
-    pivot = make_joint(PIVOT, NOTHING, ground, body, ends, 0.0, 0.0, 0.0)
-    gear = make_joint(GEAR, NOTHING, ground, body, ends, 0.0, 1.0, 0.0)
-    groove = make_joint(GROOVE, NOTHING, ground, body, ends, 0.0, 1.0, 0.0)
+    pivot = make_joint(PIVOT, None, ground, body, ends, 0.0, 0.0, 0.0)
+    gear = make_joint(GEAR, None, ground, body, ends, 0.0, 1.0, 0.0)
+    groove = make_joint(GROOVE, None, ground, body, ends, 0.0, 1.0, 0.0)
     set_max_force(groove, 1.0)
     add_body(space, body)
     for joint in (groove, pivot, gear):
@@ -587,7 +576,7 @@ def check_signals() -> None:
 
 # -- seams ------------------------------------------------------------------------------------
 
-_SEWN, _JOINED = 1, 2
+SEWN, JOINED = 1, 2
 """The engine's collision types: of walls that meet others, and of pieces that lie flush."""
 
 
@@ -603,7 +592,7 @@ def sew(segment: Handle, seams: Any) -> None:
     if seams.handle is None:
         seams.handle = ffi.new_handle(seams)
     lib.cpShapeSetUserData(segment, seams.handle)
-    lib.cpShapeSetCollisionType(segment, _SEWN)
+    lib.cpShapeSetCollisionType(segment, SEWN)
 
 
 corners_of = lib.cpPolyShapeGetCount
@@ -628,7 +617,7 @@ def show(shape: Handle, flush: Any) -> None:
 
 def join(shape: Handle) -> None:
     """Let contacts with a shape of a body be straightened."""
-    lib.cpShapeSetCollisionType(shape, _JOINED)
+    lib.cpShapeSetCollisionType(shape, JOINED)
 
 
 def flush_of(arbiter: Handle, second: bool) -> Any:

@@ -8,23 +8,11 @@ if none is, nothing. What overlaps the face by more than a step that is not felt
 
 from __future__ import annotations
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Corner, Edge, Piece
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    first_of,
-    flush_of,
-    is_void,
-    leave_out,
-    normal_of,
-    place_of,
-    put_point,
-    second_of,
-    set_normal,
-    shape_of,
-)
+from mars2d.physics.islands.chipmunk import Handle, Vector
 
 PARALLEL = 0.9999
 """The cosine from which on two faces are parallel."""
@@ -111,8 +99,8 @@ class Flush:
         Where three corners meet, faces of both may ask for it. Then it is left out, since both
         bodies are held by the third.
         """
-        other: Flush = flush_of(arbiter, True)
-        if is_void(arbiter):
+        other: Flush = chipmunk.flush_of(arbiter, True)
+        if chipmunk.is_void(arbiter):
             return
         asks: cython.bint = self.look(arbiter, other.piece, False)
         if not other.look(arbiter, self.piece, True):
@@ -121,7 +109,7 @@ class Flush:
         elif not asks:
             other.mend(arbiter, self.piece, True)
         elif abs(self.x * other.y - self.y * other.x) > ACROSS:
-            leave_out(arbiter)
+            chipmunk.leave_out(arbiter)
         else:
             self.mend(arbiter, other.piece, False)
 
@@ -131,7 +119,7 @@ class Flush:
 
         second: whether it is the second shape.
         """
-        by: cython.int = first_of(arbiter) if second else second_of(arbiter)
+        by: cython.int = chipmunk.first_of(arbiter) if second else chipmunk.second_of(arbiter)
         found: cython.bint = False
         k: cython.int
         for k in range(len(self.piece.corners)):
@@ -161,27 +149,27 @@ class Flush:
         turn: cython.double = -1.0 if starts else 1.0
         end: Corner = self.piece.corners[k]
         start: Corner = self.piece.corners[(k + 1 if starts else k + count - 1) % count]
-        shape: Handle = shape_of(arbiter, second)
-        a: Vector = place_of(shape, start.local_x, start.local_y)
-        b: Vector = place_of(shape, end.local_x, end.local_y)
+        shape: Handle = chipmunk.shape_of(arbiter, second)
+        a: Vector = chipmunk.place_of(shape, start.local_x, start.local_y)
+        b: Vector = chipmunk.place_of(shape, end.local_x, end.local_y)
         far: cython.double = length(b.x - a.x, b.y - a.y)
         ux: cython.double = (b.x - a.x) / far
         uy: cython.double = (b.y - a.y) / far
-        normal: Vector = normal_of(arbiter)
+        normal: Vector = chipmunk.normal_of(arbiter)
         sign: cython.double = -1.0 if second else 1.0
         fx: cython.double = turn * uy
         fy: cython.double = -turn * ux
         leans: cython.bint = sign * (normal.x * ux + normal.y * uy) > LEANS
         if not leans and sign * (normal.x * fx + normal.y * fy) < UPRIGHT:
             return False
-        shape = shape_of(arbiter, not second)
+        shape = chipmunk.shape_of(arbiter, not second)
         lowest: cython.double = -1e300
         deepest: cython.double = -1.0
         px: cython.double = 0.0
         py: cython.double = 0.0
         corner: Corner
         for corner in slider.corners:
-            at: Vector = place_of(shape, corner.local_x, corner.local_y)
+            at: Vector = chipmunk.place_of(shape, corner.local_x, corner.local_y)
             x: cython.double = at.x - slider.radius * fx
             y: cython.double = at.y - slider.radius * fy
             depth: cython.double = (b.x - x) * fx + (b.y - y) * fy
@@ -200,20 +188,20 @@ class Flush:
         """Let the face that has asked for a contact push, or leave it out."""
         if not self.leans:
             return
-        normal: Vector = normal_of(arbiter)
+        normal: Vector = chipmunk.normal_of(arbiter)
         sign: cython.double = -1.0 if second else 1.0
         nx: cython.double = sign * self.x
         ny: cython.double = sign * self.y
         upright: cython.bint = normal.x * nx + normal.y * ny > UPRIGHT and slider.radius == 0.0
         if self.deepest < 0.0 and not upright:
-            leave_out(arbiter)
+            chipmunk.leave_out(arbiter)
             return
-        set_normal(arbiter, nx, ny)
+        chipmunk.set_normal(arbiter, nx, ny)
         if upright:
             return
         x: cython.double = self.px + self.deepest * self.x
         y: cython.double = self.py + self.deepest * self.y
         if second:
-            put_point(arbiter, self.px, self.py, x, y)
+            chipmunk.put_point(arbiter, self.px, self.py, x, y)
         else:
-            put_point(arbiter, x, y, self.px, self.py)
+            chipmunk.put_point(arbiter, x, y, self.px, self.py)

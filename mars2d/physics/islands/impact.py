@@ -6,23 +6,11 @@ body as seen from the other. The sum over all impulses is the change of the kine
 
 from __future__ import annotations
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    arm_of,
-    bounce_of,
-    count_of,
-    depth_of,
-    first_of,
-    normal_of,
-    push_of,
-    rub_of,
-    scale,
-    second_of,
-)
+from mars2d.physics.islands.chipmunk import Handle, Vector
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.tie import Tie
 
@@ -70,23 +58,23 @@ class Impact:
     @cython.cfunc
     def take(self, arbiter: Handle, numbers: list[Body]) -> cython.void:
         """Stand for a contact that the solver knows."""
-        first: cython.int = first_of(arbiter)
-        second: cython.int = second_of(arbiter)
+        first: cython.int = chipmunk.first_of(arbiter)
+        second: cython.int = chipmunk.second_of(arbiter)
         self.has_a, self.has_b = first >= 0, second >= 0
         self.a = numbers[first if first >= 0 else second]
         self.b = numbers[second if second >= 0 else first]
-        normal: Vector = normal_of(arbiter)
+        normal: Vector = chipmunk.normal_of(arbiter)
         self.normal_x, self.normal_y = normal.x, normal.y
 
     @cython.cfunc
     def look_at(self, arbiter: Handle, k: cython.int) -> cython.void:
         """Stand for one of its points."""
-        arm: Vector = arm_of(arbiter, k, False)
+        arm: Vector = chipmunk.arm_of(arbiter, k, False)
         self.arm_ax, self.arm_ay = arm.x, arm.y
-        arm = arm_of(arbiter, k, True)
+        arm = chipmunk.arm_of(arbiter, k, True)
         self.arm_bx, self.arm_by = arm.x, arm.y
-        self.push, self.rub = push_of(arbiter, k), rub_of(arbiter, k)
-        self.depth = depth_of(arbiter, k)
+        self.push, self.rub = chipmunk.push_of(arbiter, k), chipmunk.rub_of(arbiter, k)
+        self.depth = chipmunk.depth_of(arbiter, k)
 
     @cython.cfunc
     def hit(self) -> cython.void:
@@ -279,15 +267,15 @@ def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.dou
         arbiter: Handle = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
         pushes: cython.bint = False
-        for k in range(count_of(arbiter)):
-            pushes = pushes or push_of(arbiter, k) != 0.0
+        for k in range(chipmunk.count_of(arbiter)):
+            pushes = pushes or chipmunk.push_of(arbiter, k) != 0.0
         if not pushes:
             continue
         join_groups(impact.a, impact.b)
-        for k in range(count_of(arbiter)):
+        for k in range(chipmunk.count_of(arbiter)):
             impact.look_at(arbiter, k)
             impact.hit()
-            impact.work(bounce_of(arbiter, k), h)
+            impact.work(chipmunk.bounce_of(arbiter, k), h)
 
 
 @cython.cfunc
@@ -311,7 +299,7 @@ def take_powers(solver: Solver, numbers: list[Body], impact: Impact) -> cython.v
     for i in range(solver.arbiters.count()):
         arbiter: Handle = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
-        for k in range(count_of(arbiter)):
+        for k in range(chipmunk.count_of(arbiter)):
             impact.look_at(arbiter, k)
             impact.power()
 
@@ -327,7 +315,7 @@ def work_again(solver: Solver, numbers: list[Body], impact: Impact) -> cython.vo
     for i in range(solver.arbiters.count()):
         arbiter: Handle = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
-        for k in range(count_of(arbiter)):
+        for k in range(chipmunk.count_of(arbiter)):
             impact.look_at(arbiter, k)
             impact.work(0.0, 0.0)
 
@@ -406,7 +394,7 @@ def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.voi
         impact.take(solver.arbiters.at(i), numbers)
         group = group_of(impact.a)
         if group.share < 1.0:
-            scale(solver.arbiters.at(i), group.share)
+            chipmunk.scale(solver.arbiters.at(i), group.share)
 
 
 @cython.cfunc

@@ -11,22 +11,11 @@ from __future__ import annotations
 from math import ceil, sqrt
 from typing import Any
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    check_signals,
-    count_of,
-    first_of,
-    impulse_of,
-    is_void,
-    normal_of,
-    point_of,
-    second_of,
-    set_iterations,
-)
+from mars2d.physics.islands.chipmunk import Handle, Vector
 from mars2d.physics.islands.contacts import Row, close_touches, note_row
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
@@ -206,12 +195,14 @@ class Island:
             self.strain = min(accuracy.strain_growth * self.strain, self.most_strain)
             # If the solver goes round in a circle it ends elsewhere in it each time.
             self.tries = min(self.tries + 1, 64)
-            set_iterations(self.solver.space, self.iterations * accuracy.toil + 2 * self.tries)
+            chipmunk.set_iterations(
+                self.solver.space, self.iterations * accuracy.toil + 2 * self.tries
+            )
             return
         self.strain = max(accuracy.strain_fade * self.strain, self.least_strain)
         if self.tries > 0:
             self.tries = 0
-            set_iterations(self.solver.space, self.iterations)
+            chipmunk.set_iterations(self.solver.space, self.iterations)
 
     @cython.cfunc
     def land(self) -> cython.void:
@@ -241,7 +232,7 @@ class Island:
         for tie in self.ties:
             solver.tie(tie)
         self.tries = 0
-        set_iterations(solver.space, self.iterations)
+        chipmunk.set_iterations(solver.space, self.iterations)
         solver.used = True
 
     @cython.cfunc
@@ -310,7 +301,7 @@ class Island:
                 raise FloatingPointError
             count += 1
             if count % 256 == 0:
-                check_signals()
+                chipmunk.check_signals()
             for body in self.bodies:
                 body.gone += h * body.top_speed()
                 if body.gone > self.limit:
@@ -697,21 +688,21 @@ class Island:
     @cython.cfunc
     def note_one(self, arbiter: Handle) -> cython.void:
         """Note the solver's data of one contact, if it has pushed or still touches."""
-        first: cython.int = first_of(arbiter)
-        second: cython.int = second_of(arbiter)
+        first: cython.int = chipmunk.first_of(arbiter)
+        second: cython.int = chipmunk.second_of(arbiter)
         swap: cython.bint = first < 0 or (second >= 0 and second < first)
         a: Body = self.numbers[second if swap else first]
         b: cython.int = first if swap else second
-        impulse: Vector = impulse_of(arbiter)
-        normal: Vector = normal_of(arbiter)
-        if is_void(arbiter):
+        impulse: Vector = chipmunk.impulse_of(arbiter)
+        normal: Vector = chipmunk.normal_of(arbiter)
+        if chipmunk.is_void(arbiter):
             return
         if impulse.x == 0.0 and impulse.y == 0.0 and touching(a, b) is None:
             return
         row: Row = Row()
         row.impulse_x, row.impulse_y = impulse.x, impulse.y
         row.normal_x, row.normal_y = normal.x, normal.y
-        count: cython.int = count_of(arbiter)
+        count: cython.int = chipmunk.count_of(arbiter)
         # each body's velocity is that of its own point
         self.stand(row, arbiter, count, not swap)
         if b >= 0:
@@ -732,10 +723,10 @@ class Island:
         """Put a row at the middle of a contact's points on one of its bodies."""
         point: Vector
         if count > 0:
-            point = point_of(arbiter, 0, second)
+            point = chipmunk.point_of(arbiter, 0, second)
             row.x, row.y = point.x, point.y
         if count > 1:
-            point = point_of(arbiter, 1, second)
+            point = chipmunk.point_of(arbiter, 1, second)
             row.x, row.y = (row.x + point.x) / 2, (row.y + point.y) / 2
 
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body, Corner, Edge, Piece
-from mars2d.physics.islands.chipmunk import join
 from mars2d.physics.islands.flush import PARALLEL, lay
 from mars2d.physics.islands.seams import Seams
 
@@ -518,10 +518,10 @@ class PiecePair(Pair):
         if not self.meet_at_corners(2 * room):
             return
         if lay(self.p, self.q, x, y, self.b.number, room):
-            join(self.p.shape)
+            chipmunk.join(self.p.shape)
             self.a.laid = True
         if lay(self.q, self.p, -x, -y, self.a.number, room):
-            join(self.q.shape)
+            chipmunk.join(self.q.shape)
             self.b.laid = True
 
     @cython.cfunc

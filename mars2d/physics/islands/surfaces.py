@@ -8,20 +8,10 @@ from __future__ import annotations
 
 from math import sqrt
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    arm_of,
-    count_of,
-    first_of,
-    normal_of,
-    second_of,
-    set_surface,
-    spin_of,
-    velocity_of,
-)
+from mars2d.physics.islands.chipmunk import Handle, Vector
 
 
 @cython.final
@@ -81,10 +71,10 @@ class Surfaces:
     @cython.cfunc
     def settle(self, arbiter: Handle) -> cython.void:
         """Set friction and restitution of a contact, as the solver is to use them now."""
-        if count_of(arbiter) == 0:
+        if chipmunk.count_of(arbiter) == 0:
             return
-        first: cython.int = first_of(arbiter)
-        second: cython.int = second_of(arbiter)
+        first: cython.int = chipmunk.first_of(arbiter)
+        second: cython.int = chipmunk.second_of(arbiter)
         a: Surface = self.surface_of(first)
         b: Surface = self.surface_of(second)
         friction: cython.double = -1.0
@@ -102,7 +92,7 @@ class Surfaces:
             restitution = blend(self.bounce_rule, a.restitution, b.restitution)
         if static > friction and self.slip(arbiter, first, second) < self.sticks:
             friction = static
-        set_surface(arbiter, friction, restitution)
+        chipmunk.set_surface(arbiter, friction, restitution)
 
     @cython.cfunc
     def surface_of(self, number: cython.int) -> Surface:
@@ -121,15 +111,15 @@ class Surfaces:
         fast: Vector
         if second >= 0:
             body = self.bodies[second]
-            arm, fast = arm_of(arbiter, 0, True), velocity_of(body.handle)
-            vx = fast.x - spin_of(body.handle) * arm.y
-            vy = fast.y + spin_of(body.handle) * arm.x
+            arm, fast = chipmunk.arm_of(arbiter, 0, True), chipmunk.velocity_of(body.handle)
+            vx = fast.x - chipmunk.spin_of(body.handle) * arm.y
+            vy = fast.y + chipmunk.spin_of(body.handle) * arm.x
         if first >= 0:
             body = self.bodies[first]
-            arm, fast = arm_of(arbiter, 0, False), velocity_of(body.handle)
-            vx = vx - (fast.x - spin_of(body.handle) * arm.y)
-            vy = vy - (fast.y + spin_of(body.handle) * arm.x)
-        normal: Vector = normal_of(arbiter)
+            arm, fast = chipmunk.arm_of(arbiter, 0, False), chipmunk.velocity_of(body.handle)
+            vx = vx - (fast.x - chipmunk.spin_of(body.handle) * arm.y)
+            vy = vy - (fast.y + chipmunk.spin_of(body.handle) * arm.x)
+        normal: Vector = chipmunk.normal_of(arbiter)
         along: cython.double = vy * normal.x - vx * normal.y
         return abs(along)
 
