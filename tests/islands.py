@@ -12,7 +12,8 @@ import pytest
 
 from mars2d import Scenario
 from mars2d.physics import translation
-from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.island import Island
 from mars2d.physics.islands.mover import Mover
 from mars2d.physics.islands.pair import Wall

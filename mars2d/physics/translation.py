@@ -76,22 +76,19 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bo
         "offset_x": x, "offset_y": y, "is_disc": rigid.is_disc and not (x or y),
     }  # fmt: skip
     if isinstance(part, Prop):
-        what |= {
+        body.describe(what | {
             "grip": part.ground_friction * inertia.mass * GRAVITY,
-            "rest_grip": part.resting_friction * inertia.mass * GRAVITY,
-            "lever": shape.lever,
-        }
+            "rest_grip": part.resting_friction * inertia.mass * GRAVITY, "lever": shape.lever,
+        })  # fmt: skip
     else:
         drive = part.drive
-        what |= {
-            "force": drive.max_force, "torque": drive.max_torque, "rim": radius,
+        body.describe(what)
+        body.describe_drive({
+            "force": drive.max_force, "torque": drive.max_torque,
             "in_robot_frame": drive.frame == "robot", "limited": drive.force_limited and forces,
             "no_load_speed": 1e300 if drive.no_load_speed is None else drive.no_load_speed,
-            "grips": [
-                1e300 if grip is None else grip * inertia.mass * GRAVITY for grip in drive.grips
-            ],
-        }  # fmt: skip
-    body.describe(what)
+            "grips": [1e300 if g is None else g * inertia.mass * GRAVITY for g in drive.grips],
+        })  # fmt: skip
     body.move([float(number) for number in (*rigid.pose, *rigid.velocity)], False)
     return body
 

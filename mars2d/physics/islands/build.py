@@ -17,8 +17,8 @@ from pathlib import Path
 HERE = Path(__file__).parent
 
 MODULES = (
-    "arithmetic", "body", "floor", "flush", "seams", "surfaces", "thrust", "pair", "tie", "solver",
-    "contacts", "impact", "island", "neighbours", "mover",
+    "arithmetic", "piece", "state", "rigid", "drive", "body", "floor", "flush", "seams", "surfaces",
+    "thrust", "pair", "tie", "solver", "contacts", "impact", "island", "neighbours", "mover",
 )  # fmt: skip
 """The modules, each after those that it imports."""
 

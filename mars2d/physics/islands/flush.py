@@ -11,8 +11,8 @@ from __future__ import annotations
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.body import Corner, Edge, Piece
 from mars2d.physics.islands.chipmunk import Handle, Vector
+from mars2d.physics.islands.piece import Corner, Edge, Piece
 
 PARALLEL = 0.9999
 """The cosine from which on two faces are parallel."""

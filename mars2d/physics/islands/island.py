@@ -382,7 +382,7 @@ class Island:
         body: Body
         pair: Pair
         for body in self.bodies:
-            body.back_x, body.back_y = body.x, body.y
+            body.back.go_to(body)
         for pair in self.pairs:
             if pair.gap > self.accuracy.closed or pair.gap <= -pressed / 8 or pair.parts():
                 continue
@@ -508,7 +508,7 @@ class Island:
         brief: cython.bint = h <= self.contact_step
         body: Body
         for body in self.bodies:
-            body.remember()
+            body.back.go_to(body)
             if body.solved:
                 body.since, body.holds = 0, True
                 continue
@@ -538,7 +538,7 @@ class Island:
         self.measure()
         if self.any_touch:
             for body in self.bodies:
-                body.go_back()
+                body.go_to(body.back)
             return False
         for body in self.bodies:
             self.arrive(body)
@@ -572,7 +572,7 @@ class Island:
                 body.account_now()
             return
         solved: cython.bint = body.solved
-        body.go_back()
+        body.go_to(body.back)
         if solved:
             self.foresee(body, h)
         body.advance(h)
@@ -780,9 +780,9 @@ def draw_together(pair: Pair, way: cython.double) -> cython.void:
 @cython.cfunc
 def opened(pair: Pair) -> cython.double:
     """Return by how much the gap of a pair has grown since its bodies' places were kept."""
-    x: cython.double = pair.a.back_x - pair.a.x
-    y: cython.double = pair.a.back_y - pair.a.y
+    x: cython.double = pair.a.back.x - pair.a.x
+    y: cython.double = pair.a.back.y - pair.a.y
     if not pair.is_wall:
-        x = x + pair.b.x - pair.b.back_x
-        y = y + pair.b.y - pair.b.back_y
+        x = x + pair.b.x - pair.b.back.x
+        y = y + pair.b.y - pair.b.back.y
     return x * pair.normal_x + y * pair.normal_y

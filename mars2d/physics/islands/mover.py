@@ -169,7 +169,7 @@ class Mover:
         """
         body: Body
         for body in self.bodies:
-            body.near = body.kept_slips if body.kept else body.slips
+            body.near = body.initial.slips if body.kept else body.slips
             body.home = body
         more: cython.bint = True
         while more:
@@ -274,7 +274,8 @@ class Mover:
         if body.solver is not None:
             solver = body.solver
             solver.leave(body)
-        body.begin_again()
+        body.begin_with(body.initial)
+        body.done = False
         begin_touches_again(body)
 
     @cython.cfunc
@@ -296,7 +297,8 @@ class Mover:
             body.island = island
             island.bodies.append(body)
             if not body.kept:
-                body.keep()
+                body.kept = True
+                body.initial.begin_with(body)
                 keep_touches(body)
             if self.neighbours.at_wall(body):
                 self.add_pairs(island, body.wall_pairs)

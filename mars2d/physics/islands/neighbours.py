@@ -13,8 +13,9 @@ from typing import Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.pair import DiscPair, DiscWall, Pair, PiecePair, Wall
+from mars2d.physics.islands.piece import Piece
 
 FEW = 32
 """Up to this number of bodies, all pairs are listed once and for all."""

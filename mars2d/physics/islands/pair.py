@@ -12,8 +12,9 @@ from typing import Any
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.body import Body, Corner, Edge, Piece
+from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.flush import PARALLEL, lay
+from mars2d.physics.islands.piece import Corner, Edge, Piece
 from mars2d.physics.islands.seams import Seams
 
 

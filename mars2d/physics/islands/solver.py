@@ -7,7 +7,7 @@ from typing import Any
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponential, length
-from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.chipmunk import (
     GEAR,
     GROOVE,
@@ -20,6 +20,7 @@ from mars2d.physics.islands.chipmunk import (
 from mars2d.physics.islands.floor import hold
 from mars2d.physics.islands.flush import Flush, lay
 from mars2d.physics.islands.pair import Wall
+from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.tie import Tie
 
 ENDS = ((0.0, 0.0), (0.0, 0.0))
@@ -138,7 +139,7 @@ class Solver:
             )
             chipmunk.set_joint(body.side, 0.0, True)
             chipmunk.set_max_bias(body.side, 0.0)
-            body.tread_ahead = body.tread_across = 0.0
+            body.traction_ahead = body.traction_across = 0.0
         else:
             body.pivot = chipmunk.make_joint(
                 PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0
@@ -479,11 +480,11 @@ class Solver:
         """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
         c: cython.double
         s: cython.double
-        angle: cython.double = body.back_angle + self.lag(h) * body.back_spin
+        angle: cython.double = body.back.angle + self.lag(h) * body.back.spin
         c, s = cosine_sine(angle)
         self.take_drag(body)
-        body.tread_ahead = (c * body.drag_x + s * body.drag_y) / h
-        body.tread_across = (c * body.drag_y - s * body.drag_x) / h
+        body.traction_ahead = (c * body.drag_x + s * body.drag_y) / h
+        body.traction_across = (c * body.drag_y - s * body.drag_x) / h
         body.bear(body.drag_x, body.drag_y, angle, body.vx, body.vy)
 
     @cython.cfunc
@@ -654,8 +655,8 @@ class Solver:
         chipmunk.aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
         x, y = body.aim_x - vx, body.aim_y - vy
         rate: cython.double = body.mass / h
-        ahead: cython.double = body.tread_ahead + rate * (c * x + s * y)
-        body.divide(ahead, body.tread_across + rate * (c * y - s * x), c * vx + s * vy)
+        ahead: cython.double = body.traction_ahead + rate * (c * x + s * y)
+        body.divide(ahead, body.traction_across + rate * (c * y - s * x), c * vx + s * vy)
         chipmunk.set_max_force(body.pivot, body.bound_ahead)
         chipmunk.set_max_force(body.side, body.bound_across)
 
