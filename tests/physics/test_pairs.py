@@ -488,7 +488,7 @@ def test_what_moves_apart_or_stands_never_touches():
     assert two.pair.time_to_touch(1e6, 1e-3) == 1e6
     let_move(two.a, 0j)
     assert two.pair.time_to_touch(1e6, 1e-3) == 1e6
-    let_move(two.a, -1 + 0j, bend=0.5)  # it comes back within 2 v / a
+    let_move(two.a, -1 + 0j, acceleration=0.5)  # it comes back within 2 v / a
     assert 4.0 < two.pair.time_to_touch(1e6, 1e-3) < 4.002
 
 

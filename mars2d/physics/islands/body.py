@@ -46,7 +46,7 @@ class Body(DrivenBody):
     near: cython.bint  # whether it may touch something
     speed: cython.double  # how fast it may be
     way: cython.double  # how far it may go, at most
-    strain: cython.double  # how many robots' pushes add up on it
+    load: cython.double  # how many robots' pushes add up on it
     slack: cython.double  # how much further than at its speed it may be thrown, a factor
     home: object  # the body that stands for its island
     fastest: cython.double  # of the island that it stands for
@@ -118,7 +118,7 @@ class Body(DrivenBody):
         """Take its number, its pieces, its friction and restitution; `describe` does the rest."""
         self.number, self.is_robot, self.pieces, self.surface = number, is_robot, pieces, surface
         self.no_load_speed = self.grip_ahead = self.grip_across = 1e300
-        self.since, self.slack, self.strain, self.share, self.crowd = 1 << 20, 1.0, 1.0, 1.0, 1
+        self.since, self.slack, self.load, self.share, self.crowd = 1 << 20, 1.0, 1.0, 1.0, 1
         self.wall_gap = self.wall_skin = -1.0
         self.back, self.initial = State(), Progress()
         self.wall_pairs, self.contacts, self.shapes = [], [], []
@@ -134,27 +134,29 @@ class Body(DrivenBody):
     @cython.cfunc
     def look(self) -> cython.void:
         """Work out how fast its velocity may change."""
-        self.gathers = False
+        self.accelerates = False
         if self.solved:
-            self.bend = self.spin * self.spin * abs(self.lead)  # its pose goes round its centre
+            self.acceleration = (
+                self.spin * self.spin * abs(self.com)
+            )  # its pose goes round its centre
         elif not self.is_robot:
-            self.bend = 0.0
+            self.acceleration = 0.0
             if self.vx != 0.0 or self.vy != 0.0:
-                self.bend = self.slows
+                self.acceleration = self.slows
             if self.spin != 0.0:
-                self.bend += self.stops * self.reach
+                self.acceleration += self.stops * self.reach
         elif self.limited or self.slips:
             self.look_ahead()
         else:
             self.obey()
-            self.bend = self.pull_on_arc(self.turning) / self.mass
+            self.acceleration = self.pull_on_arc(self.turning) / self.mass
 
     @cython.cfunc
     def top_speed(self) -> cython.double:
         """Return how fast its circle moves at most now."""
         arm: cython.double = self.offset
         if self.slips:
-            arm += 2 * abs(self.lead)
+            arm += 2 * abs(self.com)
         return length(self.vx, self.vy) + arm * abs(self.spin)
 
     @cython.cfunc
@@ -181,15 +183,15 @@ class Body(DrivenBody):
     @cython.cfunc
     def advance_half(self, h: cython.double) -> cython.void:
         """Go on for half of h s at the velocity that its centre of mass had before the step."""
-        if self.lead != 0.0:
-            self.lean(self.angle)
-            self.x, self.y = self.x + self.lead_x, self.y + self.lead_y
+        if self.com != 0.0:
+            self.place_com(self.angle)
+            self.x, self.y = self.x + self.com_x, self.y + self.com_y
         self.x += h / 2 * self.before_x
         self.y += h / 2 * self.before_y
         self.angle += h / 2 * self.before_spin
-        if self.lead != 0.0:
-            self.lean(self.angle)
-            self.x, self.y = self.x - self.lead_x, self.y - self.lead_y
+        if self.com != 0.0:
+            self.place_com(self.angle)
+            self.x, self.y = self.x - self.com_x, self.y - self.com_y
 
     @cython.cfunc
     def part(self, h: cython.double) -> cython.void:

@@ -36,8 +36,8 @@ class DrivenBody(RigidBody):
     bound_across: cython.double  # N, and of what the wheels hold
     skid: cython.double  # how much more they would have to bear than they can, a factor
     limited: cython.bint  # whether its force and torque bound its acceleration in the open, too
-    gathers: cython.bint  # whether it has yet to reach its command, and nothing touches it
-    bend: cython.double  # m/s^2, how fast its velocity may change
+    accelerates: cython.bint  # whether it has yet to reach its command, and nothing touches it
+    acceleration: cython.double  # m/s^2, how fast its velocity may change
     aim_x: cython.double  # the velocity that it is told
     aim_y: cython.double
     aim_spin: cython.double
@@ -177,14 +177,14 @@ class DrivenBody(RigidBody):
         It has a lower bound, in which its rim turns by `turned`, too little to be seen.
         """
         spin: cython.double = abs(self.spin - self.turning)
-        moment: cython.double = self.moment + self.mass * self.lead * self.lead
+        moment: cython.double = self.moment + self.mass * self.com * self.com
         return max(spin * moment / self.torque, turned / max(spin * self.rim, 1e-300))
 
     @cython.cfunc
     def out_of_reach(self, h: cython.double) -> cython.bint:
         """Return whether its drive can't bring it back to its command within h seconds."""
         self.follow(self.angle, h)
-        if self.lead != 0.0:
+        if self.com != 0.0:
             return self.takes_more(h)
         off: cython.double = length(self.vx - self.aim_x, self.vy - self.aim_y)
         if self.grips:
@@ -200,9 +200,9 @@ class DrivenBody(RigidBody):
         The impulse J and the angular impulse that its drive has to give change the velocity of the
         centre by J / m, and the spin by (angular impulse - r x J) / I, with r from pose to centre.
         """
-        self.lean(self.angle)
-        x: cython.double = self.lead_x
-        y: cython.double = self.lead_y
+        self.place_com(self.angle)
+        x: cython.double = self.com_x
+        y: cython.double = self.com_y
         spin: cython.double = self.turning - self.spin
         push_x: cython.double = self.mass * (self.aim_x - self.vx - spin * y)
         push_y: cython.double = self.mass * (self.aim_y - self.vy + spin * x)
@@ -216,13 +216,13 @@ class DrivenBody(RigidBody):
     def look_ahead(self) -> cython.void:
         """Do `look` for such a robot: it moves as it has come to, whatever it is commanded."""
         self.follow(self.angle, 0.0)
-        self.gathers = self.vx != self.aim_x or self.vy != self.aim_y or self.lags(self.spin)
-        if not self.gathers:
-            self.bend = self.pull_on_arc(self.turning) / self.mass
+        self.accelerates = self.vx != self.aim_x or self.vy != self.aim_y or self.lags(self.spin)
+        if not self.accelerates:
+            self.acceleration = self.pull_on_arc(self.turning) / self.mass
             return
-        self.bend = self.strength / self.mass
+        self.acceleration = self.strength / self.mass
         if self.spin != self.turning:
-            self.bend += self.torque / self.moment * self.reach
+            self.acceleration += self.torque / self.moment * self.reach
 
     @cython.cfunc
     def pull_on_arc(self, spin: cython.double) -> cython.double:
@@ -245,6 +245,6 @@ class DrivenBody(RigidBody):
     @cython.cfunc
     def time_to_turn(self, deep: cython.double) -> cython.double:
         """Return for how long its corners stay within `deep` metres of its present spin."""
-        if self.is_disc or not self.gathers or self.spin == self.turning:
+        if self.is_disc or not self.accelerates or self.spin == self.turning:
             return 1e300
         return sqrt(2 * deep * self.moment / (self.torque * self.reach))

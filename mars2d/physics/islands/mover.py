@@ -143,12 +143,14 @@ class Mover:
             if not body.is_disc:
                 body.locate()
                 body.start_x, body.start_y = body.center_x, body.center_y
-            if body.limited and body.lead != 0.0:
+            if body.limited and body.com != 0.0:
                 body.look()
-                body.slips = body.slips or body.gathers  # no closed form is known of how it sways
+                body.slips = (
+                    body.slips or body.accelerates
+                )  # no closed form is known of how it sways
             body.speed = length(body.vx, body.vy) + body.offset * abs(body.spin)
             if body.slips:
-                body.speed += 2 * abs(body.lead * body.spin)
+                body.speed += 2 * abs(body.com * body.spin)
             asked: cython.double = 0.0
             if body.is_robot:
                 asked = length(body.forward, body.left)
@@ -157,8 +159,8 @@ class Mover:
                 raise FloatingPointError
             if body.pulled:
                 push: cython.double = length(body.pull_x, body.pull_y) / body.mass
-                sway: cython.double = abs(body.pull_torque) + abs(body.lead) * push * body.mass
-                push += (body.offset + abs(body.lead)) * sway / body.moment
+                sway: cython.double = abs(body.pull_torque) + abs(body.com) * push * body.mass
+                push += (body.offset + abs(body.com)) * sway / body.moment
                 body.speed += push * duration
 
     @cython.cfunc
@@ -351,7 +353,7 @@ class Mover:
         if body.solver is not None:
             solver = body.solver
             solver.leave(body)
-        body.slack, body.strain = self.accuracy.slack, 1.0
+        body.slack, body.load = self.accuracy.slack, 1.0
         if body.is_robot:
             body.since = 1 << 20
         if not body.is_robot:
@@ -464,7 +466,7 @@ class Mover:
             return False
         if body.limited:
             body.look()
-            if body.gathers:
+            if body.accelerates:
                 return False
         if body.is_robot:
             share: cython.double = max(force / body.least_force(), torque / body.torque)

@@ -217,11 +217,11 @@ def disc_time(pair: Pair, h: cython.double, depth: cython.double) -> cython.doub
     """
     x: cython.double = pair.a.vx
     y: cython.double = pair.a.vy
-    turn: cython.double = pair.a.bend
+    turn: cython.double = pair.a.acceleration
     if not pair.is_wall:
         x = x - pair.b.vx
         y = y - pair.b.vy
-        turn = turn + pair.b.bend
+        turn = turn + pair.b.acceleration
     closing: cython.double = max(x * pair.normal_x + y * pair.normal_y, 0.0)
     room: cython.double = max(pair.gap + depth, depth / 64)
     if closing * h + 0.5 * turn * h * h <= room:
@@ -414,13 +414,13 @@ class PiecePair(Pair):
         spin: cython.double = 0.0 if still else body.spin
         vx: cython.double = 0.0 if still else -body.vx
         vy: cython.double = 0.0 if still else -body.vy
-        bends: cython.double = 0.0 if still else body.bend
+        bends: cython.double = 0.0 if still else body.acceleration
         own: cython.double = 0.0
         if not stands:
             own = other.spin
             vx = vx + other.vx
             vy = vy + other.vy
-            bends = bends + other.bend
+            bends = bends + other.acceleration
         nx: cython.double = self.edge_x
         ny: cython.double = self.edge_y
         corner: Corner
@@ -443,7 +443,7 @@ class PiecePair(Pair):
         """Return the time, at most h, that follows from the present normal.
 
         The distance along it is a lower bound of the gap at any time. A corner at r from its body's
-        pose moves with velocity + i spin r, which turns by at most bend + spin^2 |r|.
+        pose moves with velocity + i spin r, which turns by at most its acceleration + spin^2 |r|.
         """
         floor: cython.double = depth / 256
         base: cython.double = (
@@ -460,7 +460,7 @@ class PiecePair(Pair):
         for corner in self.p.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
-            turn: cython.double = a.bend + a.spin * a.spin * corner.lever
+            turn: cython.double = a.acceleration + a.spin * a.spin * corner.lever
             for other in self.q.corners:
                 room: cython.double = nx * other.x + ny * other.y - place + base + depth
                 closing: cython.double = speed
@@ -469,7 +469,7 @@ class PiecePair(Pair):
                     closing = closing - (
                         nx * b.vx + ny * b.vy + b.spin * (ny * other.x - nx * other.y)
                     )
-                    turns = turns + b.bend + b.spin * b.spin * other.lever
+                    turns = turns + b.acceleration + b.spin * b.spin * other.lever
                 room = max(room, floor)
                 if closing * h + 0.5 * turns * h * h > room:
                     h = min(h, time_to_close(room, closing, turns))
@@ -500,13 +500,13 @@ class PiecePair(Pair):
         corner: Corner
         for corner in self.p.corners:
             speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
-            turn: cython.double = a.bend + a.spin * a.spin * corner.lever
+            turn: cython.double = a.acceleration + a.spin * a.spin * corner.lever
             front = max(front, nx * corner.x + ny * corner.y + speed * h + turn * half)
         for corner in self.q.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             if not self.is_wall:
                 speed = nx * b.vx + ny * b.vy + b.spin * (ny * corner.x - nx * corner.y)
-                turn = b.bend + b.spin * b.spin * corner.lever
+                turn = b.acceleration + b.spin * b.spin * corner.lever
                 place = place + speed * h - turn * half
             back = min(back, place)
         return back - front + room >= 0.0

@@ -20,9 +20,9 @@ class RigidBody(Progress):
     laid: cython.bint  # whether faces go on in other bodies
     mass: cython.double
     moment: cython.double  # about the centre of mass
-    lead: cython.double  # m, from the pose ahead to the centre of mass
-    lead_x: cython.double  # the same in the world, as it was last worked out
-    lead_y: cython.double
+    com: cython.double  # m, from the pose ahead to the centre of mass
+    com_x: cython.double  # the same in the world, as it was last worked out
+    com_y: cython.double
     radius: cython.double  # of a circle round it
     offset_x: cython.double  # from the pose to the circle's centre, in its frame
     offset_y: cython.double
@@ -44,7 +44,7 @@ class RigidBody(Progress):
     def describe(self, what: dict[str, Any]) -> None:
         """Set the properties, by the names above; those that do not apply may be left out."""
         self.mass, self.moment = what["mass"], what["moment"]
-        self.lead = what.get("lead", 0.0)
+        self.com = what.get("com", 0.0)
         self.radius, self.is_disc = what["radius"], what["is_disc"]
         self.offset_x, self.offset_y = what["offset_x"], what["offset_y"]
         self.offset = length(self.offset_x, self.offset_y)
@@ -82,12 +82,12 @@ class RigidBody(Progress):
                 corner.starts_in = self.number if corner.starts_in == self.number else -1
 
     @cython.cfunc
-    def lean(self, angle: cython.double) -> cython.void:
+    def place_com(self, angle: cython.double) -> cython.void:
         """Work out where its centre of mass lies from its pose at a heading."""
         c: cython.double
         s: cython.double
         c, s = cosine_sine(angle)
-        self.lead_x, self.lead_y = self.lead * c, self.lead * s
+        self.com_x, self.com_y = self.com * c, self.com * s
 
     @cython.cfunc
     def kinetic_at(
@@ -106,7 +106,7 @@ class RigidBody(Progress):
     @cython.cfunc
     def account_now(self) -> cython.void:
         """Do the same at its present velocity."""
-        if self.lead != 0.0:
-            self.lean(self.angle)
-        x: cython.double = self.vx - self.spin * self.lead_y
-        self.account(x, self.vy + self.spin * self.lead_x, self.spin)
+        if self.com != 0.0:
+            self.place_com(self.angle)
+        x: cython.double = self.vx - self.spin * self.com_y
+        self.account(x, self.vy + self.spin * self.com_x, self.spin)

@@ -52,29 +52,29 @@ class Solver:
     used: cython.bint  # in this control step
     idle: cython.bint  # whether it waits for an island
     stale: cython.bint  # whether bodies have moved without it since its last step
-    mend_rate: cython.double
-    joint_mend_rate: cython.double
-    mend_base: cython.double  # e to the power of minus the rate
-    joint_mend_base: cython.double
-    mend: cython.double  # what the engine is told for steps as long as the last one
-    joint_mend: cython.double
+    bias_rate: cython.double
+    joint_bias_rate: cython.double
+    bias_base: cython.double  # e to the power of minus the rate
+    joint_bias_base: cython.double
+    bias: cython.double  # what the engine is told for steps as long as the last one
+    joint_bias: cython.double
     surfaces: object  # kept for the space, which knows its address
     room: cython.double
 
     def __init__(
-        self, slop: float, room: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
+        self, slop: float, room: float, bias_rate: float, joint_bias_rate: float, surfaces: Any
     ) -> None:
         """Make an empty one.
 
         slop: the overlap that is left in steady contact, metres. room: up to which a step
-        between faces is not felt. mend_rate, joint_mend_rate: how what is beyond decays, and what
+        between faces is not felt. bias_rate, joint_bias_rate: how what is beyond decays, and what
         joints are off by, 1/s. surfaces: what settles friction and restitution; None: they are
         products.
         """
         self.space, self.room = chipmunk.new_space(slop), room
-        self.mend_rate, self.joint_mend_rate = mend_rate, joint_mend_rate
-        self.mend_base = exponential(-mend_rate)
-        self.joint_mend_base = exponential(-joint_mend_rate)
+        self.bias_rate, self.joint_bias_rate = bias_rate, joint_bias_rate
+        self.bias_base = exponential(-bias_rate)
+        self.joint_bias_base = exponential(-joint_bias_rate)
         self.surfaces = surfaces
         if surfaces is not None:
             chipmunk.watch(self.space, surfaces)
@@ -105,8 +105,8 @@ class Solver:
         """Make a body, its shapes, and the joints that hold it."""
         body.made = True
         body.handle = chipmunk.new_body(body.mass, body.moment, body.number)
-        if body.lead != 0.0:
-            chipmunk.weight_at(body.handle, body.lead)
+        if body.com != 0.0:
+            chipmunk.weight_at(body.handle, body.com)
         piece: Piece
         other: Piece
         for piece in body.pieces:
@@ -244,8 +244,8 @@ class Solver:
     @cython.cfunc
     def make_parts(self, tie: Tie) -> cython.void:
         """Make the parts of a joint start again."""
-        if self.joint_mend == 0.0 and self.last_step < 1e300:
-            self.joint_mend = decay_base(self.joint_mend_rate, self.joint_mend_base, self.last_step)
+        if self.joint_bias == 0.0 and self.last_step < 1e300:
+            self.joint_bias = decay_base(self.joint_bias_rate, self.joint_bias_base, self.last_step)
         k: cython.int
         a: Handle = tie.a.handle
         b: Handle = chipmunk.ground_of(self.space) if tie.to_world else tie.b.handle
@@ -262,7 +262,7 @@ class Solver:
             part.handle = chipmunk.make_joint(kind, part.handle, first, second, ends, p, q, r)
             chipmunk.set_joint(
                 part.handle,
-                0.0 if kind == ROTARY_LIMIT else self.joint_mend,
+                0.0 if kind == ROTARY_LIMIT else self.joint_bias,
                 not tie.pinned,
             )
             if tie.is_rope and k == 0:
@@ -351,7 +351,7 @@ class Solver:
         k: cython.int
         if h != self.last_step:
             self.last_step = h
-            self.mend, self.joint_mend = decay_base(self.mend_rate, self.mend_base, h), 0.0
+            self.bias, self.joint_bias = decay_base(self.bias_rate, self.bias_base, h), 0.0
         if ratio != 1.0:
             for k in range(self.find_contacts()):
                 chipmunk.scale(self.arbiters.at(k), ratio)
@@ -430,7 +430,7 @@ class Solver:
                 self.rebound(tie, h)
         for body in self.bodies:
             self.prepare(body, h)
-        chipmunk.step(self.space, h, self.mend)
+        chipmunk.step(self.space, h, self.bias)
         self.used = True
         for body in self.bodies:
             where: Vector = chipmunk.position_of(body.handle)
@@ -459,10 +459,10 @@ class Solver:
         if body.wheeled:
             drag = chipmunk.drag_of(body.side, GROOVE)
             body.drag_x, body.drag_y = body.drag_x + drag.x, body.drag_y + drag.y
-        if body.lead != 0.0:
-            body.lean(body.angle)
+        if body.com != 0.0:
+            body.place_com(body.angle)
         turn: cython.double = chipmunk.twist_of(body.gear)
-        body.drag_turn = turn - body.lead_x * body.drag_y + body.lead_y * body.drag_x
+        body.drag_turn = turn - body.com_x * body.drag_y + body.com_y * body.drag_x
 
     @cython.cfunc
     def used_by(self, body: Body) -> cython.double:
@@ -497,20 +497,20 @@ class Solver:
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
         """
-        if body.lead != 0.0:
-            body.lean(body.angle)
-            body.x, body.y = body.x + body.lead_x, body.y + body.lead_y
+        if body.com != 0.0:
+            body.place_com(body.angle)
+            body.x, body.y = body.x + body.com_x, body.y + body.com_y
         body.x += shift * (body.after_x - body.before_x)
         body.y += shift * (body.after_y - body.before_y)
         body.angle += shift * (body.spin - body.before_spin)
         body.vx, body.vy, body.placed = body.after_x, body.after_y, True
         if body.eased:
             chipmunk.settle_down(body.handle)
-        if body.lead != 0.0:
-            body.lean(body.angle)
-            body.x, body.y = body.x - body.lead_x, body.y - body.lead_y
-            body.vx += body.spin * body.lead_y
-            body.vy -= body.spin * body.lead_x
+        if body.com != 0.0:
+            body.place_com(body.angle)
+            body.x, body.y = body.x - body.com_x, body.y - body.com_y
+            body.vx += body.spin * body.com_y
+            body.vy -= body.spin * body.com_x
         x: cython.double = (body.before_x + body.after_x) / 2
         y: cython.double = (body.before_y + body.after_y) / 2
         spin: cython.double = (body.before_spin + body.spin) / 2
@@ -557,12 +557,12 @@ class Solver:
         if not body.is_robot and body.rest_grip > 0.0:
             self.brake(body, h)
         body.pull_turn = body.pull_torque
-        if body.lead != 0.0:  # the engine's velocities and forces are those at the centre of mass
+        if body.com != 0.0:  # the engine's velocities and forces are those at the centre of mass
             if not body.solved:
-                body.lean(body.angle + h * body.aim_spin)
-            vx, vy = vx - spin * body.lead_y, vy + spin * body.lead_x
-            body.lean(body.angle)
-            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
+                body.place_com(body.angle + h * body.aim_spin)
+            vx, vy = vx - spin * body.com_y, vy + spin * body.com_x
+            body.place_com(body.angle)
+            body.pull_turn -= body.com_x * body.pull_y - body.com_y * body.pull_x
         self.set_off(body, vx, vy, spin, h)
         body.placed = False
         if body.pulled:
@@ -587,22 +587,22 @@ class Solver:
         behind, since these are to act on it in the middle. vx, vy: of its centre of mass.
         """
         goes: cython.bint = vx != 0.0 or vy != 0.0 or spin != 0.0
-        x: cython.double = body.x + body.lead_x
-        y: cython.double = body.y + body.lead_y
+        x: cython.double = body.x + body.com_x
+        y: cython.double = body.y + body.com_y
         angle: cython.double = body.angle
         if not body.solved and (body.aim_x != vx or body.aim_y != vy or body.aim_spin != spin):
-            if body.lead != 0.0:
-                body.lean(angle + h * body.aim_spin)
-                x, y = body.x + body.lead_x, body.y + body.lead_y
+            if body.com != 0.0:
+                body.place_com(angle + h * body.aim_spin)
+                x, y = body.x + body.com_x, body.y + body.com_y
             x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
             angle += h * (body.aim_spin - spin)
         elif not body.placed and not (goes and self.ties):
             return
         if self.ties:
             x, y, angle = x - h / 2 * vx, y - h / 2 * vy, angle - h / 2 * spin
-        if body.lead != 0.0:
-            body.lean(angle)
-            x, y = x - body.lead_x, y - body.lead_y
+        if body.com != 0.0:
+            body.place_com(angle)
+            x, y = x - body.com_x, y - body.com_y
         chipmunk.put(body.handle, x, y, angle)
 
     @cython.cfunc
@@ -638,10 +638,10 @@ class Solver:
         y: cython.double = body.y + late * vy
         if not body.solved:
             x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
-        if body.solved and body.lead != 0.0:  # it goes round its centre of mass
-            body.lean(body.angle)
-            x += body.lead_x - late * body.spin * body.lead_y - body.lead * c
-            y += body.lead_y + late * body.spin * body.lead_x - body.lead * s
+        if body.solved and body.com != 0.0:  # it goes round its centre of mass
+            body.place_com(body.angle)
+            x += body.com_x - late * body.spin * body.com_y - body.com * c
+            y += body.com_y + late * body.spin * body.com_x - body.com * s
         chipmunk.put(body.control, x, y, angle)
         body.follow(angle, 0.0)
         if late < h:  # it is to roll along its heading at the end, as fast as it does

@@ -32,7 +32,7 @@ class Thrust:
     turns: cython.double
     keeps: cython.bint  # whether it moves as commanded
     bent: cython.bint  # whether the commanded velocity turns
-    strains: cython.bint  # whether its drive does all that it can
+    saturated: cython.bint  # whether its drive does all that it can
 
     @cython.cfunc
     def over(self, body: Body, h: cython.double) -> cython.void:
@@ -53,7 +53,7 @@ class Thrust:
                 self.follow(body, part)
                 break
             gone += self.advance(body, min(part, fine))
-        if self.strains:
+        if self.saturated:
             body.effort = 1.0
         elif body.limited:
             share: cython.double = body.pull_on_arc(body.turning) / body.force_across()
@@ -61,7 +61,7 @@ class Thrust:
         body.aim_x, body.aim_y = self.way_x / h, self.way_y / h
         body.aim_spin = (self.angle - body.angle) / h
         body.end_x, body.end_y, body.end_spin = self.vx, self.vy, self.spin
-        body.gathers = not self.keeps or body.lags(self.spin)
+        body.accelerates = not self.keeps or body.lags(self.spin)
 
     @cython.cfunc
     def begin(self, body: Body) -> cython.void:
@@ -74,7 +74,7 @@ class Thrust:
         self.bent = body.in_robot_frame and (body.spin != 0.0 or body.turning != 0.0)
         moves: cython.bint = body.wheeled and (body.vx != 0.0 or body.vy != 0.0)
         self.bent = self.bent and (moves or body.forward != 0.0 or body.left != 0.0)
-        self.strains = False
+        self.saturated = False
 
     @cython.cfunc
     def follow(self, body: Body, part: cython.double) -> cython.void:
@@ -99,7 +99,7 @@ class Thrust:
         rate: cython.double = 0.0
         meets: cython.bint = False
         if lack != 0.0:
-            self.strains = True
+            self.saturated = True
             rate = self.turns if lack > 0.0 else -self.turns
             meets = lack / rate <= part
         if meets:
@@ -141,7 +141,7 @@ class Thrust:
     @cython.cfunc
     def gain(self, body: Body, part: cython.double, rate: cython.double) -> cython.double:
         """Go towards the commanded velocity; return for how long, at most the part."""
-        self.strains = True
+        self.saturated = True
         body.follow(self.angle + part * (self.spin + rate * part / 2), 0.0)
         x: cython.double = body.aim_x - self.vx
         y: cython.double = body.aim_y - self.vy
