@@ -10,7 +10,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d.physics.islands.pair import DiscPair, DiscWall, Pair, PiecePair
+from mars2d.physics.islands.pair import DiscPair, Pair, PiecePair
 from tests.islands import DISC, SQUARE, body_of, let_move, piece_of, place, wall_of
 
 LONG = 1e9
@@ -236,11 +236,11 @@ def discs(position, radii=(0.1, 0.2)) -> DiscPair:
     return pair
 
 
-def disc_at(position, start, end, radius=0.1) -> DiscWall:
+def disc_at(position, start, end, radius=0.1) -> DiscPair:
     """A disc and a wall that have been measured."""
     a = body_of(piece_of(DISC, radius))
     place(a, position)
-    pair = DiscWall(a, a, wall_of(start, end))
+    pair = DiscPair(a, a, wall_of(start, end))
     pair.measure()
     return pair
 
@@ -270,7 +270,8 @@ def test_a_disc_and_a_wall_are_apart_by_the_way_to_its_nearest_point(position, s
     pair = disc_at(position, start, start + way)
     distance = gap_to_segment(position, start, start + way)
     assert pair.gap == pytest.approx(distance - 0.1, abs=1e-6)
-    assert pair.wall.gap(position.real, position.imag) == pytest.approx(pair.gap + 0.1, abs=1e-15)
+    shortest = complex(*pair.wall.way(position.real, position.imag))
+    assert abs(shortest) == pytest.approx(pair.gap + 0.1, abs=1e-15)
     if distance > 1e-3:  # along the normal it comes to the wall
         reached = position + (pair.gap + 0.1) * complex(pair.normal_x, pair.normal_y)
         assert gap_to_segment(reached, start, start + way) < 1e-6

@@ -19,9 +19,9 @@ from mars2d.physics.islands.contacts import (
     Touch,
     begin_touches_again,
     close_touches,
+    end_touches,
     keep_touches,
     note_row,
-    part,
     take_touches,
 )
 from mars2d.physics.motion import WIDE
@@ -153,7 +153,7 @@ def test_rows_come_by_time_and_then_by_pair_and_what_has_parted_is_forgotten():
         (0.1, 1, 2), (0.1, 2, -1), (0.2, 0, 2),
     ]  # fmt: skip
     for body in bodies[:2]:
-        part(body, 0.1)
+        end_touches(body, 0.1)
     take(bodies)
     assert [len(body.contacts) for body in bodies] == [0, 0, 1]
 

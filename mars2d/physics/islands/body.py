@@ -183,18 +183,23 @@ class Body(DrivenBody):
     @cython.cfunc
     def advance_half(self, h: cython.double) -> cython.void:
         """Go on for half of h s at the velocity that its centre of mass had before the step."""
+        self.displace(h / 2 * self.before_x, h / 2 * self.before_y, h / 2 * self.before_spin)
+
+    @cython.cfunc
+    def displace(self, x: cython.double, y: cython.double, turn: cython.double) -> cython.void:
+        """Move its centre of mass by x and y, metres, and turn it about that, rad."""
         if self.com != 0.0:
             self.place_com(self.angle)
             self.x, self.y = self.x + self.com_x, self.y + self.com_y
-        self.x += h / 2 * self.before_x
-        self.y += h / 2 * self.before_y
-        self.angle += h / 2 * self.before_spin
+        self.x += x
+        self.y += y
+        self.angle += turn
         if self.com != 0.0:
             self.place_com(self.angle)
             self.x, self.y = self.x - self.com_x, self.y - self.com_y
 
     @cython.cfunc
-    def part(self, h: cython.double) -> cython.void:
+    def correct(self, h: cython.double) -> cython.void:
         """Go as far as the engine moved it in h s to mend overlaps, beyond its velocity's way."""
         x: cython.double = self.moved_x - (self.back.x + h * self.back.vx)
         y: cython.double = self.moved_y - (self.back.y + h * self.back.vy)

@@ -6,14 +6,11 @@ addresses: ``chipmunk.pxi`` is this module in C. No other module here knows the 
 
 from __future__ import annotations
 
-from functools import cache
-from itertools import chain
-from math import sqrt
 from typing import Any, TypeAlias
 
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.physics.islands.arithmetic import cosine_sine, exponential, implicitness
+from mars2d.physics.islands.arithmetic import cosine_sine, implicitness
 
 Handle: TypeAlias = Any
 """A thing of the engine."""
@@ -182,30 +179,6 @@ def _MOVE(body: Handle, h: float) -> None:  # noqa: N802
     _turn(numbers, angle, *cosine_sine(angle))
 
 
-@cache
-def bodies_are_as_thought() -> bool:
-    """Whether bodies have their numbers where they are read and written."""
-    body = lib.cpBodyNew(2.0, 3.0)
-    lib.cpBodySetCenterOfGravity(body, (0.25, -0.5))
-    lib.cpBodySetAngle(body, 0.75)
-    lib.cpBodySetPosition(body, (4.0, 5.0))
-    aim(body, 6.0, 7.0, 8.0)
-    numbers = ffi.cast("double *", body)
-    c, s = cosine_sine(0.75)
-    wanted = {
-        LEAD: (0.25, -0.5), CENTER: (4 + 0.25 * c + 0.5 * s, 5 + 0.25 * s - 0.5 * c),
-        FAST: (6.0, 7.0), ANGLE: (0.75,), SPIN: (8.0,), TURN: (c, s, -s, c, 4.0, 5.0),
-        BIAS: (0.0, 0.0), SPIN_BIAS: (0.0,),
-    }  # fmt: skip
-    found = [
-        abs(numbers[place + k] - value)
-        for place, values in wanted.items()
-        for k, value in enumerate(values)
-    ]
-    lib.cpBodyFree(body)
-    return bool(max(found) < 1e-12)
-
-
 def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
     """Give a body a velocity."""
     lib.cpBodySetVelocity(body, (vx, vy))
@@ -239,16 +212,6 @@ def make_joint(
     needed, any. p, q, r: the kind's numbers, in the order in which the engine takes them. A groove
     of a goes from (-p, -q) to (p, q).
     """
-    made = _made(kind, joint, a, b, ends, p, q, r)
-    if kind in (DAMPED_SPRING, ROTARY_SPRING) and r > 0.0 and springs_are_as_thought():
-        _damp(kind, made)
-    return made
-
-
-def _made(
-    kind: int, joint: Handle, a: Handle, b: Handle, ends: Any, p: float, q: float, r: float
-) -> Handle:
-    """Return a joint as the engine makes it."""
     itself = _ALLOC[kind]() if joint is None else ffi.cast(_OWN[kind], joint)
     if kind == PIVOT:
         _INIT[kind](itself, a, b, ends[0], ends[1])
@@ -267,6 +230,10 @@ def _made(
     made = ffi.cast(_BASE, itself)
     if kind == PIN:
         lib.cpPinJointSetDist(made, p)
+    elif kind == DAMPED_SPRING and r > 0.0:
+        lib.cpDampedSpringSetSpringForceFunc(made, _PULL)
+    elif kind == ROTARY_SPRING and r > 0.0:
+        lib.cpDampedRotarySpringSetSpringTorqueFunc(made, _TWIST)
     return made
 
 
@@ -336,86 +303,16 @@ def _damped(spring: Handle, rest: int, lost: int, felt: int, closing: float) -> 
     return float(n[rest + 1])
 
 
-def _damp(kind: int, spring: Handle) -> None:
-    """Let a spring be damped as we do."""
-    if kind == DAMPED_SPRING:
-        lib.cpDampedSpringSetSpringForceFunc(spring, _PULL)
-    else:
-        lib.cpDampedRotarySpringSetSpringTorqueFunc(spring, _TWIST)
-
-
-@cache
-def springs_are_as_thought() -> bool:
-    """Whether springs have their numbers there: one of each kind is stepped to find out."""
-    space, body = new_space(0.0), new_body(2.0, 3.0, 0)
-    ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
-    add_body(space, body)
-    put(body, 0.5, 0.0, 0.25)
-    kinds = (
-        (DAMPED_SPRING, REST, LOST, FELT, 2.0),
-        (ROTARY_SPRING, REST_ANGLE, LOST_TURNING, FELT_TURNING, 3.0),
-    )
-    off = 0.0
-    for kind, rest, lost, felt, feels in kinds:
-        spring = _made(kind, None, ground, body, ends, 0.125, 4.0, 1.5)
-        add_joint(space, spring)
-        step(space, 0.0625, 0.5)
-        found = [_numbers(spring, *each) for each in ((rest, 3), (lost, 1), (felt, 1))]
-        wanted = [0.125, 4.0, 1.5, 1.0 - exponential(-1.5 * 0.0625 / feels), feels]
-        off = max(off, *(abs(a - b) for a, b in zip(chain(*found), wanted, strict=True)))
-        remove_joint(space, spring)
-        free_joint(spring)
-    remove_body(space, body)
-    free_body(body)
-    free_space(space)
-    return bool(off < 1e-12)
-
-
-@cache
-def impulses_are_where_thought() -> bool:
-    """Whether drives' impulses are found where they are read: a body is stopped to find out."""
-    space, body = new_space(0.0), new_body(2.0, 3.0, 0)
-    ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
-    pivot = make_joint(PIVOT, None, ground, body, ends, 0.0, 0.0, 0.0)
-    gear = make_joint(GEAR, None, ground, body, ends, 0.0, 1.0, 0.0)
-    groove = make_joint(GROOVE, None, ground, body, ends, 0.0, 1.0, 0.0)
-    set_max_force(groove, 1.0)
-    add_body(space, body)
-    for joint in (groove, pivot, gear):
-        add_joint(space, joint)
-    aim(body, 1.5, -2.0, 4.0)
-    step(space, 0.0625, 0.5)
-    x, y, turn = *_numbers(pivot, PIVOT_IMPULSE, 2), *_numbers(gear, GEAR_IMPULSE, 1)
-    known = used_of(pivot) == sqrt(x * x + y * y) and used_of(gear) == abs(turn)
-    known = known and _numbers(groove, GROOVE_IMPULSE, 2) == [-used_of(groove), 0.0] != [0.0, 0.0]
-    for joint in (groove, pivot, gear):
-        remove_joint(space, joint)
-        free_joint(joint)
-    remove_body(space, body)
-    free_body(body)
-    free_space(space)
-    return bool(known and x < 0 < y and turn < 0)
-
-
-def _numbers(joint: Handle, place: int, count: int) -> list[float]:
-    numbers = ffi.cast("double *", joint)
-    return [float(numbers[place + k]) for k in range(count)]
-
-
 def drag_of(joint: Handle, kind: int) -> Vector:
-    """Return the impulse of a joint, PIVOT or GROOVE, on its second body in the last step.
-
-    It is zero with an engine that has it elsewhere: then a joint's work has that of drives in it.
-    """
-    if not impulses_are_where_thought():
-        return ffi.new("cpVect *")[0]
+    """Return the impulse of a joint, PIVOT or GROOVE, on its second body in the last step."""
+    numbers = ffi.cast("double *", joint)
     place = GROOVE_IMPULSE if kind == GROOVE else PIVOT_IMPULSE
-    return ffi.new("cpVect *", _numbers(joint, place, 2))[0]
+    return ffi.new("cpVect *", (numbers[place], numbers[place + 1]))[0]
 
 
 def twist_of(joint: Handle) -> float:
     """Return the turning impulse of a joint of the kind GEAR on its second body."""
-    return _numbers(joint, GEAR_IMPULSE, 1)[0] if impulses_are_where_thought() else 0.0
+    return float(ffi.cast("double *", joint)[GEAR_IMPULSE])
 
 
 set_max_force, set_max_bias = lib.cpConstraintSetMaxForce, lib.cpConstraintSetMaxBias

@@ -44,12 +44,6 @@ class Row:
         self.vy += sign * (body.before_y + body.before_spin * (self.x - body.x))
 
     @cython.cfunc
-    def push_apart(self) -> cython.void:
-        """Let the impulse act on the second: the solver's sign depends on the order of shapes."""
-        if self.impulse_x * self.normal_x + self.impulse_y * self.normal_y < 0:
-            self.impulse_x, self.impulse_y = -self.impulse_x, -self.impulse_y
-
-    @cython.cfunc
     def is_above(self, other: Row) -> cython.bint:
         """Return whether it is the stronger one; of equal ones one of them is."""
         mine: cython.double = length(self.impulse_x, self.impulse_y)
@@ -245,7 +239,7 @@ def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.v
 
 
 @cython.cfunc
-def part(body: Body, time: cython.double) -> cython.void:
+def end_touches(body: Body, time: cython.double) -> cython.void:
     """Note that a body touches nothing of larger number, and no obstacle, from `time` on."""
     touch: Touch
     for touch in body.contacts:

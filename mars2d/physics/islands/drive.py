@@ -113,11 +113,6 @@ class DrivenBody(RigidBody):
         return self.force if self.grip_across >= 1e300 else self.grip_across
 
     @cython.cfunc
-    def least_force(self) -> cython.double:
-        """Return the force that its drive can bear at rest in any direction."""
-        return min(self.force, self.grip_ahead, self.grip_across)
-
-    @cython.cfunc
     def bear(
         self,
         x: cython.double,

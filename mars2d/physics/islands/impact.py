@@ -103,23 +103,18 @@ class Impact:
         y: cython.double = 0.0
         after_x: cython.double = 0.0
         after_y: cython.double = 0.0
-        body: Body
+        a: Body = self.a
+        b: Body = self.b
         if self.has_b:
-            body = self.b
-            x, y = (
-                body.before_x - body.before_spin * self.arm_by,
-                body.before_y + body.before_spin * self.arm_bx,
-            )
-            after_x, after_y = (
-                body.after_x - body.spin * self.arm_by,
-                body.after_y + body.spin * self.arm_bx,
-            )
+            x = b.before_x - b.before_spin * self.arm_by
+            y = b.before_y + b.before_spin * self.arm_bx
+            after_x = b.after_x - b.spin * self.arm_by
+            after_y = b.after_y + b.spin * self.arm_bx
         if self.has_a:
-            body = self.a
-            x -= body.before_x - body.before_spin * self.arm_ay
-            y -= body.before_y + body.before_spin * self.arm_ax
-            after_x -= body.after_x - body.spin * self.arm_ay
-            after_y -= body.after_y + body.spin * self.arm_ax
+            x -= a.before_x - a.before_spin * self.arm_ay
+            y -= a.before_y + a.before_spin * self.arm_ax
+            after_x -= a.after_x - a.spin * self.arm_ay
+            after_y -= a.after_y + a.spin * self.arm_ax
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
         parting: cython.double = after_x * nx + after_y * ny
@@ -142,10 +137,8 @@ class Impact:
         if self.has_b:
             body = self.b
             turn = body.hit_turn / body.moment
-            x, y = (
-                body.hit_x / body.mass - turn * self.arm_by,
-                body.hit_y / body.mass + turn * self.arm_bx,
-            )
+            x = body.hit_x / body.mass - turn * self.arm_by
+            y = body.hit_y / body.mass + turn * self.arm_bx
         if self.has_a:
             body = self.a
             turn = body.hit_turn / body.moment
@@ -199,7 +192,10 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
         body.crowd, body.driven = 1, body.is_told()
     if solver.find_contacts() > 0:
         take_hits(solver, numbers, impact, h)
-        if gains(solver):
+        gain: cython.bint = False
+        for body in solver.bodies:
+            gain = gain or body.push_work + body.rub_work > 0.0 or body.excess > 0.0
+        if gain:
             take_powers(solver, numbers, impact)
             if weaken_contacts(solver):
                 scale_all(solver, numbers, impact)
@@ -276,16 +272,6 @@ def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.dou
             impact.look_at(arbiter, k)
             impact.hit()
             impact.work(chipmunk.bounce_of(arbiter, k), h)
-
-
-@cython.cfunc
-def gains(solver: Solver) -> cython.bint:
-    """Return whether any group gains energy by its contacts, or rebounds too much."""
-    gain: cython.bint = False
-    body: Body
-    for body in solver.bodies:
-        gain = gain or body.push_work + body.rub_work > 0.0 or body.excess > 0.0
-    return gain
 
 
 @cython.cfunc

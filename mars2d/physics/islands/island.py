@@ -21,7 +21,7 @@ from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
 from mars2d.physics.islands.pair import Pair
 from mars2d.physics.islands.solver import Solver
-from mars2d.physics.islands.thrust import Thrust
+from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
 
 
@@ -279,6 +279,7 @@ class Island:
         h: cython.double
         left: cython.double
         count: cython.int = 0
+        k: cython.int
         body: Body
         self.set_accuracy()
         self.measure()
@@ -314,7 +315,8 @@ class Island:
                 self.measure()
                 self.hold_back()
                 self.adapt_iterations()
-                self.note()
+                for k in range(self.solver.arbiters.count()):
+                    self.note_one(self.solver.arbiters.at(k))
             elapsed = duration if h == left else elapsed + h
             self.close(time + elapsed, h)
         for body in self.bodies:
@@ -515,17 +517,7 @@ class Island:
                 continue
             body.since = min(body.since + 1, 1 << 20)
             body.holds = body.follows() and brief and body.since <= self.accuracy.linger
-            self.predict(body, h)
-
-    @cython.cfunc
-    def predict(self, body: Body, h: cython.double) -> cython.void:
-        """Aim a body at where it will be after h s if nothing touches it, in closed form."""
-        if not body.is_robot:
-            self.glide.over(body, h)
-        elif body.follows():
-            body.go_along(h)
-        else:
-            self.thrust.over(body, h)
+            predict(body, h, self.glide, self.thrust)
 
     @cython.cfunc
     def glide_on(self, h: cython.double) -> cython.bint:
@@ -559,8 +551,9 @@ class Island:
 
         What was not pushed by anything has moved in closed form, whatever it touches.
         """
-        body.ahead = body.is_pushed() or body.solved
-        if body.is_pushed() or (body.solved and body.com != 0.0):
+        pushed: cython.bint = body.is_pushed()
+        body.ahead = pushed or body.solved
+        if pushed or (body.solved and body.com != 0.0):
             self.solver.share_out(body, h, body.shift)
             body.slips = True
             if not body.solved and body.shift > 0.0 and not body.tied:
@@ -568,17 +561,17 @@ class Island:
                 body.x -= body.shift * body.vx
                 body.y -= body.shift * body.vy
                 body.angle -= body.shift * body.spin
-                self.predict(body, body.shift)
+                predict(body, body.shift, self.glide, self.thrust)
                 body.advance(body.shift)
                 body.account_now()
             return
         solved: cython.bint = body.solved
         body.go_to(body.back)
         if solved:
-            self.predict(body, h)
+            predict(body, h, self.glide, self.thrust)
         body.advance(h)
         if solved:
-            body.part(h)
+            body.correct(h)
         self.arrive(body)
 
     # -- without forces -----------------------------------------------------------------------
@@ -610,7 +603,8 @@ class Island:
             if not elapsed + h > elapsed:
                 raise FloatingPointError
             for body in self.bodies:
-                self.drift(body, h)
+                predict(body, h, self.glide, self.thrust)
+                body.advance(h)
             self.measure()
             elapsed = duration if h == left else elapsed + h
             self.note_touches(time + elapsed, h)
@@ -638,12 +632,6 @@ class Island:
                 body.obey()
 
     @cython.cfunc
-    def drift(self, body: Body, h: cython.double) -> cython.void:
-        """Move a body for h s as nothing but its command or the floor says."""
-        self.predict(body, h)
-        body.advance(h)
-
-    @cython.cfunc
     def note_touches(self, time: cython.double, h: cython.double) -> cython.void:
         """Note who touches whom after h s, without impulses."""
         row: Row
@@ -669,14 +657,6 @@ class Island:
         self.close(time, h)
 
     # -- contacts -----------------------------------------------------------------------------
-
-    @cython.cfunc
-    def note(self) -> cython.void:
-        """Note who touches whom after a step of the solver."""
-        solver: Solver = self.solver
-        k: cython.int
-        for k in range(solver.arbiters.count()):
-            self.note_one(solver.arbiters.at(k))
 
     @cython.cfunc
     def close(self, time: cython.double, h: cython.double) -> cython.void:
@@ -714,7 +694,9 @@ class Island:
         row.add_speed(a, -1.0)
         if swap:
             row.normal_x, row.normal_y = -row.normal_x, -row.normal_y
-        row.push_apart()
+        if impulse.x * row.normal_x + impulse.y * row.normal_y < 0:
+            # It acts on the second: the solver's sign depends on the order of shapes.
+            row.impulse_x, row.impulse_y = -impulse.x, -impulse.y
         note_row(a, b, row)
 
     @cython.cfunc

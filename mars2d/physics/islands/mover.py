@@ -10,8 +10,8 @@ from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.contacts import (
     Touch,
     begin_touches_again,
+    end_touches,
     keep_touches,
-    part,
     take_touches,
 )
 from mars2d.physics.islands.floor import Glide
@@ -19,7 +19,7 @@ from mars2d.physics.islands.island import Accuracy, Island
 from mars2d.physics.islands.neighbours import Neighbours
 from mars2d.physics.islands.pair import Pair, Wall
 from mars2d.physics.islands.solver import Solver, free_things_of, free_tie
-from mars2d.physics.islands.thrust import Thrust
+from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
 
 
@@ -78,12 +78,7 @@ class Mover:
         self.find_islands(duration)
         while not self.run_islands(duration, time):
             self.find_islands(duration)  # with more room for those that went too far
-        self.neighbours.advance()
-        for body in self.bodies:
-            if not body.near:
-                part(body, time)
-                self.carry(body, duration)
-            body.account_now()
+        self.carry_on(duration, time)
         self.clear_up()
 
     def drift(self, twist: cython.Doubles, duration: float, time: float, stops: bool) -> None:
@@ -102,12 +97,7 @@ class Mover:
         for k in range(self.found):
             island = self.islands[k]
             island.pass_through(duration, time, stops)
-        self.neighbours.advance()
-        for body in self.bodies:
-            if not body.near:
-                part(body, time)
-                self.carry(body, duration)
-            body.account_now()
+        self.carry_on(duration, time)
 
     def command(self, twist: cython.Doubles) -> None:
         """Take the twists of all robots."""
@@ -284,6 +274,7 @@ class Mover:
     def make_islands(self) -> cython.void:
         """Make the islands of those that are near."""
         island: Island
+        pair: Pair
         body: Body
         home: Body
         self.found = 0
@@ -303,7 +294,9 @@ class Mover:
                 body.initial.begin_with(body)
                 keep_touches(body)
             if self.neighbours.at_wall(body):
-                self.add_pairs(island, body.wall_pairs)
+                for pair in body.wall_pairs:
+                    if pair.apart() <= body.way and not pair.hidden():
+                        island.pairs.append(pair)
         self.add_pairs_of_bodies()
 
     @cython.cfunc
@@ -320,14 +313,6 @@ class Mover:
         island.clear()
         self.found += 1
         return island
-
-    @cython.cfunc
-    def add_pairs(self, island: Island, pairs: list[Pair]) -> cython.void:
-        """Add those pairs of a body and walls that may touch."""
-        pair: Pair
-        for pair in pairs:
-            if pair.apart() <= pair.a.way and not pair.hidden():
-                island.pairs.append(pair)
 
     @cython.cfunc
     def add_pairs_of_bodies(self) -> cython.void:
@@ -347,6 +332,17 @@ class Mover:
     # -- who is free --------------------------------------------------------------------------
 
     @cython.cfunc
+    def carry_on(self, duration: cython.double, time: cython.double) -> cython.void:
+        """Carry those that nothing can reach, and end the control step."""
+        body: Body
+        self.neighbours.advance()
+        for body in self.bodies:
+            if not body.near:
+                end_touches(body, time)
+                self.carry(body, duration)
+            body.account_now()
+
+    @cython.cfunc
     def carry(self, body: Body, duration: cython.double) -> cython.void:
         """Move a body that nothing can reach, in closed form."""
         solver: Solver
@@ -354,14 +350,8 @@ class Mover:
             solver = body.solver
             solver.leave(body)
         body.slack, body.load = self.accuracy.slack, 1.0
-        if body.is_robot:
-            body.since = 1 << 20
-        if not body.is_robot:
-            self.glide.over(body, duration)
-        elif body.limited:
-            self.thrust.over(body, duration)
-        else:
-            body.go_along(duration)
+        body.since = 1 << 20
+        predict(body, duration, self.glide, self.thrust)
         body.advance(duration)
 
     @cython.cfunc
@@ -469,7 +459,8 @@ class Mover:
             if body.accelerates:
                 return False
         if body.is_robot:
-            share: cython.double = max(force / body.least_force(), torque / body.torque)
+            least: cython.double = min(body.force, body.grip_ahead, body.grip_across)
+            share: cython.double = max(force / least, torque / body.torque)
             if share > 1.0:
                 return False
             body.effort = max(body.effort, share)

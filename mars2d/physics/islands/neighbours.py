@@ -14,7 +14,7 @@ from typing import Any
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.pair import DiscPair, DiscWall, Pair, PiecePair, Wall
+from mars2d.physics.islands.pair import DiscPair, Pair, PiecePair, Wall
 from mars2d.physics.islands.piece import Piece
 
 FEW = 32
@@ -118,15 +118,18 @@ class Neighbours:
         """List the walls near a body, with a skin that lasts for many control steps."""
         wall: Wall
         piece: Piece
+        x: cython.double
+        y: cython.double
         body.wall_pairs = []
         body.wall_skin = 1e300
         if len(self.walls) > FEW_WALLS:
             body.wall_skin = max(32 * body.way, 4 * body.radius)
         for wall in self.walls:
-            if wall.gap(body.start_x, body.start_y) - body.radius > body.wall_skin:
+            x, y = wall.way(body.start_x, body.start_y)
+            if length(x, y) - body.radius > body.wall_skin:
                 continue
             if body.is_disc:
-                body.wall_pairs.append(DiscWall(body, body, wall))
+                body.wall_pairs.append(DiscPair(body, body, wall))
             else:
                 for piece in body.pieces:
                     body.wall_pairs.append(PiecePair(body, body, wall, piece, wall.piece))

@@ -92,13 +92,13 @@ class Wall:
         return False
 
     @cython.cfunc
-    def gap(self, x: cython.double, y: cython.double) -> cython.double:
-        """Return how far a point is from it."""
+    def way(self, x: cython.double, y: cython.double) -> tuple[cython.double, cython.double]:
+        """Return the shortest way from a point to it."""
         from_x: cython.double = x - self.x
         from_y: cython.double = y - self.y
         along: cython.double = from_x * self.share_x + from_y * self.share_y
         along = min(max(along, 0.0), 1.0)
-        return length(along * self.edge_x - from_x, along * self.edge_y - from_y)
+        return along * self.edge_x - from_x, along * self.edge_y - from_y
 
 
 @cython.cclass
@@ -135,10 +135,10 @@ class Pair:
     @cython.cfunc
     def apart(self) -> cython.double:
         """Return how far apart the circles were at the beginning of the control step."""
-        if self.is_wall:
-            return self.wall.gap(self.a.start_x, self.a.start_y) - self.radii
         x: cython.double = self.b.start_x - self.a.start_x
         y: cython.double = self.b.start_y - self.a.start_y
+        if self.is_wall:
+            x, y = self.wall.way(self.a.start_x, self.a.start_y)
         return length(x, y) - self.radii
 
     @cython.cfunc
@@ -198,76 +198,45 @@ def time_to_close(
     return 2 * room / (total + 1e-12)
 
 
-@cython.cfunc
-def measure_way(pair: Pair, x: cython.double, y: cython.double) -> cython.bint:
-    """Do `Pair.measure` of a disc, given the way from its middle to the other disc or the wall."""
-    far: cython.double = length(x, y)
-    scale: cython.double = 1.0 / max(far, 1e-12)
-    pair.gap = far - pair.radii
-    pair.normal_x, pair.normal_y = x * scale, y * scale
-    return pair.gap <= 0
-
-
-@cython.cfunc
-def disc_time(pair: Pair, h: cython.double, depth: cython.double) -> cython.double:
-    """Return `Pair.time_to_touch` of a disc and another, or a wall.
-
-    Along straight lines, the distance to a convex shape is a convex function of time, so it never
-    falls faster than it does now.
-    """
-    x: cython.double = pair.a.vx
-    y: cython.double = pair.a.vy
-    turn: cython.double = pair.a.acceleration
-    if not pair.is_wall:
-        x = x - pair.b.vx
-        y = y - pair.b.vy
-        turn = turn + pair.b.acceleration
-    closing: cython.double = max(x * pair.normal_x + y * pair.normal_y, 0.0)
-    room: cython.double = max(pair.gap + depth, depth / 64)
-    if closing * h + 0.5 * turn * h * h <= room:
-        return h
-    return min(h, time_to_close(room, closing, turn))
-
-
 @cython.final
 @cython.cclass
 class DiscPair(Pair):
-    """Two discs."""
+    """A disc and another one, or a wall."""
 
     @cython.cfunc
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
-        x: cython.double = self.b.x - self.a.x
-        y: cython.double = self.b.y - self.a.y
-        return measure_way(self, x, y)
+        x: cython.double
+        y: cython.double
+        if self.is_wall:
+            x, y = self.wall.way(self.a.x, self.a.y)
+        else:
+            x, y = self.b.x - self.a.x, self.b.y - self.a.y
+        far: cython.double = length(x, y)
+        scale: cython.double = 1.0 / max(far, 1e-12)
+        self.gap = far - self.radii
+        self.normal_x, self.normal_y = x * scale, y * scale
+        return self.gap <= 0
 
     @cython.cfunc
     def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
-        """Return for how long they get no deeper than `depth`."""
-        return disc_time(self, h, depth)
+        """Return for how long they get no deeper than `depth`.
 
-
-@cython.final
-@cython.cclass
-class DiscWall(Pair):
-    """A disc and a wall."""
-
-    @cython.cfunc
-    def measure(self) -> cython.bint:
-        """Measure the gap and the normal; return whether they touch."""
-        wall: Wall = self.wall
-        from_x: cython.double = self.a.x - wall.x
-        from_y: cython.double = self.a.y - wall.y
-        along: cython.double = from_x * wall.share_x + from_y * wall.share_y
-        along = min(max(along, 0.0), 1.0)
-        x: cython.double = along * wall.edge_x - from_x
-        y: cython.double = along * wall.edge_y - from_y
-        return measure_way(self, x, y)
-
-    @cython.cfunc
-    def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
-        """Return for how long they get no deeper than `depth`."""
-        return disc_time(self, h, depth)
+        Along straight lines, the distance to a convex shape is a convex function of time, so it
+        never falls faster than it does now.
+        """
+        x: cython.double = self.a.vx
+        y: cython.double = self.a.vy
+        turn: cython.double = self.a.acceleration
+        if not self.is_wall:
+            x = x - self.b.vx
+            y = y - self.b.vy
+            turn = turn + self.b.acceleration
+        closing: cython.double = max(x * self.normal_x + y * self.normal_y, 0.0)
+        room: cython.double = max(self.gap + depth, depth / 64)
+        if closing * h + 0.5 * turn * h * h <= room:
+            return h
+        return min(h, time_to_close(room, closing, turn))
 
 
 @cython.final

@@ -147,18 +147,10 @@ class Solver:
         body.gear = chipmunk.make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
         chipmunk.set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
         chipmunk.set_joint(body.gear, 0.0, True)
-        if body.is_robot:
-            self.limit(body, body.bound, body.torque)
-        else:
-            self.limit(body, body.allowed, body.twist_allowed)
-
-    @cython.cfunc
-    def limit(self, body: Body, force: cython.double, torque: cython.double) -> cython.void:
-        """Bound the force and the torque of its joints, which never draw bodies together."""
-        chipmunk.set_max_bias(body.pivot, 0.0)
+        chipmunk.set_max_bias(body.pivot, 0.0)  # they never draw bodies together
         chipmunk.set_max_bias(body.gear, 0.0)
-        chipmunk.set_max_force(body.pivot, force)
-        chipmunk.set_max_force(body.gear, torque)
+        chipmunk.set_max_force(body.pivot, body.bound if body.is_robot else body.allowed)
+        chipmunk.set_max_force(body.gear, body.torque if body.is_robot else body.twist_allowed)
 
     @cython.cfunc
     def engage(self, body: Body) -> cython.void:
@@ -184,7 +176,8 @@ class Solver:
         tie: Tie
         for tie in self.ties[:]:
             if tie.a is body or tie.b is body:
-                self.untie(tie)
+                self.remove_parts(tie)
+                self.ties.remove(tie)
         if body.engaged:
             self.disengage(body)
         shape: Held
@@ -295,21 +288,6 @@ class Solver:
         return most
 
     @cython.cfunc
-    def untie(self, tie: Tie) -> cython.void:
-        """Take a joint out."""
-        self.remove_parts(tie)
-        self.ties.remove(tie)
-
-    @cython.cfunc
-    def draw_in(self, tie: Tie, speed: cython.double) -> cython.void:
-        """Bound the speed at which a rope, if it is too long, is drawn in.
-
-        A body that is drawn in keeps moving, which makes the rope slack.
-        """
-        part: Held = tie.joints[0]
-        chipmunk.set_max_bias(part.handle, speed)
-
-    @cython.cfunc
     def rebound(self, tie: Tie, h: cython.double) -> cython.void:
         """Let a limit that a joint reaches within h s turn it back at its restitution.
 
@@ -381,19 +359,16 @@ class Solver:
         self.engage(body)
 
     @cython.cfunc
-    def rests(self) -> cython.bint:
-        """Return whether nothing moves, and nothing is told, pulled or tied to."""
+    def relax(self) -> cython.void:
+        """Let bodies that rest press each other no longer: rigid ones keep no tension.
+
+        They do not if any moves, or is told or pulled or tied to.
+        """
         body: Body
         for body in self.bodies:
-            if body.pulled or body.is_told() or body.top_speed() > STILL:
-                return False
-        return not self.ties
-
-    @cython.cfunc
-    def relax(self) -> cython.void:
-        """Let bodies press each other no longer: rigid ones at rest keep no tension."""
+            if self.ties or body.pulled or body.is_told() or body.top_speed() > STILL:
+                return
         self.stale = True
-        body: Body
         for body in self.bodies:
             if body.engaged and (self.used_by(body) > 0.0 or chipmunk.used_of(body.gear) > 0.0):
                 self.renew(body)
@@ -418,13 +393,15 @@ class Solver:
             for body in self.bodies:
                 if body.solved and body.engaged:
                     self.renew(body)
-        if self.rests():
-            self.relax()
+        self.relax()
         self.forget(h)
         tie: Tie
         for tie in self.ties:
-            if tie.is_rope:
-                self.draw_in(tie, tie.turn * h)
+            if (
+                tie.is_rope
+            ):  # what a rope that is too long draws in fast would go on, and slacken it
+                rope: Held = tie.joints[0]
+                chipmunk.set_max_bias(rope.handle, tie.turn * h)
             tie.hits = tie.is_rope and tie.slack > 0.0
             if tie.largest < 1e300:
                 self.rebound(tie, h)
@@ -497,18 +474,14 @@ class Solver:
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
         """
-        if body.com != 0.0:
-            body.place_com(body.angle)
-            body.x, body.y = body.x + body.com_x, body.y + body.com_y
-        body.x += shift * (body.after_x - body.before_x)
-        body.y += shift * (body.after_y - body.before_y)
-        body.angle += shift * (body.spin - body.before_spin)
+        body.displace(
+            shift * (body.after_x - body.before_x), shift * (body.after_y - body.before_y),
+            shift * (body.spin - body.before_spin),
+        )  # fmt: skip
         body.vx, body.vy, body.placed = body.after_x, body.after_y, True
         if body.eased:
             chipmunk.settle_down(body.handle)
         if body.com != 0.0:
-            body.place_com(body.angle)
-            body.x, body.y = body.x - body.com_x, body.y - body.com_y
             body.vx += body.spin * body.com_y
             body.vy -= body.spin * body.com_x
         x: cython.double = (body.before_x + body.after_x) / 2

@@ -13,6 +13,7 @@ from __future__ import annotations
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
 from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.floor import Glide
 
 
 @cython.final
@@ -207,6 +208,17 @@ class Thrust:
         self.way_y += part * (self.vy + s * push / 2 + c * hold * share)
         self.vx += c * push - s * hold
         self.vy += s * push + c * hold
+
+
+@cython.cfunc
+def predict(body: Body, h: cython.double, glide: Glide, thrust: Thrust) -> cython.void:
+    """Aim a body at where it will be after h s if nothing touches it, in closed form."""
+    if not body.is_robot:
+        glide.over(body, h)
+    elif body.follows():
+        body.go_along(h)
+    else:
+        thrust.over(body, h)
 
 
 @cython.cfunc
