@@ -10,7 +10,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d.physics.islands.pair import DiscPair, Pair, PiecePair
+from mars2d.physics.islands.pair import Pair, PiecePair
 from tests.islands import DISC, SQUARE, body_of, let_move, piece_of, place, wall_of
 
 LONG = 1e9
@@ -226,21 +226,21 @@ def test_a_turned_scene_has_the_same_gaps_and_turned_normals():
 places = st.complex_numbers(max_magnitude=3, allow_nan=False)
 
 
-def discs(position, radii=(0.1, 0.2)) -> DiscPair:
+def discs(position, radii=(0.1, 0.2)) -> Pair:
     """Two discs that have been measured."""
     a, b = (body_of(piece_of(DISC, r), number=k) for k, r in enumerate(radii))
     place(a, position[0])
     place(b, position[1])
-    pair = DiscPair(a, b, None)
+    pair = Pair(a, b, None)
     pair.measure()
     return pair
 
 
-def disc_at(position, start, end, radius=0.1) -> DiscPair:
+def disc_at(position, start, end, radius=0.1) -> Pair:
     """A disc and a wall that have been measured."""
     a = body_of(piece_of(DISC, radius))
     place(a, position)
-    pair = DiscPair(a, a, wall_of(start, end))
+    pair = Pair(a, a, wall_of(start, end))
     pair.measure()
     return pair
 

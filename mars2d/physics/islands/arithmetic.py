@@ -113,8 +113,6 @@ def decay_base(rate: cython.double, base: cython.double, h: cython.double) -> cy
     two numbers are rounded to one by some libraries, and to the other by others; here exp(-rate h)
     is worked out to twice the digits, and the base is shifted until its power is a number itself.
     """
-    p: cython.double
-    error: cython.double
     p, error = _product(rate, h)
     n: cython.double = floor(p * 1.4426950408889634 + 0.5)
     r: cython.double = n * 6.93147180369123816490e-01 - p

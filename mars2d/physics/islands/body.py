@@ -181,11 +181,6 @@ class Body(DrivenBody):
         self.vx, self.vy, self.spin = self.end_x, self.end_y, self.end_spin
 
     @cython.cfunc
-    def advance_half(self, h: cython.double) -> cython.void:
-        """Go on for half of h s at the velocity that its centre of mass had before the step."""
-        self.displace(h / 2 * self.before_x, h / 2 * self.before_y, h / 2 * self.before_spin)
-
-    @cython.cfunc
     def displace(self, x: cython.double, y: cython.double, turn: cython.double) -> cython.void:
         """Move its centre of mass by x and y, metres, and turn it about that, rad."""
         if self.com != 0.0:

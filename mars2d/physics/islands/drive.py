@@ -67,8 +67,6 @@ class DrivenBody(RigidBody):
         half: cython.double = self.turning * (h / 2) if self.in_robot_frame else 0.0
         turned: cython.double = angle + half if self.in_robot_frame else 0.0
         share: cython.double = chord_share(half)
-        c: cython.double
-        s: cython.double
         c, s = cosine_sine(turned)
         c, s = share * c, share * s
         self.aim_x = self.forward * c - self.left * s
@@ -132,8 +130,6 @@ class DrivenBody(RigidBody):
         self.bound = self.strength
         if far == 0.0:
             return
-        c: cython.double
-        s: cython.double
         c, s = cosine_sine(angle)
         ahead: cython.double = (c * x + s * y) / far
         across: cython.double = (c * y - s * x) / far

@@ -196,14 +196,14 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
         for body in solver.bodies:
             gain = gain or body.push_work + body.rub_work > 0.0 or body.excess > 0.0
         if gain:
-            take_powers(solver, numbers, impact)
+            look_again(solver, numbers, impact, True)
             if weaken_contacts(solver):
                 scale_all(solver, numbers, impact)
     if solver.ties:
         take_holds(solver, h)
         if weaken_holds(solver):
             scale_all(solver, numbers, impact)
-            work_again(solver, numbers, impact)
+            look_again(solver, numbers, impact, False)
     find_shifts(solver, h)
     for body in solver.bodies:
         body.by_push += body.push_work
@@ -275,35 +275,27 @@ def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.dou
 
 
 @cython.cfunc
-def take_powers(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
-    """Find the power of the contacts' impulses on the motion due to them alone."""
+def look_again(
+    solver: Solver, numbers: list[Body], impact: Impact, at_power: cython.bint
+) -> cython.void:
+    """Find the power of contacts' impulses on the motion due to them alone, or again their work."""
     i: cython.int
     k: cython.int
     body: Body
     for body in solver.bodies:
-        body.push_power = body.rub_power = 0.0
+        if at_power:
+            body.push_power = body.rub_power = 0.0
+        else:
+            body.push_work = body.rub_work = 0.0
     for i in range(solver.arbiters.count()):
         arbiter: Handle = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
         for k in range(chipmunk.count_of(arbiter)):
             impact.look_at(arbiter, k)
-            impact.power()
-
-
-@cython.cfunc
-def work_again(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
-    """Find out again how the impulses of contacts have worked."""
-    i: cython.int
-    k: cython.int
-    body: Body
-    for body in solver.bodies:
-        body.push_work = body.rub_work = 0.0
-    for i in range(solver.arbiters.count()):
-        arbiter: Handle = solver.arbiters.at(i)
-        impact.take(arbiter, numbers)
-        for k in range(chipmunk.count_of(arbiter)):
-            impact.look_at(arbiter, k)
-            impact.work(0.0, 0.0)
+            if at_power:
+                impact.power()
+            else:
+                impact.work(0.0, 0.0)
 
 
 @cython.cfunc

@@ -14,7 +14,7 @@ from typing import Any
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.pair import DiscPair, Pair, PiecePair, Wall
+from mars2d.physics.islands.pair import Pair, PiecePair, Wall
 from mars2d.physics.islands.piece import Piece
 
 FEW = 32
@@ -61,7 +61,7 @@ class Neighbours:
         if self.passing and (a.number, b.number) in self.passing:
             return
         if a.is_disc and b.is_disc:
-            self.pairs.append(DiscPair(a, b, None))
+            self.pairs.append(Pair(a, b, None))
             return
         p: Piece
         q: Piece
@@ -129,7 +129,7 @@ class Neighbours:
             if length(x, y) - body.radius > body.wall_skin:
                 continue
             if body.is_disc:
-                body.wall_pairs.append(DiscPair(body, body, wall))
+                body.wall_pairs.append(Pair(body, body, wall))
             else:
                 for piece in body.pieces:
                     body.wall_pairs.append(PiecePair(body, body, wall, piece, wall.piece))

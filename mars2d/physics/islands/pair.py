@@ -103,7 +103,10 @@ class Wall:
 
 @cython.cclass
 class Pair:
-    """The base of all pairs. b: the second body; where there is none, a wall stands still."""
+    """A pair of discs, or of a disc and a wall, and the base of `PiecePair`.
+
+    b: the second body; where there is none, the first one again, and a wall stands still.
+    """
 
     a: Body
     b: Body
@@ -161,16 +164,38 @@ class Pair:
     @cython.cfunc
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
-        raise NotImplementedError
+        x: cython.double
+        y: cython.double
+        if self.is_wall:
+            x, y = self.wall.way(self.a.x, self.a.y)
+        else:
+            x, y = self.b.x - self.a.x, self.b.y - self.a.y
+        far: cython.double = length(x, y)
+        scale: cython.double = 1.0 / max(far, 1e-12)
+        self.gap = far - self.radii
+        self.normal_x, self.normal_y = x * scale, y * scale
+        return self.gap <= 0
 
     @cython.cfunc
     def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return for how long they get no deeper than `depth`, or h if that is shorter.
 
-        A pair that is already that deep may get a little deeper, so that the solver is called again
-        soon after an impact that it could not stop at once.
+        Along straight lines, the distance to a convex shape is a convex function of time, so it
+        never falls faster than it does now. A pair that is already that deep may get a little
+        deeper, so that the solver is called again soon after an impact that it could not stop.
         """
-        raise NotImplementedError
+        x: cython.double = self.a.vx
+        y: cython.double = self.a.vy
+        turn: cython.double = self.a.acceleration
+        if not self.is_wall:
+            x = x - self.b.vx
+            y = y - self.b.vy
+            turn = turn + self.b.acceleration
+        closing: cython.double = max(x * self.normal_x + y * self.normal_y, 0.0)
+        room: cython.double = max(self.gap + depth, depth / 64)
+        if closing * h + 0.5 * turn * h * h <= room:
+            return h
+        return min(h, time_to_close(room, closing, turn))
 
     @cython.cfunc
     def lay(self, room: cython.double) -> cython.void:
@@ -196,47 +221,6 @@ def time_to_close(
     if closing < 0:
         total = bent / max(total, 1e-24)  # root - |closing|, without cancellation
     return 2 * room / (total + 1e-12)
-
-
-@cython.final
-@cython.cclass
-class DiscPair(Pair):
-    """A disc and another one, or a wall."""
-
-    @cython.cfunc
-    def measure(self) -> cython.bint:
-        """Measure the gap and the normal; return whether they touch."""
-        x: cython.double
-        y: cython.double
-        if self.is_wall:
-            x, y = self.wall.way(self.a.x, self.a.y)
-        else:
-            x, y = self.b.x - self.a.x, self.b.y - self.a.y
-        far: cython.double = length(x, y)
-        scale: cython.double = 1.0 / max(far, 1e-12)
-        self.gap = far - self.radii
-        self.normal_x, self.normal_y = x * scale, y * scale
-        return self.gap <= 0
-
-    @cython.cfunc
-    def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
-        """Return for how long they get no deeper than `depth`.
-
-        Along straight lines, the distance to a convex shape is a convex function of time, so it
-        never falls faster than it does now.
-        """
-        x: cython.double = self.a.vx
-        y: cython.double = self.a.vy
-        turn: cython.double = self.a.acceleration
-        if not self.is_wall:
-            x = x - self.b.vx
-            y = y - self.b.vy
-            turn = turn + self.b.acceleration
-        closing: cython.double = max(x * self.normal_x + y * self.normal_y, 0.0)
-        room: cython.double = max(self.gap + depth, depth / 64)
-        if closing * h + 0.5 * turn * h * h <= room:
-            return h
-        return min(h, time_to_close(room, closing, turn))
 
 
 @cython.final
@@ -418,12 +402,13 @@ class PiecePair(Pair):
         base: cython.double = (
             self.normal_x * self.between_x + self.normal_y * self.between_y - self.rounding
         )
-        if self.clear(h, base + depth) and base + self.nearest() + depth >= floor:
+        nx: cython.double = self.normal_x
+        ny: cython.double = self.normal_y
+        nearest: cython.double = -self.q.front(-nx, -ny) - self.p.front(nx, ny)
+        if self.clear(h, base + depth) and base + nearest + depth >= floor:
             return h
         a: Body = self.a
         b: Body = self.b
-        nx: cython.double = self.normal_x
-        ny: cython.double = self.normal_y
         corner: Corner
         other: Corner
         for corner in self.p.corners:
@@ -443,18 +428,6 @@ class PiecePair(Pair):
                 if closing * h + 0.5 * turns * h * h > room:
                     h = min(h, time_to_close(room, closing, turns))
         return h
-
-    @cython.cfunc
-    def nearest(self) -> cython.double:
-        """Return the least distance of corners along the normal, as from coinciding poses."""
-        front: cython.double = -1e300
-        back: cython.double = 1e300
-        corner: Corner
-        for corner in self.p.corners:
-            front = max(front, self.normal_x * corner.x + self.normal_y * corner.y)
-        for corner in self.q.corners:
-            back = min(back, self.normal_x * corner.x + self.normal_y * corner.y)
-        return back - front
 
     @cython.cfunc
     def clear(self, h: cython.double, room: cython.double) -> cython.bint:
@@ -521,13 +494,9 @@ class PiecePair(Pair):
         """
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
-        front: cython.double = -1e300
-        back: cython.double = 1e300
+        front: cython.double = self.p.front(nx, ny)
+        back: cython.double = -self.q.front(-nx, -ny)
         corner: Corner
-        for corner in self.p.corners:
-            front = max(front, nx * corner.x + ny * corner.y)
-        for corner in self.q.corners:
-            back = min(back, nx * corner.x + ny * corner.y)
         low: cython.double = 1e300
         high: cython.double = -1e300
         along: cython.double

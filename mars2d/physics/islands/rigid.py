@@ -61,8 +61,6 @@ class RigidBody(Progress):
         if self.is_disc:
             self.center_x, self.center_y = self.x, self.y
             return
-        c: cython.double
-        s: cython.double
         c, s = cosine_sine(self.angle)
         self.center_x = self.x + (c * self.offset_x - s * self.offset_y)
         self.center_y = self.y + (s * self.offset_x + c * self.offset_y)
@@ -84,8 +82,6 @@ class RigidBody(Progress):
     @cython.cfunc
     def place_com(self, angle: cython.double) -> cython.void:
         """Work out where its centre of mass lies from its pose at a heading."""
-        c: cython.double
-        s: cython.double
         c, s = cosine_sine(angle)
         self.com_x, self.com_y = self.com * c, self.com * s
 

@@ -413,8 +413,9 @@ class Solver:
             where: Vector = chipmunk.position_of(body.handle)
             fast: Vector = chipmunk.velocity_of(body.handle)
             body.x, body.y, body.angle = where.x, where.y, chipmunk.angle_of(body.handle)
-            if self.ties:
-                body.advance_half(h)
+            if self.ties:  # it began half a step behind: see `set_off`
+                half: cython.double = h / 2
+                body.displace(half * body.before_x, half * body.before_y, half * body.before_spin)
             body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, chipmunk.spin_of(body.handle)
             if not body.is_robot and body.engaged:
@@ -455,8 +456,6 @@ class Solver:
     @cython.cfunc
     def feel(self, body: Body, h: cython.double) -> cython.void:
         """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
-        c: cython.double
-        s: cython.double
         angle: cython.double = body.back.angle + self.lag(h) * body.back.spin
         c, s = cosine_sine(angle)
         self.take_drag(body)
@@ -602,8 +601,6 @@ class Solver:
         vx, vy: its velocity. What it takes to move as commanded is what the wheels bore in the step
         before, and what was lacking then.
         """
-        c: cython.double
-        s: cython.double
         late: cython.double = self.lag(h)
         angle: cython.double = body.angle + late * (body.spin if body.solved else body.turning)
         c, s = cosine_sine(angle)

@@ -177,10 +177,6 @@ class Thrust:
         turn: rad, by how much it turns. `aim` is the velocity that is commanded at the end. Forces
         along and across its heading half-way turn its velocity as it turns.
         """
-        c: cython.double
-        s: cython.double
-        near: cython.double
-        aside: cython.double
         c, s = cosine_sine(self.angle + turn / 2)
         near, aside = cosine_sine(turn / 2)
         x: cython.double = body.aim_x - self.vx

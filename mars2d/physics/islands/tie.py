@@ -76,8 +76,6 @@ class Tie:
     @cython.cfunc
     def measure(self) -> cython.void:
         """Measure where its ends are."""
-        c: cython.double
-        s: cython.double
         c, s = cosine_sine(self.a.angle)
         self.arm_ax = c * self.anchor_ax - s * self.anchor_ay
         self.arm_ay = s * self.anchor_ax + c * self.anchor_ay
