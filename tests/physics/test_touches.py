@@ -434,8 +434,7 @@ def told(monkeypatch):
     """An island of the bodies 0, 1 and 2, which takes what it is told for the solver's contacts."""
     ways = {
         "first_of": lambda one: one.bodies[0], "second_of": lambda one: one.bodies[1],
-        "impulse_of": lambda one: one.impulse, "normal_of": lambda one: one.normal,
-        "count_of": lambda one: len(one.on_first), "is_void": lambda one: False,
+        "impulse_of": lambda one: one.impulse, "count_of": lambda one: one.count,
         "point_of": lambda one, k, second: (one.on_second if second else one.on_first)[k],
     }  # fmt: skip
     for name, way in ways.items():
@@ -455,7 +454,7 @@ def vector(pair) -> SimpleNamespace:
 def contact(bodies, impulse, normal=(1.0, 0.0), first=((0.1, 0.2),), second=((0.3, 0.4),)):
     """A contact of the solver."""
     return SimpleNamespace(
-        bodies=bodies, impulse=vector(impulse), normal=vector(normal),
+        bodies=bodies, impulse=vector(impulse), n=vector(normal), count=len(first),
         on_first=list(map(vector, first)), on_second=list(map(vector, second)),
     )  # fmt: skip
 

@@ -117,6 +117,7 @@ cdef struct cpArbiter:
     cpContact *contacts
     Vector n
 
+ctypedef cpArbiter *Arbiter
 ctypedef void (*Before)(Handle, Handle, Handle) noexcept
 
 cdef struct cpCollisionHandler:
@@ -334,7 +335,7 @@ cdef inline double twist_of(Handle joint) noexcept:
 # -- contacts ---------------------------------------------------------------------------------
 
 cdef struct Found:
-    Handle *arbiters
+    Arbiter *arbiters
     int count
     int room
     bint lost
@@ -342,20 +343,20 @@ cdef struct Found:
 cdef int number_of(Handle body) noexcept:
     return <int><intptr_t>engine.cpBodyGetUserData(body)
 
-cdef void note_arbiter(void *body, void *arbiter, void *data) noexcept:
+cdef void note_arbiter(void *body, Handle arbiter, void *data) noexcept:
     cdef Found *found = <Found *>data
-    cdef Handle first = (<cpArbiter *>arbiter).body_a
-    cdef Handle *more
+    cdef Handle first = (<Arbiter>arbiter).body_a
+    cdef Arbiter *more
     if first != body and number_of(first) >= 0:
         return
     if found.count >= found.room:
-        more = <Handle *>realloc(found.arbiters, (2 * found.room + 16) * sizeof(Handle))
+        more = <Arbiter *>realloc(found.arbiters, (2 * found.room + 16) * sizeof(Arbiter))
         if more == NULL:
             found.lost = True
             return
         found.arbiters = more
         found.room = 2 * found.room + 16
-    found.arbiters[found.count] = arbiter
+    found.arbiters[found.count] = <Arbiter>arbiter
     found.count += 1
 
 cdef class Arbiters:
@@ -377,81 +378,58 @@ cdef class Arbiters:
     cdef inline int count(self) noexcept:
         return self.found.count
 
-    cdef inline Handle at(self, int k) noexcept:
+    cdef inline Arbiter at(self, int k) noexcept:
         return self.found.arbiters[k]
 
-cdef int first_of(Handle arbiter) noexcept:
-    return number_of((<cpArbiter *>arbiter).body_a)
+cdef int first_of(Arbiter arbiter) noexcept:
+    return number_of(arbiter.body_a)
 
-cdef int second_of(Handle arbiter) noexcept:
-    return number_of((<cpArbiter *>arbiter).body_b)
+cdef int second_of(Arbiter arbiter) noexcept:
+    return number_of(arbiter.body_b)
 
-cdef inline void scale(Handle arbiter, double ratio) noexcept:
+cdef inline void scale(Arbiter arbiter, double ratio) noexcept:
     cdef int k
-    for k in range((<cpArbiter *>arbiter).count):
-        (<cpArbiter *>arbiter).contacts[k].jnAcc *= ratio
-        (<cpArbiter *>arbiter).contacts[k].jtAcc *= ratio
+    for k in range(arbiter.count):
+        arbiter.contacts[k].jnAcc *= ratio
+        arbiter.contacts[k].jtAcc *= ratio
 
-cdef inline void set_surface(Handle arbiter, double friction, double restitution) noexcept:
+cdef inline void set_surface(Arbiter arbiter, double friction, double restitution) noexcept:
     engine.cpArbiterSetFriction(arbiter, friction)
     engine.cpArbiterSetRestitution(arbiter, restitution)
 
-cdef void settle_contact(void *arbiter, void *space, void *data) noexcept:
-    (<Surfaces>data).settle(arbiter)
+cdef void settle_contact(Handle touched, Handle space, Handle data) noexcept:
+    (<Surfaces>data).settle(<Arbiter>touched)
 
 cdef void watch(Handle space, surfaces) noexcept:
     set_handler(engine.cpSpaceAddGlobalCollisionHandler(space), settle_contact, <void *>surfaces)
 
-cdef inline Vector normal_of(Handle arbiter) noexcept:
-    return (<cpArbiter *>arbiter).n
-
-cdef inline void set_normal(Handle arbiter, double x, double y) noexcept:
-    (<cpArbiter *>arbiter).n = vector(x, y)
-
-cdef inline void put_point(Handle arbiter, double ax, double ay, double bx, double by) noexcept:
-    cdef double *a = <double *>(<cpArbiter *>arbiter).body_a
-    cdef double *b = <double *>(<cpArbiter *>arbiter).body_b
-    cdef cpContact *contact = (<cpArbiter *>arbiter).contacts
-    (<cpArbiter *>arbiter).count = 1
+cdef inline void put_point(Arbiter arbiter, double ax, double ay, double bx, double by) noexcept:
+    cdef double *a = <double *>arbiter.body_a
+    cdef double *b = <double *>arbiter.body_b
+    cdef cpContact *contact = arbiter.contacts
+    arbiter.count = 1
     contact.r1 = vector(ax - a[CENTER], ay - a[CENTER + 1])
     contact.r2 = vector(bx - b[CENTER], by - b[CENTER + 1])
     contact.jnAcc = contact.jtAcc = 0.0
 
-cdef inline void leave_out(Handle arbiter) noexcept:
-    (<cpArbiter *>arbiter).count = 0
+cdef inline Handle shape_of(Arbiter arbiter, bint second) noexcept:
+    return arbiter.b if second else arbiter.a
 
-cdef inline Handle shape_of(Handle arbiter, bint second) noexcept:
-    return (<cpArbiter *>arbiter).b if second else (<cpArbiter *>arbiter).a
-
-cdef inline Vector point_of(Handle arbiter, int k, bint second) noexcept:
+cdef inline Vector point_of(Arbiter arbiter, int k, bint second) noexcept:
     if second:
         return engine.cpArbiterGetPointB(arbiter, k)
     return engine.cpArbiterGetPointA(arbiter, k)
 
-cdef inline Vector arm_of(Handle arbiter, int k, bint second) noexcept:
-    return (<cpArbiter *>arbiter).contacts[k].r2 if second else (<cpArbiter *>arbiter).contacts[k].r1
-
-cdef inline double push_of(Handle arbiter, int k) noexcept:
-    return (<cpArbiter *>arbiter).contacts[k].jnAcc
-
-cdef inline double depth_of(Handle arbiter, int k) noexcept:
+cdef inline double depth_of(Arbiter arbiter, int k) noexcept:
     return -engine.cpArbiterGetDepth(arbiter, k)
-
-cdef inline double rub_of(Handle arbiter, int k) noexcept:
-    return (<cpArbiter *>arbiter).contacts[k].jtAcc
-
-cdef inline double bounce_of(Handle arbiter, int k) noexcept:
-    return (<cpArbiter *>arbiter).contacts[k].bounce
-
-cdef inline bint is_void(Handle arbiter) noexcept:
-    return (<cpArbiter *>arbiter).count == 0
 
 cdef inline int check_signals() except -1:
     return PyErr_CheckSignals()
 
 # -- seams ------------------------------------------------------------------------------------
 
-cdef void mend_contact(void *arbiter, void *space, void *data) noexcept:
+cdef void mend_contact(Handle touched, Handle space, Handle data) noexcept:
+    cdef Arbiter arbiter = <Arbiter>touched
     cdef bint first = first_of(arbiter) < 0
     (<Seams>engine.cpShapeGetUserData(shape_of(arbiter, not first))).mend(arbiter, first)
 
@@ -463,7 +441,8 @@ cdef inline Vector corner_of(Handle shape, int k) noexcept:
     return engine.cpBodyLocalToWorld(
         engine.cpShapeGetBody(shape), engine.cpPolyShapeGetVert(shape, k))
 
-cdef void straighten_contact(void *arbiter, void *space, void *data) noexcept:
+cdef void straighten_contact(Handle touched, Handle space, Handle data) noexcept:
+    cdef Arbiter arbiter = <Arbiter>touched
     if first_of(arbiter) >= 0 and second_of(arbiter) >= 0:
         flush_of(arbiter, False).straighten(arbiter)
 
@@ -473,7 +452,7 @@ cdef inline void show(Handle shape, flush) noexcept:
 cdef inline void join(Handle shape) noexcept:
     engine.cpShapeSetCollisionType(shape, JOINED)
 
-cdef inline Flush flush_of(Handle arbiter, bint second):
+cdef inline Flush flush_of(Arbiter arbiter, bint second):
     return <Flush>engine.cpShapeGetUserData(shape_of(arbiter, second))
 
 cdef inline Vector place_of(Handle shape, double x, double y) noexcept:

@@ -18,6 +18,15 @@ Handle: TypeAlias = Any
 Vector: TypeAlias = Any
 """A vector of the engine, with x and y."""
 
+Arbiter: TypeAlias = Any
+"""A contact of two shapes: a and b, of body_a and body_b, with n, its normal from a to b.
+
+It has `count` points, of which none counts in a step that begins with 0. Each of `contacts` is one:
+r1 and r2 lead to it from the bodies' centres of mass, jnAcc and jtAcc are the impulses on b along
+the normal and a quarter turn to its left [N s], and bounce is the restitution times the speed at
+which bodies parted before the step [m/s].
+"""
+
 PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING, GROOVE = range(8)
 """The kinds of joints."""
 
@@ -325,14 +334,14 @@ free_joint, used_of = lib.cpConstraintFree, lib.cpConstraintGetImpulse
 @ffi.callback(  # type: ignore[untyped-decorator]
     "void(cpBody *, cpArbiter *, void *)", onerror=_catch
 )
-def _NOTE(body: Handle, arbiter: Handle, data: Handle) -> None:  # noqa: N802
+def _NOTE(body: Handle, arbiter: Arbiter, data: Handle) -> None:  # noqa: N802
     first = arbiter.body_a  # its function would tell `body` first
     if first == body or _number_of(first) < 0:
         ffi.from_handle(data).append(arbiter)
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _SETTLE(arbiter: Handle, _space: Handle, data: Handle) -> None:  # noqa: N802
+def _SETTLE(arbiter: Arbiter, _space: Handle, data: Handle) -> None:  # noqa: N802
     ffi.from_handle(data).settle(arbiter)
 
 
@@ -349,7 +358,7 @@ class Arbiters:
 
     def __init__(self) -> None:
         """Start without any."""
-        self._found: list[Handle] = []
+        self._found: list[Arbiter] = []
 
     def clear(self) -> None:
         """Forget all that were found."""
@@ -366,7 +375,7 @@ class Arbiters:
         """Return how many were found."""
         return len(self._found)
 
-    def at(self, k: int) -> Handle:
+    def at(self, k: int) -> Arbiter:
         """Return one of those found."""
         return self._found[k]
 
@@ -375,17 +384,17 @@ def _number_of(body: Handle) -> int:
     return int(ffi.cast("intptr_t", lib.cpBodyGetUserData(body)))
 
 
-def first_of(arbiter: Handle) -> int:
+def first_of(arbiter: Arbiter) -> int:
     """Return the number of a contact's first body."""
     return _number_of(arbiter.body_a)
 
 
-def second_of(arbiter: Handle) -> int:
+def second_of(arbiter: Arbiter) -> int:
     """Return the number of a contact's second body."""
     return _number_of(arbiter.body_b)
 
 
-def scale(arbiter: Handle, ratio: float) -> None:
+def scale(arbiter: Arbiter, ratio: float) -> None:
     """Scale the impulses that the solver keeps of a contact."""
     for k in range(arbiter.count):
         contact = arbiter.contacts[k]
@@ -393,7 +402,7 @@ def scale(arbiter: Handle, ratio: float) -> None:
         contact.jtAcc *= ratio
 
 
-def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
+def set_surface(arbiter: Arbiter, friction: float, restitution: float) -> None:
     """Set the friction and the restitution of a contact for this step."""
     lib.cpArbiterSetFriction(arbiter, friction)
     lib.cpArbiterSetRestitution(arbiter, restitution)
@@ -402,22 +411,12 @@ def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
 count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse
 
 
-def shape_of(arbiter: Handle, second: bool) -> Handle:
+def shape_of(arbiter: Arbiter, second: bool) -> Handle:
     """Return a contact's first or second shape."""
     return arbiter.b if second else arbiter.a
 
 
-def normal_of(arbiter: Handle) -> Vector:
-    """Return a contact's normal, from its first to its second body."""
-    return arbiter.n
-
-
-def set_normal(arbiter: Handle, x: float, y: float) -> None:
-    """Set it, before the contact is solved."""
-    arbiter.n.x, arbiter.n.y = x, y
-
-
-def put_point(arbiter: Handle, ax: float, ay: float, bx: float, by: float) -> None:
+def put_point(arbiter: Arbiter, ax: float, ay: float, bx: float, by: float) -> None:
     """Let a contact have one point, at these places on its bodies, without impulses so far."""
     a, b = ffi.cast("double *", arbiter.body_a), ffi.cast("double *", arbiter.body_b)
     contact, arbiter.count = arbiter.contacts[0], 1
@@ -426,45 +425,14 @@ def put_point(arbiter: Handle, ax: float, ay: float, bx: float, by: float) -> No
     contact.jnAcc = contact.jtAcc = 0.0
 
 
-def leave_out(arbiter: Handle) -> None:
-    """Let a contact be none in this step."""
-    arbiter.count = 0
-
-
-def point_of(arbiter: Handle, k: int, second: bool) -> Vector:
+def point_of(arbiter: Arbiter, k: int, second: bool) -> Vector:
     """Return one of its points, on the surface of its first or second body."""
     return (lib.cpArbiterGetPointB if second else lib.cpArbiterGetPointA)(arbiter, k)
 
 
-def arm_of(arbiter: Handle, k: int, second: bool) -> Vector:
-    """Return the way to one of its points from the centre of mass of its first or second body."""
-    contact = arbiter.contacts[k]
-    return contact.r2 if second else contact.r1
-
-
-def depth_of(arbiter: Handle, k: int) -> float:
+def depth_of(arbiter: Arbiter, k: int) -> float:
     """Return how deep bodies are in each other in one of its points, metres."""
     return -float(lib.cpArbiterGetDepth(arbiter, k))
-
-
-def push_of(arbiter: Handle, k: int) -> float:
-    """Return the impulse along the normal in one of its points, on its second body, N s."""
-    return float(arbiter.contacts[k].jnAcc)
-
-
-def rub_of(arbiter: Handle, k: int) -> float:
-    """Return the impulse across the normal, a quarter turn to its left, N s."""
-    return float(arbiter.contacts[k].jtAcc)
-
-
-def bounce_of(arbiter: Handle, k: int) -> float:
-    """Return the restitution times the speed at which bodies parted before the step, m/s."""
-    return float(arbiter.contacts[k].bounce)
-
-
-def is_void(arbiter: Handle) -> bool:
-    """Return whether a contact was made none."""
-    return bool(arbiter.count == 0)
 
 
 def check_signals() -> None:
@@ -478,7 +446,7 @@ SEWN, JOINED = 1, 2
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _MEND(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
+def _MEND(arbiter: Arbiter, _space: Handle, _data: Handle) -> None:  # noqa: N802
     first = first_of(arbiter) < 0
     data = lib.cpShapeGetUserData(arbiter.a if first else arbiter.b)
     ffi.from_handle(data).mend(arbiter, first)
@@ -501,7 +469,7 @@ def corner_of(shape: Handle, k: int) -> Vector:
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _STRAIGHTEN(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
+def _STRAIGHTEN(arbiter: Arbiter, _space: Handle, _data: Handle) -> None:  # noqa: N802
     if first_of(arbiter) >= 0 and second_of(arbiter) >= 0:
         flush_of(arbiter, False).straighten(arbiter)
 
@@ -517,7 +485,7 @@ def join(shape: Handle) -> None:
     lib.cpShapeSetCollisionType(shape, JOINED)
 
 
-def flush_of(arbiter: Handle, second: bool) -> Any:
+def flush_of(arbiter: Arbiter, second: bool) -> Any:
     """Return what was shown of a contact's first or second shape."""
     return ffi.from_handle(lib.cpShapeGetUserData(shape_of(arbiter, second)))
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.chipmunk import Handle, Vector
+from mars2d.physics.islands.chipmunk import Arbiter, Handle, Vector
 from mars2d.physics.islands.piece import Corner, Edge, Piece
 
 PARALLEL = 0.9999
@@ -93,14 +93,14 @@ class Flush:
         self.piece, self.room = piece, room
 
     @cython.cfunc
-    def straighten(self, arbiter: Handle) -> cython.void:
+    def straighten(self, arbiter: Arbiter) -> cython.void:
         """Look at a contact of two bodies before it is solved. It is that of the first shape.
 
         Where three corners meet, faces of both may ask for it. Then it is left out, since both
         bodies are held by the third.
         """
         other: Flush = chipmunk.flush_of(arbiter, True)
-        if chipmunk.is_void(arbiter):
+        if arbiter.count == 0:
             return
         asks: cython.bint = self.look(arbiter, other.piece, False)
         if not other.look(arbiter, self.piece, True):
@@ -109,12 +109,12 @@ class Flush:
         elif not asks:
             other.mend(arbiter, self.piece, True)
         elif abs(self.x * other.y - self.y * other.x) > ACROSS:
-            chipmunk.leave_out(arbiter)
+            arbiter.count = 0
         else:
             self.mend(arbiter, other.piece, False)
 
     @cython.cfunc
-    def look(self, arbiter: Handle, slider: Piece, second: cython.bint) -> cython.bint:
+    def look(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.bint:
         """Return whether a face that goes on elsewhere asks for a contact.
 
         second: whether it is the second shape.
@@ -135,7 +135,7 @@ class Flush:
     @cython.cfunc
     def asks(
         self,
-        arbiter: Handle,
+        arbiter: Arbiter,
         slider: Piece,
         second: cython.bint,
         k: cython.int,
@@ -155,7 +155,7 @@ class Flush:
         far: cython.double = length(b.x - a.x, b.y - a.y)
         ux: cython.double = (b.x - a.x) / far
         uy: cython.double = (b.y - a.y) / far
-        normal: Vector = chipmunk.normal_of(arbiter)
+        normal: Vector = arbiter.n
         sign: cython.double = -1.0 if second else 1.0
         fx: cython.double = turn * uy
         fy: cython.double = -turn * ux
@@ -184,19 +184,19 @@ class Flush:
         return True
 
     @cython.cfunc
-    def mend(self, arbiter: Handle, slider: Piece, second: cython.bint) -> cython.void:
+    def mend(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.void:
         """Let the face that has asked for a contact push, or leave it out."""
         if not self.leans:
             return
-        normal: Vector = chipmunk.normal_of(arbiter)
+        normal: Vector = arbiter.n
         sign: cython.double = -1.0 if second else 1.0
         nx: cython.double = sign * self.x
         ny: cython.double = sign * self.y
         upright: cython.bint = normal.x * nx + normal.y * ny > UPRIGHT and slider.radius == 0.0
         if self.deepest < 0.0 and not upright:
-            chipmunk.leave_out(arbiter)
+            arbiter.count = 0
             return
-        chipmunk.set_normal(arbiter, nx, ny)
+        arbiter.n.x, arbiter.n.y = nx, ny
         if upright:
             return
         x: cython.double = self.px + self.deepest * self.x

@@ -10,7 +10,7 @@ from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import Handle, Vector
+from mars2d.physics.islands.chipmunk import Arbiter, Vector
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.tie import Tie
 
@@ -56,24 +56,23 @@ class Impact:
         self.a = self.b = body
 
     @cython.cfunc
-    def take(self, arbiter: Handle, numbers: list[Body]) -> cython.void:
+    def take(self, arbiter: Arbiter, numbers: list[Body]) -> cython.void:
         """Stand for a contact that the solver knows."""
         first: cython.int = chipmunk.first_of(arbiter)
         second: cython.int = chipmunk.second_of(arbiter)
         self.has_a, self.has_b = first >= 0, second >= 0
         self.a = numbers[first if first >= 0 else second]
         self.b = numbers[second if second >= 0 else first]
-        normal: Vector = chipmunk.normal_of(arbiter)
-        self.normal_x, self.normal_y = normal.x, normal.y
+        self.normal_x, self.normal_y = arbiter.n.x, arbiter.n.y
 
     @cython.cfunc
-    def look_at(self, arbiter: Handle, k: cython.int) -> cython.void:
+    def look_at(self, arbiter: Arbiter, k: cython.int) -> cython.void:
         """Stand for one of its points."""
-        arm: Vector = chipmunk.arm_of(arbiter, k, False)
+        arm: Vector = arbiter.contacts[k].r1
         self.arm_ax, self.arm_ay = arm.x, arm.y
-        arm = chipmunk.arm_of(arbiter, k, True)
+        arm = arbiter.contacts[k].r2
         self.arm_bx, self.arm_by = arm.x, arm.y
-        self.push, self.rub = chipmunk.push_of(arbiter, k), chipmunk.rub_of(arbiter, k)
+        self.push, self.rub = arbiter.contacts[k].jnAcc, arbiter.contacts[k].jtAcc
         self.depth = chipmunk.depth_of(arbiter, k)
 
     @cython.cfunc
@@ -260,18 +259,18 @@ def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.dou
     i: cython.int
     k: cython.int
     for i in range(solver.arbiters.count()):
-        arbiter: Handle = solver.arbiters.at(i)
+        arbiter: Arbiter = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
         pushes: cython.bint = False
         for k in range(chipmunk.count_of(arbiter)):
-            pushes = pushes or chipmunk.push_of(arbiter, k) != 0.0
+            pushes = pushes or arbiter.contacts[k].jnAcc != 0.0
         if not pushes:
             continue
         join_groups(impact.a, impact.b)
         for k in range(chipmunk.count_of(arbiter)):
             impact.look_at(arbiter, k)
             impact.hit()
-            impact.work(chipmunk.bounce_of(arbiter, k), h)
+            impact.work(arbiter.contacts[k].bounce, h)
 
 
 @cython.cfunc
@@ -288,7 +287,7 @@ def look_again(
         else:
             body.push_work = body.rub_work = 0.0
     for i in range(solver.arbiters.count()):
-        arbiter: Handle = solver.arbiters.at(i)
+        arbiter: Arbiter = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
         for k in range(chipmunk.count_of(arbiter)):
             impact.look_at(arbiter, k)

@@ -15,7 +15,7 @@ from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import Handle, Vector
+from mars2d.physics.islands.chipmunk import Arbiter, Vector
 from mars2d.physics.islands.contacts import Row, close_touches, note_row
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
@@ -667,7 +667,7 @@ class Island:
                 close_touches(body, time, h)
 
     @cython.cfunc
-    def note_one(self, arbiter: Handle) -> cython.void:
+    def note_one(self, arbiter: Arbiter) -> cython.void:
         """Note the solver's data of one contact, if it has pushed or still touches."""
         first: cython.int = chipmunk.first_of(arbiter)
         second: cython.int = chipmunk.second_of(arbiter)
@@ -675,8 +675,8 @@ class Island:
         a: Body = self.numbers[second if swap else first]
         b: cython.int = first if swap else second
         impulse: Vector = chipmunk.impulse_of(arbiter)
-        normal: Vector = chipmunk.normal_of(arbiter)
-        if chipmunk.is_void(arbiter):
+        normal: Vector = arbiter.n
+        if arbiter.count == 0:
             return
         if impulse.x == 0.0 and impulse.y == 0.0 and touching(a, b) is None:
             return
@@ -701,7 +701,7 @@ class Island:
 
     @cython.cfunc
     def stand(
-        self, row: Row, arbiter: Handle, count: cython.int, second: cython.bint
+        self, row: Row, arbiter: Arbiter, count: cython.int, second: cython.bint
     ) -> cython.void:
         """Put a row at the middle of a contact's points on one of its bodies."""
         point: Vector

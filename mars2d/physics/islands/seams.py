@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.chipmunk import Handle, Vector
+from mars2d.physics.islands.chipmunk import Arbiter, Handle, Vector
 
 STRAIGHT = 1e-9
 """The sine up to which a contact's normal stands upright on a wall."""
@@ -58,10 +58,10 @@ class Seams:
         self.met = numbers[6:]
 
     @cython.cfunc
-    def mend(self, arbiter: Handle, is_first: cython.bint) -> cython.void:
+    def mend(self, arbiter: Arbiter, is_first: cython.bint) -> cython.void:
         """Look at a contact before it is solved. is_first: whether the wall is its first shape."""
         shape: Handle = chipmunk.shape_of(arbiter, True)
-        normal: Vector = chipmunk.normal_of(arbiter)
+        normal: Vector = arbiter.n
         nx: cython.double = normal.x if is_first else -normal.x
         ny: cython.double = normal.y if is_first else -normal.y
         self.corners = chipmunk.corners_of(shape) if is_first else 0
@@ -86,7 +86,7 @@ class Seams:
             return
         right: cython.bint = not self.holds(end, turn, turn)
         if right and not self.holds(end + 3, -turn, turn):  # it is beyond what is met there
-            chipmunk.leave_out(arbiter)
+            arbiter.count = 0
             return
         fx: cython.double = self.uy if right else -self.uy
         fy: cython.double = -self.ux if right else self.ux
@@ -99,7 +99,7 @@ class Seams:
         elif bulges and nx * self.met[end + 1] + ny * self.met[end + 2] <= STRAIGHT:
             return
         elif not bulges and nx * fx + ny * fy > NEARLY and self.corners > 0:
-            chipmunk.set_normal(arbiter, fx, fy)
+            arbiter.n.x, arbiter.n.y = fx, fy
             return
         self.put_out(arbiter, shape, 3 if right else 0, fx, fy)
 
@@ -139,7 +139,7 @@ class Seams:
     @cython.cfunc
     def put_out(
         self,
-        arbiter: Handle,
+        arbiter: Arbiter,
         shape: Handle,
         side: cython.int,
         fx: cython.double,
@@ -165,7 +165,7 @@ class Seams:
             if least <= at <= most and deepest < depth <= self.reach and depth >= 0.0:
                 deepest, px, py = depth, corner.x, corner.y
         if deepest < 0.0:
-            chipmunk.leave_out(arbiter)
+            arbiter.count = 0
             return
-        chipmunk.set_normal(arbiter, fx, fy)
+        arbiter.n.x, arbiter.n.y = fx, fy
         chipmunk.put_point(arbiter, px + deepest * fx, py + deepest * fy, px, py)

@@ -11,7 +11,7 @@ from math import sqrt
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import Handle, Vector
+from mars2d.physics.islands.chipmunk import Arbiter, Vector
 
 
 @cython.final
@@ -69,7 +69,7 @@ class Surfaces:
         self.sticks, self.count = sticks, round(sqrt(len(pairs[0])))
 
     @cython.cfunc
-    def settle(self, arbiter: Handle) -> cython.void:
+    def settle(self, arbiter: Arbiter) -> cython.void:
         """Set friction and restitution of a contact, as the solver is to use them now."""
         if chipmunk.count_of(arbiter) == 0:
             return
@@ -102,7 +102,7 @@ class Surfaces:
         return self.of_walls[-1 - number]
 
     @cython.cfunc
-    def slip(self, arbiter: Handle, first: cython.int, second: cython.int) -> cython.double:
+    def slip(self, arbiter: Arbiter, first: cython.int, second: cython.int) -> cython.double:
         """Return how fast two bodies slide along each other, before the substep, m/s."""
         vx: cython.double = 0.0
         vy: cython.double = 0.0
@@ -111,15 +111,15 @@ class Surfaces:
         fast: Vector
         if second >= 0:
             body = self.bodies[second]
-            arm, fast = chipmunk.arm_of(arbiter, 0, True), chipmunk.velocity_of(body.handle)
+            arm, fast = arbiter.contacts[0].r2, chipmunk.velocity_of(body.handle)
             vx = fast.x - chipmunk.spin_of(body.handle) * arm.y
             vy = fast.y + chipmunk.spin_of(body.handle) * arm.x
         if first >= 0:
             body = self.bodies[first]
-            arm, fast = chipmunk.arm_of(arbiter, 0, False), chipmunk.velocity_of(body.handle)
+            arm, fast = arbiter.contacts[0].r1, chipmunk.velocity_of(body.handle)
             vx = vx - (fast.x - chipmunk.spin_of(body.handle) * arm.y)
             vy = vy - (fast.y + chipmunk.spin_of(body.handle) * arm.x)
-        normal: Vector = chipmunk.normal_of(arbiter)
+        normal: Vector = arbiter.n
         along: cython.double = vy * normal.x - vx * normal.y
         return abs(along)
 
