@@ -17,7 +17,8 @@ from typing import Any
 
 import outcome
 
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import open_world
 
 ROUNDS = 3

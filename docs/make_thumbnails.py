@@ -20,10 +20,10 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import theme_of
-from mars2d.record.record import Record
-from mars2d.scenario.courses import COURSES
+from mars2d.scenario.examples import examples
 from mars2d.window.home import Home
 from mars2d.window.memory import Memory
+from mars2d.world.record import Record
 
 FOLDER = Path(__file__).parents[1] / "examples" / "thumbnails"
 PICTURE = Path(__file__).parent / "pictures" / "home.png"
@@ -65,7 +65,7 @@ if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
     if not sys.argv[1:]:
         draw_home()
-    for name in sys.argv[1:] or [name for names in COURSES.values() for name in names]:
+    for name in sys.argv[1:] or examples():
         run = mars2d.run(name)
         for looks in ("light", "dark"):
             path = FOLDER / f"{name}_{looks}.png"

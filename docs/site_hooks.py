@@ -23,8 +23,7 @@ from mkdocs.structure.pages import Page
 
 import mars2d
 from mars2d.core.description import Description
-from mars2d.scenario.courses import courses, title_of
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import courses, examples, title_of
 from mars2d.scenario.registry import summary
 
 DOCS = Path(__file__).parent
@@ -96,7 +95,7 @@ def card(name: str) -> str:
         for looks in ("light", "dark")
     )
     links = [
-        f"[source](../examples/{name}.py)",
+        f"[source](../examples/{examples()[name].parent.name}/{name}.py)",
         f'<a href="../try/index.html?example={name}">try it</a>',
     ]
     for folder in ("experiments", "pursuit"):
@@ -179,7 +178,9 @@ def uses(name: str) -> Iterator[str]:
     for path, text in documents():
         if word.search(text):
             title = path.stem if path.suffix == ".py" else str(path.relative_to(DOCS))[:-3]
-            lies = f"../../examples/{path.name}" if path.suffix == ".py" else f"../{title}.md"
+            lies = f"../{title}.md"
+            if path.suffix == ".py":
+                lies = f"../../examples/{path.parent.name}/{path.name}"
             yield f"[{title}]({lies})"
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import mars2d
 from mars2d.output.pages.replay import page
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 
 PLACE = Path("/home/pyodide/experiment")
 shutil.copytree(next(iter(examples().values())).parent, PLACE, dirs_exist_ok=True)

@@ -1,10 +1,11 @@
 """The frozen description of an experiment, its files and its laws."""
 
 from mars2d.scenario.animation import Animation
+from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import (
     Experiment,
-    examples,
     load_law,
+    load_scenario,
     open_experiment,
     open_module,
 )
@@ -13,6 +14,7 @@ from mars2d.scenario.parameters import Range
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.toml_file import save_scenario
 
 __all__ = [
     "Animation",
@@ -29,6 +31,8 @@ __all__ = [
     "Within",
     "examples",
     "load_law",
+    "load_scenario",
     "open_experiment",
     "open_module",
+    "save_scenario",
 ]

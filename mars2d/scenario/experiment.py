@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
-import importlib.util
 import inspect
-import itertools
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Protocol, cast
+from typing import Any, Protocol
 from warnings import catch_warnings, simplefilter
 
 from mars2d.core import checks
@@ -22,29 +20,23 @@ from mars2d.core.errors import (
     InputError,
     LawError,
     Mars2dError,
-    is_a,
-    is_made_here,
     likely,
     nearest,
-    passes,
     shown,
 )
 from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
-from mars2d.core.usercode import called, quiet, stack_of
-from mars2d.scenario import law_parameters, parameters
+from mars2d.core.usercode import called, quiet
+from mars2d.scenario import law_parameters, parameters, toml_file
+from mars2d.scenario.code_file import law_in, line_in, module_in
+from mars2d.scenario.examples import examples
 from mars2d.scenario.law_parameters import PREFIX
 from mars2d.scenario.map_option import MapOption, reading_options
 from mars2d.scenario.options import override
 from mars2d.scenario.parameters import Parameter
-from mars2d.scenario.policy import SUFFIX, Policy
+from mars2d.scenario.policy import SUFFIX
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.scenario import Scenario
-
-_counter = itertools.count()
-
-MAX_LINE = 100
-"""The most characters of a line of code in an error."""
 
 
 class Run(Protocol):
@@ -220,16 +212,6 @@ class Experiment:
 LISTED = "; mars2d list shows the examples"
 
 
-def examples() -> dict[str, Path]:
-    """Return the shipped examples: name to file."""
-    package = Path(__file__).parents[1]
-    for folder in (package / "examples", package.parent / "examples"):  # a wheel's, a checkout's
-        if folder.is_dir():
-            files = sorted(folder.glob("*.py"))
-            return {file.stem: file for file in files if not file.stem.startswith("_")}
-    return {}
-
-
 def open_experiment(
     source: str | Path | ModuleType | Scenario,
     options: Mapping[str, Any] | None = None,
@@ -297,8 +279,11 @@ def _opened(
     elif isinstance(source, (str, Path)):
         path = _find(source)
         if path.suffix.lower() == ".toml":
-            return _of_scenario_file(path, control), MapOption.popped(options, path)
-        module, name = _load(path), str(path)
+            note_file(path)
+            drawn, law = toml_file.read(path)
+            found = Experiment(drawn, control or law, path.name, path=path.absolute())
+            return found, MapOption.popped(options, path)
+        module, name = module_in(path), str(path)
     else:
         raise InputError(
             f"experiment = {shown(source)}: expected a file, the name of an example, or a Scenario"
@@ -344,18 +329,22 @@ def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
     return scopes
 
 
-def _of_scenario_file(path: Path, control: Callable[[Any], Any] | None) -> Experiment:
-    from mars2d.scenario import toml_file
+def load_scenario(path: str | Path) -> Scenario:
+    """Return the scenario in a .toml file, written by `save_scenario` or by hand.
 
-    note_file(path)
-    scenario, own = toml_file.read(path)
-    law = own if control is None else control
-    return Experiment(scenario, law, path.name, path=path.absolute())
+    path: a relative path is looked for beside the file that calls this, then in the current folder.
+    Raises InputError, which points at the line. The law of the team, if the file names one, is not
+    part of a scenario: `mars2d.run` and `open_experiment` read it from the file.
+    """
+    if not isinstance(path, (str, Path)):
+        raise wrong("load_scenario(path)", path, "the name of a file, such as 'room.toml'")
+    caller = Path(sys._getframe(1).f_code.co_filename)
+    return toml_file.read(file_beside(Path(path), caller, "a scenario", [toml_file.SUFFIX]))[0]
 
 
 def open_module(source: str | Path) -> ModuleType:
     """Run a file, or the shipped example of that name, and return it as a module."""
-    return _load(_find(source))
+    return module_in(_find(source))
 
 
 def load_law(
@@ -376,41 +365,6 @@ def load_law(
     caller = Path(sys._getframe(1).f_code.co_filename)
     file = file_beside(Path(path), caller, "a law", [".py", SUFFIX])
     return law_in(file, name, given=(arguments, values))
-
-
-def law_in(
-    file: Path,
-    name: str,
-    subject: str = "the robot",
-    given: tuple[Sequence[Any], Mapping[str, Any]] = ((), {}),
-) -> Callable[[Any], Any]:
-    """Return the law called `name` in a file, which is run again.
-
-    subject: the robot or world. given: the arguments of the function that are given.
-    """
-    if file.suffix == SUFFIX:
-        if name != "control" or given != ((), {}):
-            raise InputError(f"{file.name}: a learned law has no other names and no arguments")
-        return Policy(file)
-    module = _load(file, "a law")
-    try:
-        return _law_of(module, name, subject, *given)
-    except InputError as error:
-        error.where = file.name
-        raise
-
-
-def _law_of(
-    module: ModuleType, name: str, subject: str, args: Sequence[Any], values: Mapping[str, Any]
-) -> Callable[[Any], Any]:
-    law = getattr(module, name, None)
-    if law is None:
-        functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
-        raise InputError(f"has no law {name!r}{nearest(name, functions)}")
-    if (args or values) and callable(law):
-        law = partial(law, *args, **values)
-    checks.law(name, law, subject)
-    return cast("Callable[[Any], Any]", law)
 
 
 def _scripts(path: Path) -> list[Path]:
@@ -435,63 +389,6 @@ def _find(source: str | Path) -> Path:
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
     near = likely(source, [*beside, *known], 0.75)
     raise InputError(f"{source}: there is no such {kind}{near or LISTED}")
-
-
-def _load(path: Path, what: str = "an experiment") -> ModuleType:
-    """Run a file as a module of its own, which no other module can see."""
-    if path.suffix != ".py":
-        other = ".toml" if what == "an experiment" else SUFFIX
-        raise InputError(f"{path}: expected {what}, a file that ends in .py or {other}")
-    note_file(path)
-    name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    before = set(sys.modules)
-    sys.modules[name] = module  # dataclasses look up a class's module by name
-    folder = str(path.parent.absolute())
-    sys.path.insert(0, folder)  # an experiment may import what lies beside it
-    # If a file is saved twice within a second, compiled code of the first would be taken as new.
-    keeps, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    try:
-        spec.loader.exec_module(module)
-    except SyntaxError as error:
-        line = (error.text or "").strip()
-        line = line if len(line) <= MAX_LINE else line[: MAX_LINE - 3] + "..."
-        problem = InputError(": ".join(filter(None, [error.msg, line])))
-        note_file(Path(error.filename or path))
-        place = Path(error.filename or path).name
-        problem.where = f"{place}, line {error.lineno}" if error.lineno else place
-        raise problem from error
-    except BaseException as error:
-        if passes(error):
-            raise
-        problem = InputError(described(error))
-        problem.where = _line_in(error, path)
-        raise problem from error
-    finally:
-        sys.path.remove(folder)
-        sys.dont_write_bytecode = keeps
-        _forget_modules(before, folder)
-    return module
-
-
-def _forget_modules(before: set[str], folder: str) -> None:
-    """Forget the modules of a folder, so that they are not taken for those of another."""
-    for name in set(sys.modules) - before:
-        file = getattr(sys.modules[name], "__file__", None)
-        if file is not None and str(Path(file).parent) == folder:
-            note_file(Path(file))
-            del sys.modules[name]
-
-
-def _line_in(error: BaseException, path: Path) -> str:
-    """Return the line of `path` that an error passed through."""
-    lines = [
-        step.lineno for step in stack_of(error) if Path(step.filename).absolute() == path.absolute()
-    ]
-    return f"{path.name}, line {lines[-1]}" if lines else path.name
 
 
 def _scenario_of(
@@ -559,15 +456,13 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
             raise wrong(f"scenario({name})", value, expected)
     try:
         return function(**chosen)
-    except BaseException as error:
-        if passes(error):
-            raise
+    except (Exception, SystemExit) as error:
         problem: Mars2dError = InputError(described(error))
-        if is_a(error, Mars2dError) and is_made_here(error):
+        if isinstance(error, Mars2dError):
             problem = error
         code = getattr(function, "__code__", None)
         if code is not None and problem.where is None:
             unsaid = {k: v for k, v in chosen.items() if str(v) not in str(problem)}
             given = "".join(f", with {name} = {shown(value)}" for name, value in unsaid.items())
-            problem.where = f"{_line_in(error, Path(code.co_filename))}{given}"
+            problem.where = f"{line_in(error, Path(code.co_filename))}{given}"
         raise problem from error

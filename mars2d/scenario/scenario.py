@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import copy
 import numbers
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 from math import floor, pi
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,7 +20,6 @@ from mars2d.core import checks
 from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import Description, choice, entry, number, snake_case, text, wrong
 from mars2d.core.errors import InputError, nearest
-from mars2d.core.files import file_beside
 from mars2d.core.materials import RULES, blended, material_of
 from mars2d.core.plane import Outline, bounds_of
 from mars2d.core.usercode import called
@@ -206,34 +203,6 @@ class Scenario(Description):
             why = vars(kind).get("only_one")
             if why and sum(isinstance(addon, kind) for addon in self.addons) > 1:
                 raise InputError(f"Scenario.addons: two are {kind.__name__}, and {why}")
-
-    @staticmethod
-    def from_file(path: str | Path) -> Scenario:
-        """Return the scenario in a .toml file, written by `save` or by hand.
-
-        path: a relative path is looked for beside the file that calls this, then in the current
-        folder. Raises InputError, which points at the line. The law of the team, if the file names
-        one, is not part of a scenario: `mars2d.run` and `open_experiment` read it from the file.
-        """
-        from mars2d.scenario import toml_file
-
-        if not isinstance(path, (str, Path)):
-            raise wrong("Scenario.from_file(path)", path, "the name of a file, such as 'room.toml'")
-        caller = Path(sys._getframe(1).f_code.co_filename)
-        file = file_beside(Path(path), caller, "a scenario", [toml_file.SUFFIX])
-        return toml_file.read(file)[0]
-
-    def save(
-        self, path: str | Path, control: Callable[[Any], Any] | str | None = None
-    ) -> tuple[str, ...]:
-        """Write it to a .toml file, which is replaced; return the names of parts left out.
-
-        control: the law of the team, as a function of a file or as ``team.py:control``. The file
-        names the place of laws; it holds no code. Raises InputError if it can't be written.
-        """
-        from mars2d.scenario import toml_file
-
-        return toml_file.save(self, path, control)
 
     def _repr_svg_(self) -> str:
         """Return a picture of the start, for a notebook."""

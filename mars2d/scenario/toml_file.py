@@ -21,8 +21,8 @@ from mars2d.core.materials import Coefficient
 from mars2d.core.picture import holds_pixels, image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
+from mars2d.scenario.code_file import law_in
 from mars2d.scenario.controllers import Controller
-from mars2d.scenario.experiment import law_in
 from mars2d.scenario.law_reference import Reference, seen_from
 from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
 from mars2d.scenario.robot import Robot
@@ -39,12 +39,6 @@ MAX_BYTES = 5_000_000
 MAX_PARTS = 10_000
 """The most parts in one list."""
 
-TOO_DEEP = re.compile(r"""(?:\.[ \t]*+(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')[ \t]*+){20}""")
-"""A deeply nested name: the time to read it grows with the square of its depth."""
-
-TOO_LONG = re.compile(r"[=\[,][ \t]*+[+-]?(?:0[xob])?[\da-fA-F_]{1000}")
-"""A number with so many digits that reading it would fill the memory."""
-
 SCHEMA_FILE = "mars2d.schema.json"
 """The file beside a scenario in which editors look for its JSON Schema; see `mars2d schema`."""
 
@@ -59,7 +53,9 @@ READY_MADE = Place(Controller)
 # -- writing -----------------------------------------------------------------------------------
 
 
-def save(scenario: Scenario, path: str | Path, control: Law | str | None = None) -> tuple[str, ...]:
+def save_scenario(
+    scenario: Scenario, path: str | Path, control: Law | str | None = None
+) -> tuple[str, ...]:
     """Write a scenario to a file, and return the parts left out, such as ``add-on Lamps``.
 
     control: the law of the team, a function or ``team.py:control``. The file names the place of a
@@ -213,7 +209,6 @@ def read(path: str | Path) -> tuple[Scenario, Law | None]:
     if path.suffix.lower() != SUFFIX:
         raise InputError(f"{path}: expected a scenario, a file that ends in {SUFFIX}")
     text = _text(path)
-    _check_names_and_numbers(path, text)
     try:
         return _Reader(path, text).scenario(_parsed(path, text))
     except RecursionError:
@@ -234,19 +229,6 @@ def _text(path: Path) -> str:
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         raise _at(f"{path.name}, line {line}", "expected text in UTF-8; save it so") from None
-
-
-def _check_names_and_numbers(path: Path, text: str) -> None:
-    """Refuse text that would take the parser hours, or all memory."""
-    problems = (
-        (TOO_DEEP, "tables lie in each other too deeply"),
-        (TOO_LONG, "a number has too many digits"),
-    )
-    for pattern, problem in problems:
-        found = pattern.search(text)
-        if found is not None:
-            line = text.count("\n", 0, found.start() + 1) + 1
-            raise _at(f"{path.name}, line {line}", problem)
 
 
 def _parsed(path: Path, text: str) -> dict[str, Any]:

@@ -16,7 +16,8 @@ from typing import Any
 
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
-from mars2d.scenario.experiment import Experiment, examples
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.roles import contests_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description

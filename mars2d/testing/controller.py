@@ -1,33 +1,25 @@
-"""Check a control law: its commands, its sight, seeds, and where it keeps state."""
+"""Check a control law: its commands, its sight, and whether its runs are repeatable."""
 
 from __future__ import annotations
 
-import functools
 import inspect
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
-
-import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core import checks
-from mars2d.core.deadline import Deadline, Late
-from mars2d.core.errors import InputError, LawError
+from mars2d.core.deadline import Deadline
+from mars2d.core.errors import InputError
 from mars2d.core.usercode import name_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.testing.common import check_repeatable, run_ended
-from mars2d.testing.finding import Finding, Noted, Notes, Report, judge, said
-from mars2d.testing.state import Places
-from mars2d.testing.trial import Run, Trial, small_world
-from mars2d.world.laws import Law, robot_command, team_command
-from mars2d.world.world import World
-
-ControlLaw = Callable[[Any], Any]
+from mars2d.testing.finding import Finding, judge
+from mars2d.testing.subject import ControlLaw, Subject
+from mars2d.testing.trial import small_world
 
 KEEP = {
-    False: "Keep such things in robot.memory, or in variables of a generator",
-    True: "Keep such things in variables of a generator, or in an add-on",
+    False: "Keep things in robot.memory, or in variables of a generator",
+    True: "Keep things in variables of a generator, or in an add-on",
 }
 
 STREAM = {False: "robot.rng, the robot's own stream", True: "world.rng, the stream of the law"}
@@ -83,166 +75,69 @@ def controller_findings(
     control step.
     """
     of_team = is_of_a_team(law) if team is None else team
-    report = Report()
+    name = name_of(law)
+    subject = Subject(name, (f"{name} ",), STREAM[of_team], KEEP[of_team])
     try:
-        checks.law(name_of(law), law, "the world" if of_team else "the robot")
+        checks.law(name, law, "the world" if of_team else "the robot")
     except InputError as error:
-        report.wrong(str(error))
-        return report.findings
-    subject = _Subject(law, report, of_team)
-    subject.notes.small_world = scenario is None
-    places = Places(law)
+        subject.report.wrong(str(error))
+        return subject.report.findings
+    witness = _watched(law, subject)
+    if scenario is None:
+        placed = small_world(sensors, addons, witness, "full" if of_team else sees)
+        if of_team:
+            robots = [robot.replace(controller=None) for robot in placed.robots]
+            placed = placed.replace(robots=robots, sees=sees)
+    else:
+        placed = scenario if of_team else _with_law(scenario, law, witness)
+    team_law = witness if of_team else control
     with deadline or Deadline() as limit:
-        # A law is tried only in its own scenario: elsewhere it might lack something.
-        run, looked = Run(), subject.look
-        try:
-            if scenario is None:
-                tried = _place(subject.witness, of_team, sees, sensors, addons)
-            else:
-                tried = subject.placed(scenario)
-            trial = Trial(tried, subject.witness if of_team else control, limit, looked=looked)
-            run = trial.run()
-        except InputError as error:
-            run.error = error
-        except Late:
-            run.late, run.patience = limit.arrived(), limit.patience
-        if run_ended(run, subject.notes):
-            subject.conclude()
-            check_repeatable(trial, run, places, subject.notes, subject.commands(tried))
-    return report.findings
+        done = subject.first_run(lambda: (placed, team_law), limit, small=scenario is None)
+        if done is not None:
+            mine = None if of_team else witness
+            robots = [robot for robot in placed.robots if robot.controller is mine]
+            own = tuple(f"command {robot.name}" for robot in robots)
+            subject.check_repeatable(*done, own)
+    return subject.report.findings
 
 
-def _place(
-    law: ControlLaw, of_team: bool, sees: str, sensors: Sequence[Sensor], addons: Sequence[Addon]
-) -> Scenario:
-    """Return the small world for the trial of a law."""
-    if not of_team:
-        return small_world(sensors, addons, law, sees)
-    scenario = small_world(sensors, addons, law)
-    robots = [robot.replace(controller=None) for robot in scenario.robots]
-    return scenario.replace(robots=robots, sees=sees)
+def _watched(law: ControlLaw, subject: Subject) -> ControlLaw:
+    """Return a law that does the same, and reports where it draws at random, and where it ends."""
 
-
-class _Subject:
-    """The law on trial, and the observations so far."""
-
-    def __init__(self, law: ControlLaw, report: Report, of_team: bool) -> None:
-        self.law, self.report, self.of_team = law, report, of_team
-        self.notes = Notes(name_of(law), report, STREAM[of_team], KEEP[of_team])
-        self.witness = _Witness(self)
-        self._world: World | None = None
-        self._asked: dict[int, np.ndarray] = {}
-        self.steps = self.limited = self.moved = 0
-        self._example = ""
-        self.returned_at: float | None = None
-
-    def placed(self, scenario: Scenario) -> Scenario:
-        """Return a scenario in which the witness replaces the law as a controller."""
-        if self.of_team:
-            return scenario
-        own = [robot.controller is not None and _same(robot.controller, self.law)
-               for robot in scenario.robots]  # fmt: skip
-        robots = [
-            robot.replace(controller=self.witness) if mine or not any(own) else robot
-            for robot, mine in zip(scenario.robots, own, strict=True)
-        ]
-        return scenario.replace(robots=robots)
-
-    def commands(self, scenario: Scenario) -> tuple[str, ...]:
-        """Return the names in `Run.rows` for which the law is responsible."""
-        mine = [r for r in scenario.robots if (r.controller is None) == self.of_team
-                and r.controller in (None, self.witness)]  # fmt: skip
-        return tuple(f"command {robot.name}" for robot in mine)
-
-    def checked(self, subject: Any, value: Any) -> Any:
-        """Return a valid command; report an invalid one, and return that to stand still."""
-        law = Law(self.law, subject)
-        try:
-            if self.of_team:
-                command = team_command(value, len(subject.robots), law.refuse)
-                for i, column in enumerate(command.T):
-                    self._asked[i] = column.copy()
-            else:
-                self._asked[subject.index] = np.array(robot_command(value, law.refuse))
-        except LawError as error:
-            self.report.wrong(said(error, subject.time))
-            return self.still(subject)
-        return value
-
-    def still(self, subject: Any) -> Any:
-        """Return the command to stand still."""
-        return np.zeros((2, len(subject.robots))) if self.of_team else (0.0, 0.0)
-
-    def look(self, world: World) -> None:
-        """Compare the commands asked for with those issued, after a control step."""
-        for i, asked in self._asked.items():
-            issued = world.command[:, i]
-            self.steps += 1
-            self.moved += bool(asked.any())
-            if np.abs(issued - asked).max() > 1e-9 * (1 + np.abs(asked).max()):
-                self.limited += 1
-                self._example = f"asked for {_pair(asked)}, done {_pair(issued)}"
-        self._asked = {}
-
-    def conclude(self) -> None:
-        """Hint at behaviour that is rarely intended."""
-        name = self.notes.name
-        if self.returned_at is not None:
-            self.report.hint(
-                f"{name} is a generator that ended, at {self.returned_at:g} s: from then on its "
-                "robots stand still; a law that goes on has a `while True:` round it"
-            )
-        elif self.steps and not self.moved and self.report.sound:
-            self.report.hint(f"{name} commanded nothing but zeros in the whole trial")
-        elif self.steps and self.limited == self.steps:
-            self.report.hint(
-                f"{name} always asks for more than the drive can do ({self._example}): what it "
-                "does then depends on the limits alone"
-            )
-
-
-class _Witness:
-    """A law that calls another one and checks its commands."""
-
-    def __init__(self, subject: _Subject) -> None:
-        self._subject = subject
-        functools.update_wrapper(self, subject.law, assigned=("__doc__",), updated=())
-        self.__name__ = subject.notes.name
-
-    def __call__(self, subject: Any) -> Any:
-        """Call the law; report an exception, and then let its robots stand still."""
-        mine, whose = self._subject, str(getattr(subject, "name", ""))
-        try:
-            with mine.notes.calling("", mine.law, subject.time, whose):
-                result = mine.law(subject)
-        except Noted:
-            return mine.still(subject)
-        if inspect.isgenerator(result):
-            return self._running(result, subject)
-        return mine.checked(subject, result)
-
-    def _running(self, law: Iterator[Any], subject: Any) -> Iterator[Any]:
-        mine, whose = self._subject, str(getattr(subject, "name", ""))
+    def running(steps: Iterator[Any], whose: Any) -> Iterator[Any]:
         while True:
-            try:
-                with mine.notes.calling("", mine.law, subject.time, whose):
-                    value = next(law, _ENDED)
-            except Noted:
+            with subject.calling(subject.name):
+                command = next(steps, steps)
+            if command is steps:
+                subject.report.hint(
+                    f"{subject.name} is a generator that ended, at {whose.time:g} s: from then on "
+                    "its robots stand still; a law that goes on has a `while True:` round it"
+                )
                 return
-            if value is _ENDED:
-                mine.returned_at = subject.time
-                return
-            yield mine.checked(subject, value)
+            yield command
+
+    def witness(whose: Any) -> Any:
+        with subject.calling(subject.name):
+            result = law(whose)
+        return running(result, whose) if inspect.isgenerator(result) else result
+
+    witness.__name__, witness.__doc__ = subject.name, law.__doc__
+    witness.__wrapped__ = law  # type: ignore[attr-defined]
+    return witness
 
 
-_ENDED = object()
+def _with_law(scenario: Scenario, law: ControlLaw, witness: ControlLaw) -> Scenario:
+    """Return a scenario in which the witness replaces a law, or that of all robots if none has it.
 
+    The same code is the same law, though perhaps loaded from a file twice.
+    """
 
-def _same(one: Any, other: Any) -> bool:
-    """Return whether two laws are the same code, though perhaps loaded from a file twice."""
-    codes = [getattr(inspect.unwrap(law), "__code__", None) for law in (one, other)]
-    return one is other or (codes[0] is not None and codes[0] == codes[1])
+    def code(law: ControlLaw | None) -> Any:
+        return None if law is None else getattr(inspect.unwrap(law), "__code__", law)
 
-
-def _pair(command: Any) -> str:
-    return f"({command[0]:.3g}, {command[1]:.3g})"
+    mine = [code(robot.controller) == code(law) for robot in scenario.robots]
+    robots = [
+        robot.replace(controller=witness) if own or not any(mine) else robot
+        for robot, own in zip(scenario.robots, mine, strict=True)
+    ]
+    return scenario.replace(robots=robots)

@@ -1,4 +1,4 @@
-"""Check a drive: the shapes of its commands and twists, its limits, and that it has no state."""
+"""Check a drive: the shapes of its commands and twists, its limits, and that it keeps nothing."""
 
 from __future__ import annotations
 
@@ -9,24 +9,25 @@ import numpy as np
 from mars2d.bodies.drives.base import Drive
 from mars2d.core import checks
 from mars2d.core.deadline import Deadline
-from mars2d.core.errors import InputError, shown
+from mars2d.core.errors import shown
+from mars2d.core.usercode import called
 from mars2d.scenario.robot import Robot
-from mars2d.testing.common import check_fields, check_methods, check_places, is_own, run_ended
-from mars2d.testing.finding import Finding, Noted, Notes, Report, judge
-from mars2d.testing.state import Places
-from mars2d.testing.trial import Run, Trial, bystander, small_world
+from mars2d.scenario.scenario import Scenario
+from mars2d.testing.finding import Finding, judge
+from mars2d.testing.subject import Subject, own_methods
+from mars2d.testing.trial import bystander, small_world
 
-METHODS = {
-    "twist": (("command",), 3),
-    "saturate": (("command",), 2),
-    "actuators": (("command",), 2),
-    "command_for": (("actuators",), 2),
-    "accelerate": (("command", "last", "duration"), 2),
-    "ramp": (("command", "last", "start", "end"), 2),
-    "disturb": (("command", "normal"), 2),
-    "noisy_twist": (("command", "normal"), 3),
-}
-"""The methods that a drive can define: their arguments, and the rows of the result."""
+COLUMNS = (
+    "twist",
+    "saturate",
+    "actuators",
+    "command_for",
+    "accelerate",
+    "ramp",
+    "disturb",
+    "noisy_twist",
+)
+"""The methods that make a column for each robot of the columns that they are given."""
 
 COMMANDS = np.array([[0.0, 0.3, -0.2, 5.0, -7.0], [0.0, 0.4, 1.0, -9.0, 0.0]])
 
@@ -47,105 +48,76 @@ def drive_findings(drive: Drive, *, deadline: Deadline | None = None) -> tuple[F
     """Return the findings of `check_drive`, including hints. deadline: the limit of a step."""
     checks.instance(Drive, "Unicycle()")("check_drive(drive)", drive)
     subject = _Subject(drive)
-    places = Places(type(drive))
-    check_fields(drive, Drive, subject.notes)
-    if subject.can_be_called():
+    if type(drive).twist is Drive.twist:
+        subject.report.wrong(
+            f"{subject.name} has no method twist: write twist(self, command), which makes "
+            "of commands (2, n) the velocities (3, n) that they ask for"
+        )
+    elif subject.check_methods(drive, Drive) and subject.check_fields(drive, Drive):
         with deadline or Deadline() as limit:
-            run = Run()
-            try:
-                subject.try_methods()
-                if subject.report.sound:
-                    run = subject.trial(limit).run()
-            except InputError as error:
-                run.error = error
-            run_ended(run, subject.notes)
-        for place in places.changed():
-            subject.report.wrong(f"{subject.notes.name} keeps something in {place}: {KEEP}")
-    check_places(places, subject.notes)
+            done = subject.first_run(subject.placed, limit, small=True)
+            if done is not None and subject.report.sound:
+                subject.check_repeatable(*done, ("",))
     return subject.report.findings
 
 
-KEEP = "a drive is the same at each step and for all robots that have it, and keeps nothing"
-
-
-class _Subject:
-    """The drive on trial, and the observations so far."""
+class _Subject(Subject):
+    """The drive on trial."""
 
     def __init__(self, drive: Drive) -> None:
-        self.drive, self.kind = drive, type(drive)
-        self.report = Report()
-        own = "nothing: the field `noise` is there for that"
-        self.notes = Notes(self.kind.__name__, self.report, own, KEEP.capitalize())
+        self.drive = drive
+        keep = "A drive is the same at each step and for all robots that have it, and keeps nothing"
+        stream = "nothing: the field `noise` is there for that"
+        super().__init__(type(drive).__name__, (), stream, keep)
 
-    def can_be_called(self) -> bool:
-        """Report methods that are missing or can't be called; return whether it can be tried."""
-        if not is_own(self.drive, "twist", Drive):
-            self.report.wrong(
-                f"{self.notes.name} has no method twist: write twist(self, command), which makes "
-                "of commands (2, n) the velocities (3, n) that they ask for"
-            )
-            return False
-        methods = {name: arguments for name, (arguments, _) in METHODS.items()}
-        return check_methods(self.drive, Drive, methods, self.notes)
+    def placed(self) -> tuple[Scenario, None]:
+        """Try its methods; return a small world, whose robots have the drive if it is sound."""
+        self._try_methods()
+        scenario, drive = small_world(), self.drive if self.report.sound else Robot().drive
+        robot = Robot(drive=drive, controller=bystander)
+        return scenario.replace(robots=[robot.at(*r.pose) for r in scenario.robots]), None
 
-    def try_methods(self) -> None:
+    def _try_methods(self) -> None:
         """Call each method with several commands at once, and with each one alone."""
-        for method, (_, rows) in METHODS.items():
-            if not is_own(self.drive, method, Drive):
-                continue
-            every = self._called(method, rows, COMMANDS)
-            if every is None:
-                continue
-            alone = [self._called(method, rows, COMMANDS[:, i : i + 1]) for i in range(5)]
-            if any(one is None or not np.allclose(one[:, 0], every[:, i], rtol=1e-9, atol=1e-12)
-                   for i, one in enumerate(alone)):  # fmt: skip
+        for method in set(COLUMNS).intersection(own_methods(self.drive, Drive)):
+            every = self._called(method, COMMANDS)
+            alone = [self._called(method, COMMANDS[:, i : i + 1]) for i in range(5)]
+            if not self.report.sound:
+                return
+            if not np.allclose(np.hstack(alone), every, rtol=1e-9, atol=1e-12):
                 self.report.wrong(
-                    f"{self.notes.name}.{method} gives a robot another result among others than "
-                    "alone: each column belongs to a robot, and must not depend on the others"
+                    f"{self.name}.{method} gives a robot another result among others than alone: "
+                    "each column belongs to a robot, and must not depend on the others"
                 )
-        if not self.report.sound:
-            return
-        limited = self.drive.saturate(COMMANDS)
-        if not np.allclose(self.drive.saturate(limited), limited):
+        limited = self.drive.saturate(COMMANDS.copy())
+        if not np.allclose(self.drive.saturate(limited.copy()), limited):
             self.report.wrong(
-                f"{self.notes.name}.saturate limits a command again that it has limited already"
+                f"{self.name}.saturate limits a command again that it has limited already"
             )
 
-    def _called(self, method: str, rows: int, commands: Any) -> Any:
-        given = commands.copy()
-        still = (0 * given,)
-        more = {
-            "accelerate": (0 * given, 0.1), "ramp": (0 * given, 0.0, 0.1),
-            "disturb": still, "noisy_twist": still,
+    def _called(self, method: str, commands: Any) -> Any:
+        """Return what a method makes of commands (2, n); report what it should not be."""
+        given, still = commands.copy(), 0 * commands
+        more: tuple[Any, ...] = {
+            "accelerate": (still, 0.1), "ramp": (still, 0.0, 0.1),
+            "disturb": (still,), "noisy_twist": (still,),
         }.get(method, ())  # fmt: skip
-        function = getattr(self.drive, method)
-        try:
-            with self.notes.calling(method, function, None):
-                result = function(given, *more)
-        except Noted:
-            return None
-        name, shape = f"{self.notes.name}.{method}", (rows, commands.shape[1])
+        where, function = f"{self.name}.{method}", getattr(self.drive, method)
+        with self.calling(where), called(where, function):
+            result = function(given, *more)
         if not np.array_equal(given, commands):
-            self.report.wrong(f"{name} changes the array that it is given: work on a copy")
+            self.report.wrong(f"{where} changes the array that it is given: work on a copy")
+        shape = (3 if method.endswith("twist") else 2, commands.shape[1])
         try:
-            values = np.asarray(result)
-        except ValueError:  # rows of different lengths
-            values = np.empty(0, dtype=object)
-        if values.dtype.kind not in "bifu" or values.shape != shape:
-            what = shown(result) if values.dtype.kind not in "bifu" else f"shape {values.shape}"
+            values = np.asarray(result, dtype=float)
+        except (TypeError, ValueError):  # text, or rows of different lengths
+            values = np.empty(0)
+        if values.shape != shape:
+            what = f"shape {values.shape}" if values.size else shown(result)
             self.report.wrong(
-                f"{name} returned {what} for commands of shape {commands.shape}: expected an array "
-                f"of shape {shape}, a column for each robot"
+                f"{where} returned {what} for commands of shape {commands.shape}: expected an "
+                f"array of shape {shape}, a column for each robot"
             )
-            return None
-        if not np.isfinite(values).all():
-            self.report.wrong(f"{name} returned nan or inf for finite commands")
-            return None
+        elif not np.isfinite(values).all():
+            self.report.wrong(f"{where} returned nan or inf for finite commands")
         return values
-
-    def trial(self, deadline: Deadline) -> Trial:
-        """Return a small world whose robots have this drive."""
-        scenario = small_world()
-        robot = Robot(drive=self.drive, controller=bystander)
-        robots = [robot.at(*each.pose) for each in scenario.robots]
-        return Trial(scenario.replace(robots=robots), None, deadline)

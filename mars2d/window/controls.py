@@ -154,7 +154,7 @@ class Marks:
 
     def _by_hand(self, world: World) -> list[int]:
         """Return the rows at which a person intervened."""
-        log = world.hands.log
+        log = world.operator.log
         if self._handled[:2] != (world, len(log)):
             self._handled = world, len(log), sorted({each.row for each in log})
         return self._handled[2]

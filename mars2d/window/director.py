@@ -88,7 +88,7 @@ class Director:
         assert timeline is not None
         kind = "another branch" if other in timeline.branches else "an earlier run"
         timeline.show(other)
-        timeline.world.hands.let_go()
+        timeline.world.operator.let_go()
         self._player.error = timeline.error
         self._player.settle()
         end = timeline.newest * timeline.scenario.sampling_time
@@ -139,7 +139,7 @@ class Director:
         """Put a body back to where it was at the start."""
         if self.timeline is not None:
             pose = self.timeline.experiment.scenario.bodies[body].pose
-            self.change(lambda world: world.hands.place(body, pose))
+            self.change(lambda world: world.operator.place(body, pose))
 
     def scale_mass(self, body: int, factor: float) -> None:
         """Go on with a body that is heavier or lighter by a factor, or start again with it."""
@@ -242,7 +242,7 @@ class Director:
         self.release()
         if self.timeline is not None:
             for robot in robots:
-                self.timeline.world.hands.steer(robot, None)
+                self.timeline.world.operator.steer(robot, None)
 
     def steer(self, seconds: float) -> None:
         """Give the driven robots the commands of the keys.
@@ -262,7 +262,7 @@ class Director:
 
         def steer(world: World) -> None:
             for robot, command in commands.items():
-                world.hands.steer(robot, command)
+                world.operator.steer(robot, command)
 
         passes = self._player.playing or self._player.manual
         if not timeline.needs_way_back:

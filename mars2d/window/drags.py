@@ -97,15 +97,15 @@ class Pull:
 
         def pull(world: World) -> None:
             self._world = world
-            world.hands.pull(self.body, self.grip, point, self.force, self.speed)
-            self.newtons = world.hands.force(self.body)
+            world.operator.pull(self.body, self.grip, point, self.force, self.speed)
+            self.newtons = world.operator.force(self.body)
 
         self._do(pull)
 
     def end(self) -> None:
         """Release the body in the world in which it is pulled: that makes no branch."""
         if self._world is not None and not self._world.over:
-            self._world.hands.pull(self.body, self.grip, None)
+            self._world.operator.pull(self.body, self.grip, None)
 
     def pose(self, frame: Frame) -> Triple | None:
         """Return None: the body is shown where it is."""
@@ -149,7 +149,7 @@ class Placement:
     def end(self) -> None:
         """Place the body, if its pose has changed."""
         if self.now != self.before:
-            self._do(lambda world: world.hands.place(self.body, self.now))
+            self._do(lambda world: world.operator.place(self.body, self.now))
 
     def fault(self, frame: Frame) -> str:
         """Return why the body can't stay here, "" if it can."""

@@ -7,11 +7,10 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.layout import interface_scale
-from mars2d.scenario.courses import GAMES, courses, title_of
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import courses, examples_folder, games, title_of
 from mars2d.window.buttons import Buttons
 from mars2d.window.cards import Card, Page, Shelf
-from mars2d.window.display import PICTURES_A_SECOND, show_drawn, started_display
+from mars2d.window.display import PICTURES_A_SECOND, started_display
 from mars2d.window.looks import Looks
 from mars2d.window.memory import Memory
 from mars2d.window.notes import Notes
@@ -19,7 +18,7 @@ from mars2d.window.rest import Rest
 
 HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
-OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mat": "replay", ".mcap": "replay"}
+OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mcap": "replay"}
 """The command that opens a file, by its suffix."""
 HINT = "Type to search"
 
@@ -47,7 +46,7 @@ class Home:
     def run(self) -> tuple[str, ...] | None:
         """Return the arguments of the command that opens what was chosen; None to leave.
 
-        Raises InputError without a display, DisplayError if it is lost.
+        Raises InputError without a display.
         """
         with started_display():
             pygame.display.set_caption("MARS2D")
@@ -56,7 +55,7 @@ class Home:
             clock = pygame.time.Clock()
             while self._open:
                 self.draw(pygame.display.get_surface() or screen)
-                show_drawn()
+                pygame.display.flip()
                 clock.tick(PICTURES_A_SECOND)
                 for event in self._rest.events():
                     self.handle(event)
@@ -74,23 +73,19 @@ class Home:
     def _all_shelves(self) -> list[Shelf]:
         own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]
         new = Card("New drawing", "Draw a scenario with the mouse.", ("edit",), sign="+")
-        games = [
-            self._example_card(name, "play", *(("--role", role) if role else ()))
-            for name, role in GAMES.items()
-            if name in examples()
-        ]
+        play = [self._example_card(name, "play") for name in games()]
         of_courses = [
             Shelf(course, [self._example_card(name) for name in names])
             for course, names in courses().items()
         ]
-        return [Shelf("Your own", [new, *own]), Shelf("Play", games), *of_courses]
+        return [Shelf("Your own", [new, *own]), Shelf("Play", play), *of_courses]
 
-    def _example_card(self, name: str, verb: str = "demo", *more: str) -> Card:
-        return Card(*title_of(name), (verb, name, *more), self._thumbnail(name))
+    def _example_card(self, name: str, verb: str = "demo") -> Card:
+        return Card(*title_of(name), (verb, name), self._thumbnail(name))
 
     def _thumbnail(self, name: str) -> Path:
         looks = "dark" if self.painter.theme.dark else "light"
-        return examples()[name].parent / "thumbnails" / f"{name}_{looks}.png"
+        return examples_folder() / "thumbnails" / f"{name}_{looks}.png"
 
     # -- drawing --------------------------------------------------------------------------------
 

@@ -12,6 +12,7 @@ from mars2d import InputError, LawError, Robot, Scenario, Sensor, World
 from mars2d.addons import HOOKS, Addon, Beacon, Map
 from mars2d.core.scene import Circle, Text
 from mars2d.output.layers import addons as drawn
+from tests.cases import each_case
 
 
 class Counter(Addon):
@@ -40,9 +41,7 @@ def test_two_of_a_kind_need_names():
     assert (world.addons.counter.steps, world.addons.second.steps) == (0, 1)
 
 
-@pytest.mark.parametrize(
-    ("hook", "meant"), [("on_stepp", "on_step"), ("on_begin", ""), ("on_steps", "on_step")]
-)
+@each_case(("hook", "meant"), [("on_stepp", "on_step"), ("on_begin", ""), ("on_steps", "on_step")])
 def test_an_unknown_hook_is_an_error_when_the_class_is_written(hook, meant):
     with pytest.raises(InputError, match=f"{hook} is no hook of an add-on.*{meant}"):
         type("Wrong", (Addon,), {hook: lambda self, world: None})

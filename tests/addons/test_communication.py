@@ -37,6 +37,7 @@ from mars2d.scenario.neighbours import Everyone, Graph, Nearest, Neighbourhood, 
 from mars2d.window.player import between
 from mars2d.world.loop import simulate
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 STILL = (0.0, 0.0)
 
@@ -111,7 +112,7 @@ def test_a_message_says_who_sent_it_and_when():
     assert world.robots[0].inbox == (Message(1, "robot1", 3 * 0.1, [1, 2]),)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("to", "receivers"),
     [
         (None, [0, 2, 3]), (2, [2]), ("robot3", [3]), ([0, "robot2"], [0, 2]), ((3, 3), [3]),
@@ -125,7 +126,7 @@ def test_a_message_goes_to_all_or_to_those_named_by_index_or_name(to, receivers)
     assert [i for i, found in enumerate(heard(world)) if found] == receivers
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("to", "words"),
     [
         ("robot11", ["robot.send(to='robot11'): no robot is called so", "did you mean 'robot1'?"]),
@@ -165,7 +166,7 @@ def test_an_error_in_sending_points_at_the_line_of_the_law():
     assert len(caught.value.record.messages) == 0  # the control step was not done
 
 
-@pytest.mark.parametrize("sees", ["full", "partial", "positions", "sensors"])
+@each_case("sees", ["full", "partial", "positions", "sensors"])
 def test_whatever_a_law_sees_it_may_talk(sees):
     got = []
 
@@ -212,7 +213,7 @@ def test_by_name_the_addon_may_be_called_otherwise():
 # -- contents -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("content", "arrives"),
     [
         (None, None), (True, True), (3, 3), (-0.1, -0.1), ("ü\n€", "ü\n€"), ([], []), ({}, {}),
@@ -261,7 +262,7 @@ for _ in range(40):
     DEEP = [DEEP]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("content", "words"),
     [
         ({1, 2}, ["content = {1, 2} can't be recorded", "lists, tuples and dicts"]),
@@ -407,8 +408,8 @@ def test_by_default_neighbours_do_not_matter():
     assert heard(world) == [[], ["x"], ["x"]]
 
 
-@pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("rule", [Within(1.2), Nearest(3), Ahead(), Everyone()], ids=repr)
+@each_case("seed", range(4))
+@each_case("rule", [Within(1.2), Nearest(3), Ahead(), Everyone()])
 def test_a_message_reaches_those_in_range_whose_neighbour_its_sender_is(rule, seed):
     grid = np.stack(np.divmod(np.arange(169), 13), axis=1) / 4  # many are equally far apart
     places = np.random.default_rng(seed).permutation(grid)[:25]
@@ -454,7 +455,7 @@ def test_a_crowd_of_three_hundred_may_all_speak_at_each_control_step(rule, near)
 # -- delay ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("delay", "steps"),
     [(0.0, 1), (0.05, 1), (0.1, 1), (0.11, 2), (0.2, 2), (0.3, 3), (0.6, 6), (0.65, 7), (1.7, 17)],
 )
@@ -499,7 +500,7 @@ def lost(record: Record) -> np.ndarray:
     return record.messages["status"] == LOST
 
 
-@pytest.mark.parametrize("loss", [0.0, 0.1, 0.5, 1.0])
+@each_case("loss", [0.0, 0.1, 0.5, 1.0])
 def test_the_share_that_is_lost_is_the_probability(loss):
     record = talking(team(2, talk=Communication(loss=loss), stop_time=400.0), to_one)
     assert np.mean(lost(record)) == pytest.approx(loss, abs=4 * math.sqrt(loss * (1 - loss) / 4001))
@@ -754,7 +755,7 @@ def test_messages_cannot_be_written_into_a_record(chatter):
         chatter.messages["status"] = DELIVERED
 
 
-@pytest.mark.parametrize("field", [name for name in MESSAGE.names if name != "arrival"])
+@each_case("field", [name for name in MESSAGE.names if name != "arrival"])
 def test_the_digest_covers_each_field_of_messages(chatter, field):
     changed = chatter.messages.copy()
     changed[field][0] += 1
@@ -817,7 +818,7 @@ def test_between_two_frames_are_the_messages_of_the_second():
 # -- descriptions ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("make", "words"),
     [
         (lambda: Communication(loss=1.5), "Communication.loss = 1.5: expected a number >= 0"),
@@ -876,9 +877,7 @@ def test_a_message_is_drawn_where_it_is_on_its_way():
     assert tips == pytest.approx([0.15 + 1.7 * k / 4 for k in range(1, 5)])
 
 
-@pytest.mark.parametrize(
-    "talk", [Communication(loss=1.0), Communication(range=1.0), Communication(bandwidth=2)]
-)
+@each_case("talk", [Communication(loss=1.0), Communication(range=1.0), Communication(bandwidth=2)])
 def test_what_does_not_arrive_is_a_broken_line_with_a_cross(talk):
     shapes = links(spoken(talk))
     assert [shape.style for shape in shapes] == ["--", "-", "-"]
@@ -934,7 +933,7 @@ def run(name: str, seed: int = 0, **options):
     return {p.name: p for p in experiment.checks(record)}, record
 
 
-@pytest.mark.parametrize("loss", [0.0, 0.5, 0.8])
+@each_case("loss", [0.0, 0.5, 0.8])
 def test_robots_meet_at_any_loss(loss):
     predictions, _ = run("rendezvous", loss=loss, seed=2)
     assert len(predictions) == (4 if loss == 0 else 2)
@@ -948,8 +947,8 @@ def test_who_loses_much_meets_later():
     assert left[1] > 3 * left[0]
 
 
-@pytest.mark.parametrize("loss", [0.0, 0.3, 0.7])
-@pytest.mark.parametrize("seed", [0, 1])
+@each_case("loss", [0.0, 0.3, 0.7])
+@each_case("seed", [0, 1])
 def test_the_token_goes_round_and_is_never_in_two_hands(loss, seed):
     predictions, _ = run("token_ring", seed, loss=loss)
     assert len(predictions) == 3

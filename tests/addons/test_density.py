@@ -16,6 +16,7 @@ from mars2d.core.scene import Scene
 from mars2d.output.layers.addons import floor
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
+from tests.cases import each_case
 
 SQUARE = ((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0))
 
@@ -107,7 +108,7 @@ def test_robots_gather_where_it_is_dense():
 # -- what can't be ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "message"),
     [
         ({}, "Density: expected a function"),
@@ -129,7 +130,7 @@ def test_a_density_that_can_not_be_is_an_error(fields, message):
         Density(**fields)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("phi", "message"),
     [
         (lambda x, y: x, r"array of numbers >= 0, .*; it is -[\d.]+ at \(-[\d.]+, -?[\d.]+\)"),

@@ -9,6 +9,7 @@ from mars2d.addons.estimate import ellipse
 from mars2d.core.scene import Scene
 from mars2d.geometry.dead_reckoning import covariances
 from mars2d.sensors import Odometry
+from tests.cases import each_case
 
 DRIFT, AXLE = 0.002, 0.1
 
@@ -147,7 +148,7 @@ def test_it_takes_the_robot_that_is_named_or_the_first_with_odometry():
     assert drawn(driven(robots, Estimate(robot="c")))[-1].center[1] == pytest.approx(9, abs=1)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("robot", "addon", "message"),
     [
         (runner("anna"), Estimate(robot="ana"), "did you mean 'anna'"),
@@ -165,7 +166,7 @@ def test_one_that_cannot_be_followed_is_named(robot, addon, message):
         World(Scenario(robots=[robot], addons=[addon]))
 
 
-@pytest.mark.parametrize("bad", [{"probability": 1.0}, {"probability": 0.0}, {"every": 0.0}])
+@each_case("bad", [{"probability": 1.0}, {"probability": 0.0}, {"every": 0.0}])
 def test_fields_out_of_range_are_refused(bad):
     with pytest.raises(InputError, match=f"Estimate.{next(iter(bad))} = "):
         Estimate(**bad)

@@ -22,6 +22,7 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import paint_frame
 from mars2d.sensors import Ground
+from tests.cases import each_case
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
 RED, BLUE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
@@ -73,7 +74,7 @@ FLOORS = {
 }
 
 
-@pytest.mark.parametrize("floors", FLOORS)
+@each_case("floors", FLOORS)
 def test_what_is_read_is_what_is_seen(floors):
     floors = FLOORS[floors]
     scene = Scene()
@@ -166,7 +167,7 @@ def test_through_a_transparent_pixel_the_colour_of_the_rest_is_seen(tmp_path):
     assert [floor.ground((x, 0.5)) for x in (0.5, 1.5, 2.5)] == [BLUE, RED, (0.2, 0.0, 0.8)]
 
 
-@pytest.mark.parametrize("mode", ["1", "L", "P", "RGB", "RGBA", "LA"])
+@each_case("mode", ["1", "L", "P", "RGB", "RGBA", "LA"])
 def test_images_of_any_usual_kind_can_be_used(tmp_path, mode):
     Image.new("RGB", (4, 4), "white").convert(mode).save(tmp_path / "p.png")
     floor = Floor(image=str(tmp_path / "p.png"), bounds=(0, 1, 0, 1), color="#0000ff")
@@ -210,7 +211,7 @@ def test_the_floor_is_in_nobodys_way_and_gives_the_same_run():
     assert np.array_equal(run(), run(Floor(patches=[(SQUARE, "red")])))
 
 
-@pytest.mark.parametrize("found", ["red", (1, 2, 3), (0.5, 0.5), (nan, 0, 0), [(1, 1, 1)]])
+@each_case("found", ["red", (1, 2, 3), (0.5, 0.5), (nan, 0, 0), [(1, 1, 1)]])
 def test_a_floor_of_ones_own_must_return_a_colour(found):
     class Carpet(Addon):
         def ground(self, point):
@@ -223,7 +224,7 @@ def test_a_floor_of_ones_own_must_return_a_colour(found):
 # -- what can't be --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "message"),
     [
         ({"color": "#ffffff80"}, "Floor.color = .*: expected a colour without opacity"),
@@ -341,7 +342,7 @@ def test_a_figure_shows_an_image_where_it_lies(picture):
     assert (made[:18] == 255).all()
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("pixels", "bounds"),
     [
         (np.zeros((2, 2), dtype=np.uint8), (0, 1, 0, 1)),

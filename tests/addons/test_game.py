@@ -11,6 +11,7 @@ from mars2d.addons import Game
 from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.testing import check_addon
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.worlds import finished
 
 ROLES = {"pursuer": ["red"], "evader": ["blue"]}
@@ -46,7 +47,7 @@ def chase(game=None, evaders=((2.0, 0.0),), stop_time=10.0, **fields):
 # -- captures -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@each_case("physics", ["contact", "stop", "ideal"])
 def test_contact_is_a_capture_when_the_robots_touch(physics):
     world = finished(chase(physics=physics))
     game = world.addons.game
@@ -186,7 +187,7 @@ def test_the_checker_of_add_ons_finds_nothing():
 # -- what is refused ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("roles", "words"),
     [
         ({"pursuer": ["red"]}, "two roles"),
@@ -205,7 +206,7 @@ def test_roles_that_can_not_be_are_refused_in_words(roles, words):
         Game(roles)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("roles", "words"),
     [
         ({"pursuer": ["rde"], "evader": ["blue"]}, "no robot 'rde'; did you mean 'red'"),
@@ -220,7 +221,7 @@ def test_robots_that_are_not_there_or_in_two_roles_are_refused(roles, words):
         World(chase(Game(roles)))
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("capture", "words"),
     [
         ("contcat", "did you mean 'contact'"),

@@ -9,6 +9,7 @@ from mars2d.addons import Game, Map
 from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.sensors import RangeBearing
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.worlds import finished
 
 GOAL = [(2, -5), (5, -5), (5, 5), (2, 5)]
@@ -169,7 +170,7 @@ def test_only_the_hunted_are_caught_and_the_second_role_helps_them():
 # -- what is refused ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "words"),
     [
         ({"goal": [(0, 0), (1, 1)]}, r"Game.goal = .*: expected a polygon's vertices"),
@@ -184,7 +185,7 @@ def test_games_that_can_not_be_are_refused_in_words(fields, words):
         Game({"guard": ["red"], "attacker": ["b0"]}, **fields)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "words"),
     [
         ({"wanted": 3}, "Game.wanted = 3: expected at most 2, as there are 2 robots to catch"),

@@ -7,9 +7,11 @@ import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Ring
 from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.scenario import load_scenario
 from mars2d.scenario.registry import members
 from mars2d.scenario.roles import robots_named
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.worlds import finished
 
 ROLES = {"red": ["r1", "r2"], "blue": ["b1", "b2"]}
@@ -65,7 +67,7 @@ def test_the_ring_is_where_its_center_is():
     assert world.addons.ring.out == (2,)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("speeds", "stop_time", "score"),
     [
         ([0.0, 0.0, 0.0, 0.0], 1.0, {"red": 2, "blue": 2}),  # time is over
@@ -117,7 +119,7 @@ def test_a_scenario_file_keeps_it(tmp_path):
     file = tmp_path / "sumo.toml"
     still = bout([0.0] * 4, ring=ring)
     still.replace(robots=[r.replace(controller=None) for r in still.robots]).save(file)
-    assert Scenario.from_file(file).addons == (ring,)
+    assert load_scenario(file).addons == (ring,)
 
 
 def test_what_all_contests_derive_from_is_no_add_on_to_be_listed():
@@ -132,7 +134,7 @@ def test_a_person_may_drive_a_role():
 # -- what is refused ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "words"),
     [
         ({"radius": 0}, "Ring.radius = 0: expected a number > 0"),

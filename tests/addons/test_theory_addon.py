@@ -9,6 +9,7 @@ from mars2d.addons import Addon, Beacon, Theory
 from mars2d.core.scene import Circle
 from mars2d.output.layers import addons as drawn
 from mars2d.output.raster.picture import paint_frame
+from tests.cases import each_case
 
 VIOLET = "#7b3294"
 
@@ -104,7 +105,7 @@ def test_a_saved_record_names_the_theory_that_it_lacks(tmp_path):
     assert np.array_equal(loaded.pose, record.pose)
 
 
-@pytest.mark.parametrize("bad", [None, 3, "circle", lambda scene: None])
+@each_case("bad", [None, 3, "circle", lambda scene: None])
 def test_anything_but_a_function_of_scene_and_frame_is_refused(bad):
     with pytest.raises(InputError, match=r"Theory\.draws.*two arguments, the scene and the frame"):
         Theory(bad)

@@ -10,6 +10,7 @@ from mars2d import Animation, InputError, Robot, Scenario, World
 from mars2d.addons import Trails
 from mars2d.core.scene import Line, rgb
 from mars2d.output.layers import addons as drawn
+from tests.cases import each_case
 
 PACE = 0.5  # m/s
 
@@ -127,7 +128,7 @@ def test_a_window_a_replay_and_a_figure_show_the_same_trails(tmp_path):
     assert len(with_trails) - len(plain) == len(live)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "message"),
     [
         ({"duration": 0}, r"Trails.duration = 0: expected a number > 0"),

@@ -13,6 +13,7 @@ from mars2d.core.scene import Circle, Line, Polygon, Scene
 from mars2d.geometry.partition import Partition
 from mars2d.geometry.voronoi import Tessellation, Weight
 from mars2d.output.raster.picture import paint_frame
+from tests.cases import each_case
 
 SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
 HOOK = ((0, 0), (4, 0), (4, 1.5), (1.5, 1.5), (1.5, 2.5), (4, 2.5), (4, 4), (0, 4))
@@ -204,7 +205,7 @@ def test_outside_of_a_world_there_are_no_cells():
         Voronoi().areas  # noqa: B018
 
 
-@pytest.mark.parametrize("fields", [{"resolution": 0}, {"density": 3}, {"cells": 2}])
+@each_case("fields", [{"resolution": 0}, {"density": 3}, {"cells": 2}])
 def test_fields_that_can_not_be_are_errors(fields):
     with pytest.raises(InputError, match=r"Voronoi"):
         Voronoi(**fields)

@@ -7,6 +7,7 @@ import mars2d
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Waypoints
 from mars2d.core.scene import Circle, Line, Scene
+from tests.cases import each_case
 
 ROUTE = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
 COLORS = ["#0072b2", "#d55e00"]
@@ -160,7 +161,7 @@ def test_a_loaded_record_shows_the_same(tmp_path):
 # -- errors -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("routes", "message"),
     [
         ([], r"Waypoints.routes = \[\]: expected one list of points for each robot.*at least one"),
@@ -192,7 +193,7 @@ def test_a_waypoint_outside_of_the_workspace_is_named_unless_robots_may_leave_it
     World(outside.replace(workspace=None))
 
 
-@pytest.mark.parametrize("tolerance", [0.0, -1.0, float("inf")])
+@each_case("tolerance", [0.0, -1.0, float("inf")])
 def test_a_tolerance_out_of_range_is_refused(tolerance):
     with pytest.raises(InputError, match=r"Waypoints\.tolerance = "):
         Waypoints([ROUTE], tolerance=tolerance)

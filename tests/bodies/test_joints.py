@@ -11,6 +11,7 @@ from mars2d import Holonomic, InputError, Robot, Unicycle, World
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Puck
 from mars2d.core.materials import GRAVITY
+from tests.cases import each_case
 from tests.worlds import drive, endless
 
 IDLE = Robot(pose=(50, 50, 0))
@@ -39,7 +40,7 @@ def apart(first: np.ndarray, second) -> np.ndarray:
 # -- ropes ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("mu", [0.1, 0.2, 0.4])
+@each_case("mu", [0.1, 0.2, 0.4])
 def test_towing_a_box_by_a_rope_takes_the_effort_mu_m_g_over_the_force(mu):
     world = endless(
         [Robot()], [Box(pose=(-1, 0, 0), ground_friction=mu)], [Rope(a="robot0", b="box0")]
@@ -50,9 +51,7 @@ def test_towing_a_box_by_a_rope_takes_the_effort_mu_m_g_over_the_force(mu):
     assert apart(poses[:, :2, 0], poses[:, :2, 1]).max() < 1 + MILLIMETRE
 
 
-@pytest.mark.parametrize(
-    ("speed", "sampling_time"), [(0.1, 0.5), (0.5, 0.02), (0.5, 0.5), (3.0, 0.5)]
-)
+@each_case(("speed", "sampling_time"), [(0.1, 0.5), (0.5, 0.02), (0.5, 0.5), (3.0, 0.5)])
 def test_a_rope_is_never_longer_than_its_length_and_a_millimetre(speed, sampling_time):
     puller = Robot(drive=Unicycle(max_linear_speed=speed), mass=3)
     box = Box(pose=(-1, 0.3, 0), ground_friction=0.2)
@@ -138,7 +137,7 @@ def crossings(times: np.ndarray, values: np.ndarray) -> np.ndarray:
     return times[k] - values[k] * (times[k + 1] - times[k]) / (values[k + 1] - values[k])
 
 
-@pytest.mark.parametrize(("stiffness", "mass"), [(5, 1.0), (20, 1.0), (400, 1.0), (20, 4.0)])
+@each_case(("stiffness", "mass"), [(5, 1.0), (20, 1.0), (400, 1.0), (20, 4.0)])
 def test_a_mass_at_a_spring_swings_with_the_period_two_pi_root_m_over_k(stiffness, mass):
     period = 2 * pi * sqrt(mass / stiffness)
     ball = Ball(pose=(1.2, 0, 0), mass=mass)
@@ -277,7 +276,7 @@ def test_a_puck_on_a_hinge_is_held_by_floor_and_hinge_at_once():
 # -- refused --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("joint", "said"),
     [
         (lambda: Rope(a="robot0", b="ball0", length=-1), "Rope.length = -1"),

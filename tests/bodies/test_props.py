@@ -12,6 +12,7 @@ from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Compound, Disc
+from tests.cases import each_case
 from tests.worlds import ELL, drive, endless
 
 EXACT = 1e-9  # metres, radians
@@ -42,7 +43,7 @@ PROPS = [
 ]
 
 
-@pytest.mark.parametrize("sampling_time", [1e-3, 0.02, 0.1, 1.0, 10.0])
+@each_case("sampling_time", [1e-3, 0.02, 0.1, 1.0, 10.0])
 def test_props_glide_as_the_formula_says(sampling_time):
     world = endless([IDLE], PROPS, sampling_time=sampling_time)
     for _ in range(max(2, min(round(4 / sampling_time), 200))):
@@ -70,7 +71,7 @@ def test_a_spinning_puck_stops_after_its_angular_momentum_over_the_torque_of_the
     assert world.prop_pose[2, 0] == pytest.approx(10 * stop / 2, abs=EXACT)
 
 
-@pytest.mark.parametrize("sampling_time", [0.05, 0.5, 2.0])
+@each_case("sampling_time", [0.05, 0.5, 2.0])
 def test_props_glide_exactly_while_others_near_them_push_and_cause_substeps(sampling_time):
     # Two robots press against each other; two pucks pass on either side, a few millimetres off.
     robots = [Robot(pose=(-0.2, 0, 0)), Robot(pose=(0.2, 0, pi))]
@@ -163,12 +164,11 @@ def test_the_forces_of_several_robots_on_one_box_add_up(count):
     assert found == pytest.approx(mu, rel=0.02)
 
 
-@pytest.mark.parametrize(
+@each_case(
     "prop",
     [Box(ground_friction=0), Ball(diameter=0.4), Puck(diameter=0.4, ground_friction=0)],
-    ids=["box", "ball", "puck"],
 )
-@pytest.mark.parametrize("mass", [0.5, 2.0])
+@each_case("mass", [0.5, 2.0])
 def test_a_frictionless_prop_is_accelerated_by_force_over_both_masses(prop, mass):
     robot = Robot(pose=(-0.3501, 0, 0), drive=Unicycle(max_force=0.3))
     world = endless([robot], [prop.replace(mass=mass, restitution=0)])
@@ -179,7 +179,7 @@ def test_a_frictionless_prop_is_accelerated_by_force_over_both_masses(prop, mass
     assert rise == pytest.approx(0.5 * 0.3 / (1 + mass), rel=1e-3)
 
 
-@pytest.mark.parametrize("mu", [0.1, 0.3, 0.45])
+@each_case("mu", [0.1, 0.3, 0.45])
 def test_the_effort_of_pushing_a_box_is_mu_m_g_over_the_force(mu):
     world = endless([Robot(pose=(-0.36, 0, 0))], [Box(ground_friction=mu)])
     drive(world, [[0.2], [0]], 3)

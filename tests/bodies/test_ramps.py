@@ -12,6 +12,7 @@ from mars2d import Car, Differential, Drive, Holonomic, Robot, Unicycle, World
 from mars2d.addons import Map
 from mars2d.sensors import Imu, Odometry
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.worlds import drive, endless
 
 A = 0.37  # m/s^2
@@ -32,9 +33,9 @@ def way_after(time: np.ndarray) -> np.ndarray:
     return np.where(time < takes, A * time**2 / 2, SPEED * time - SPEED * takes / 2)
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
-@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.03])
-@pytest.mark.parametrize(("kind", "command"), STRAIGHT, ids=lambda value: type(value).__name__)
+@each_case("physics", ["contact", "stop", "ideal"])
+@each_case("sampling_time", [0.5, 0.1, 0.03])
+@each_case(("kind", "command"), STRAIGHT)
 def test_way_and_speed_are_those_of_the_ramp_whatever_the_sampling_time(
     kind, command, sampling_time, physics
 ):
@@ -50,7 +51,7 @@ def test_way_and_speed_are_those_of_the_ramp_whatever_the_sampling_time(
     assert hypot(*(world.pose[:2, 0] - braking)) == pytest.approx(SPEED**2 / (2 * A), abs=1e-9)
 
 
-@pytest.mark.parametrize("delay", [0.04, 0.137, 0.5])
+@each_case("delay", [0.04, 0.137, 0.5])
 def test_a_ramp_begins_when_its_command_arrives(delay):
     sampling_time = 0.1
     robot = Robot(drive=Unicycle(max_acceleration=A, dead_time=delay))
@@ -67,7 +68,7 @@ def test_the_record_holds_the_command_that_is_reached_at_the_end_of_the_step():
     assert world.record.command[:4, 0, 0] == pytest.approx([0.1, 0.2, 0.25, 0.25])
 
 
-@pytest.mark.parametrize(("sampling_time", "off"), [(0.5, 5e-4), (0.1, 2e-5), (0.03, 2e-6)])
+@each_case(("sampling_time", "off"), [(0.5, 5e-4), (0.1, 2e-5), (0.03, 2e-6)])
 def test_on_a_bend_the_way_is_that_of_an_integrator_but_for_the_square_of_the_step(
     sampling_time, off
 ):

@@ -15,6 +15,7 @@ import pytest
 import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.cli import command_line as cli
+from mars2d.scenario import save_scenario
 
 pytestmark = [
     pytest.mark.slow,
@@ -89,7 +90,7 @@ def rescued(told: str) -> mars2d.Record:
     return mars2d.load(found[1])
 
 
-@pytest.mark.parametrize("suffix", [".npz", ".mat", ".csv", ".nc"])
+@pytest.mark.parametrize("suffix", [".npz", ".csv"])
 @pytest.mark.parametrize("left", [0, 8192])
 def test_a_run_that_does_not_fit_is_kept_elsewhere_and_the_older_file_stays(
     disk, here, capsys, suffix, left
@@ -140,7 +141,7 @@ def test_a_scenario_that_does_not_fit_leaves_the_older_one(disk) -> None:
     scenario = Scenario(robots=[Robot(pose=(x, 0, 0)) for x in np.linspace(-2, 2, 12)])
     fill_rest(disk)
     with pytest.raises(InputError, match=r"team\.toml: can't be written: No space left"):
-        scenario.save(target)
+        save_scenario(scenario, target)
     assert target.read_text() == "older"
 
 

@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d import Record
-from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
 
 FOLDER = Path(__file__).parent / "golden"

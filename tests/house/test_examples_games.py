@@ -10,7 +10,8 @@ import pytest
 import mars2d
 from mars2d.cli.command_line import main
 from mars2d.core.errors import LawError
-from mars2d.scenario.experiment import examples, open_experiment, open_module
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment, open_module
 from tests.worlds import predicted
 
 pytestmark = pytest.mark.slow

@@ -7,7 +7,8 @@ import pytest
 
 import mars2d
 from mars2d.cli.command_line import main
-from mars2d.scenario.experiment import examples, open_module
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_module
 from mars2d.scenario.roles import roles_of
 
 pytestmark = pytest.mark.slow

@@ -11,10 +11,13 @@ import pytest
 import mars2d
 from mars2d import Scenario
 from mars2d.geometry.voronoi import Tessellation
-from mars2d.scenario.experiment import examples, open_experiment, open_module
+from mars2d.scenario.examples import examples, examples_folder
+from mars2d.scenario.experiment import open_experiment, open_module
 from tests.worlds import predicted
 
 pytestmark = pytest.mark.slow
+
+SOLUTIONS = examples_folder() / "solutions"
 
 SQUARE = ((0.0, 0.0), (5.0, 0.0), (5.0, 5.0), (0.0, 5.0))
 
@@ -116,7 +119,7 @@ def test_the_formula_of_the_ring_is_that_of_its_cells():
 
 
 def test_the_model_answers_formula_without_a_middle_is_that_of_its_cells():
-    answer = open_module(examples()["coverage_circle"].parent / "solutions" / "coverage_circle.py")
+    answer = open_module(SOLUTIONS / "coverage_circle.py")
     disc = 2.5 * np.column_stack([np.cos(a := np.arange(2000) * pi / 1000), np.sin(a)])
     for n in (3, 6, 8):
         away, cost = answer.hollow(n)
@@ -130,7 +133,7 @@ def test_the_model_answers_formula_without_a_middle_is_that_of_its_cells():
     ("options", "inside"), [({"n": 6, "middle": True}, 1), ({"n": 8}, 1), ({"n": 5}, 0)]
 )
 def test_which_arrangements_last_is_as_the_model_answer_says(options, inside):
-    path = examples()["coverage_circle"].parent / "solutions" / "coverage_circle.py"
+    path = SOLUTIONS / "coverage_circle.py"
     experiment = open_experiment(path, options)
     record = mars2d.run(experiment.scenario, stop_time=60)
     assert (np.hypot(*record.pose[-1, :2]) < 2.5 / 3).sum() == inside

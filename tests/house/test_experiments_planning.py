@@ -11,7 +11,8 @@ import shapely
 from scipy.optimize import brentq, minimize
 
 from mars2d.addons import Map
-from mars2d.scenario.experiment import examples, open_experiment, open_module
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment, open_module
 from tests.worlds import failing, predicted
 
 pytestmark = pytest.mark.slow

@@ -185,7 +185,7 @@ def test_without_fear_the_sheep_stay_where_they_are():
 @pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])
 def test_the_model_answers_do_what_they_say(name):
     _, outcome, predictions = played(
-        f"{mars2d.scenario.experiment.examples()[name].parent}/solutions/{name}.py"
+        f"{mars2d.scenario.examples.examples_folder()}/solutions/{name}.py"
     )
     assert all(p.ok for p in predictions)
     if outcome:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
 from tests.house.make_golden import FOLDER, LARGEST, ROWS, Golden, main
 from tests.house.test_examples import DIGESTS
 

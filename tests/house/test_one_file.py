@@ -17,7 +17,9 @@ from mars2d.bodies import Joint, Prop
 from mars2d.bodies.constraints import Constraint, MaxDistance, Pin, SpringDamper
 from mars2d.core.description import number
 from mars2d.geometry import Disc
+from mars2d.scenario import save_scenario
 from mars2d.sensors import DISTANCE
+from tests.cases import each_case
 
 PACKAGE = Path(mars2d.__file__).parent
 ROOT = Path(__file__).parents[2]
@@ -112,7 +114,7 @@ def test_the_command_line_lists_what_the_recipes_add(child, extended):
 RUN = """
 import json, sys
 import mars2d
-from mars2d import Robot, Scenario, World
+from mars2d import Robot, Scenario, World, load_scenario, save_scenario
 from mars2d.addons import Fence
 from mars2d.bodies import Brick, Bungee, Crab
 from mars2d.sensors import Compass
@@ -125,8 +127,8 @@ scenario = Scenario(
     addons=[Fence(length=2.0)], stop_time=3.0,
 )
 record = mars2d.run(scenario, control=lambda world: (0.3, 0.2))
-assert scenario.save("room.toml") == ()
-again = Scenario.from_file("room.toml")
+assert save_scenario(scenario, "room.toml") == ()
+again = load_scenario("room.toml")
 assert again == scenario, again
 assert mars2d.run(again, control=lambda world: (0.3, 0.2)).digest == record.digest
 for ending in sys.argv[2:]:
@@ -220,13 +222,13 @@ def drive_off(world: World):
     return 0.5, 0.0
 
 
-@pytest.mark.parametrize("ending", ["npz", "csv"])
+@each_case("ending", ["npz", "csv"])
 def test_a_record_says_which_parts_of_ones_own_it_could_not_keep(towed, ending, tmp_path):
     loaded = mars2d.load(towed.save(tmp_path / f"run.{ending}"))
     assert loaded.digest == towed.digest
     lost = {"drive Sideways", "sensor Echo", "joint Cord", "prop Coin"}
     assert set(loaded.missing) == lost
-    assert set(towing().save(tmp_path / "scenario.toml")) == lost
+    assert set(save_scenario(towing(), tmp_path / "scenario.toml")) == lost
 
 
 def test_parts_of_ones_own_are_drawn_and_replayed(towed, tmp_path):
@@ -234,8 +236,8 @@ def test_parts_of_ones_own_are_drawn_and_replayed(towed, tmp_path):
     assert towed.save_html(tmp_path / "run.html").stat().st_size > 10_000
 
 
-@pytest.mark.parametrize(
-    ("made", "message"),
+@each_case(
+    "made, message",
     [
         (lambda apart: None, r"Cord.constraints\(\) = None: expected a list, such as"),
         (lambda apart: (1.0,), r"Cord.constraints\(\)\[0\] = 1.0: expected a Constraint"),

@@ -33,8 +33,8 @@ def run(**changes):
     frames = []
     for row in range(AFTER):
         if row == BEFORE:
-            world.hands.place(0, (-1, 3, 0))
-            world.hands.place(2, (2, -3, 0))
+            world.operator.place(0, (-1, 3, 0))
+            world.operator.place(2, (2, -3, 0))
         frames.append(world.frame)
         world.step()
     return [*frames, world.frame], world.record

@@ -22,7 +22,8 @@ from mars2d.bodies import props
 from mars2d.geometry import shapes
 from mars2d.output.pages import notebook
 from mars2d.output.pages.replay import page
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.sensors import Sensor
 from mars2d.world.loop import simulate
 from tests.processes import PATIENCE

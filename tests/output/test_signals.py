@@ -261,7 +261,7 @@ def test_where_somebody_interfered_there_is_a_line_and_no_speed():
     world = World(Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=2), lambda w: [[0.1], [0]])
     for _ in range(5):
         world.step()
-    world.hands.place("robot0", (3.0, 1.0, 0.0))
+    world.operator.place("robot0", (3.0, 1.0, 0.0))
     for _ in range(5):
         world.step()
     run = world.record

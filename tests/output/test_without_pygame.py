@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 import mars2d
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
 from tests.processes import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -88,7 +88,7 @@ def test_the_child_has_neither_pygame_nor_threads(browser):
 def test_every_example_runs_and_can_be_seen(browser):
     code = (
         "import mars2d, json\n"
-        "from mars2d.scenario.experiment import examples\n"
+        "from mars2d.scenario.examples import examples\n"
         "found = {}\n"
         "for name in examples():\n"
         "    record = mars2d.run(name, stop_time=1.0)\n"

@@ -12,7 +12,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from mars2d import Scenario, World
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from tests.physics import test_crowd_fuzz as fuzz
 from tests.physics.bustle.bustle import scenario as bustle
 from tests.physics.test_same_bits import crowd, dampers

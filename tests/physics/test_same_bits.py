@@ -362,9 +362,9 @@ def test_so_does_one_without_forces(physics):
 def test_so_does_one_that_is_pulled_about():
     def pulled(world: World) -> str:
         for k in range(25):
-            world.hands.pull(2, (0.02, 0.05), (np.sin(k / 3), np.cos(k / 3)), force=20.0)
+            world.operator.pull(2, (0.02, 0.05), (np.sin(k / 3), np.cos(k / 3)), force=20.0)
             if k == 15:
-                world.hands.pull(4, (0.0, 0.0), (0.5, 0.5), force=5.0)
+                world.operator.pull(4, (0.0, 0.0), (0.5, 0.5), force=5.0)
             world.step(np.zeros((2, 4)))
         world.break_off("enough")
         return world.record.digest

@@ -161,7 +161,7 @@ def way_of(make: Callable[[], World], *acts: tuple) -> tuple[np.ndarray, World]:
         world, poses = make(), []
         for command, seconds, (fx, fy) in acts:
             target = None if fx == fy == 0 else (1e4 * fx + world.pose[0, 0], 1e4 * fy)
-            world.hands.pull(0, (0.0, 0.0), target, force=hypot(fx, fy) or 1.0, speed=100.0)
+            world.operator.pull(0, (0.0, 0.0), target, force=hypot(fx, fy) or 1.0, speed=100.0)
             drive(world, np.reshape(command, (2, 1)), seconds)
             poses.append(world.pose[:, 0])
         return np.array(poses), world

@@ -12,6 +12,7 @@ from mars2d.record import interventions
 from mars2d.record.interventions import Change, Place, Pull, Steer
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 SCENARIO = Scenario(robots=[Robot(), Robot(pose=(2, 0, 0))])
 BLOCK = Map([[(1.0, 1.0), (1.5, 1.0), (1.5, 1.5)]], name="block")
@@ -25,7 +26,7 @@ EACH = [
 ]
 
 
-@pytest.mark.parametrize("intervention", EACH)
+@each_case("intervention", EACH)
 def test_each_is_the_same_after_a_way_through_json(intervention):
     text = json.dumps(interventions.to_plain(intervention), allow_nan=False)
     assert interventions.of_plain(json.loads(text)) == intervention
@@ -86,22 +87,22 @@ def test_the_record_tells_what_was_simulated_at_each_row():
 def test_done_again_on_another_world_they_give_the_same():
     first = changed()
     second = World(SCENARIO, ahead)
-    log = list(first.hands.log)
+    log = list(first.operator.log)
     for command in first.history.command:
         while log and log[0].row == second.iteration:
-            second.hands.redo(log.pop(0))
+            second.operator.redo(log.pop(0))
         second.simulation.follow(command)
     assert np.array_equal(first.history.pose, second.history.pose)
-    assert second.hands.log == first.hands.log
+    assert second.operator.log == first.operator.log
 
 
 def test_driving_by_hand_is_told_of_by_the_record_and_its_checks_are_not_made(tmp_path):
     experiment = open_experiment("pursuit_corners", {"stop_time": 5})
     world = World(experiment.scenario, seed=1)
     for k in range(3):
-        world.hands.steer("blue", (0.0, 0.01 * k))
+        world.operator.steer("blue", (0.0, 0.01 * k))
         world.step()
-    world.hands.steer("blue", None)
+    world.operator.steer("blue", None)
     while not world.over:
         world.step()
     record = world.record
@@ -124,4 +125,4 @@ def test_another_law_is_told_of_and_changes_nothing_else():
     second.step()
     first.step([[0.0], [0.0]])
     assert np.array_equal(first.pose, second.pose)
-    assert [type(each) for each in second.hands.log] == [Change]
+    assert [type(each) for each in second.operator.log] == [Change]

@@ -81,7 +81,7 @@ def test_it_is_checked_where_it_was_learned_and_in_a_game(policy, capsys):
 
 
 def test_the_trained_pursuer_catches_and_forfeits_nothing_in_the_default_game(capsys):
-    from mars2d.scenario.experiment import examples
+    from mars2d.scenario.examples import examples
 
     file = examples()["corner_game"].parent / "learning" / "pursuit.onnx"
     command = ["check", str(file), "--for", "corner_game", "--role", "pursuer"]
@@ -194,7 +194,7 @@ def test_numbers_that_are_none_are_refused(spaces, tmp_path):
 
 @pytest.mark.slow
 def test_the_training_script_writes_a_law_and_its_curve(tmp_path):
-    from mars2d.scenario.experiment import examples
+    from mars2d.scenario.examples import examples
 
     pytest.importorskip("stable_baselines3")
     script = examples()["corner_game"].parent / "learning" / "train.py"

@@ -9,6 +9,7 @@ from mars2d.bodies.joints import Rope, Spring
 from mars2d.bodies.props import Box, Puck
 from mars2d.sensors import Proximity
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 RED, BLUE = Robot(name="red"), Robot(name="blue", pose=(2, 0, 0))
 BLOCK = Map([[(1.0, 1.0), (1.5, 1.0), (1.5, 1.5)]], name="block")
@@ -27,7 +28,7 @@ def robots(**changes):
 # -- what needs a new start --------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("changes", "words"),
     [
         ({"sampling_time": 0.2}, "Scenario.sampling_time is another one"),
@@ -59,7 +60,7 @@ def test_what_needs_a_new_start_is_refused_by_name_and_nothing_happens(changes, 
     with pytest.raises(InputError, match=f"this needs a new start: .*({words})"):
         world.change(BEFORE.replace(**changes))
     assert world.scenario is BEFORE
-    assert world.hands.log == []
+    assert world.operator.log == []
     world.step()
 
 
@@ -282,7 +283,7 @@ def test_what_is_no_law_is_refused_and_nothing_happens():
     with pytest.raises(InputError, match="control = 3"):
         world.change(BEFORE.replace(addons=[BLOCK]), 3)
     assert world.obstacles == ()
-    assert world.hands.log == []
+    assert world.operator.log == []
 
 
 def test_add_ons_that_stay_keep_what_they_know():

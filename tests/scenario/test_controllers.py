@@ -8,6 +8,7 @@ import pytest
 import mars2d
 from mars2d import Car, Differential, Holonomic, InputError, LawError, Robot, Scenario, Unicycle
 from mars2d.addons import Map, Waypoints
+from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.controllers import (
     ByHand,
     Controller,
@@ -19,6 +20,7 @@ from mars2d.scenario.controllers import (
 from mars2d.scenario.python_file import as_python
 from mars2d.scenario.registry import members
 from mars2d.sensors import Proximity, RangeFinder, SonarRing
+from tests.cases import each_case
 
 DRIVES = {
     "unicycle": Unicycle(), "wheels": Differential(), "twist": Differential(command="twist"),
@@ -40,7 +42,7 @@ def alone(robot, **fields):
 # -- along the waypoints -----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("drive", DRIVES.values(), ids=DRIVES)
+@each_case("drive", DRIVES.values())
 def test_the_waypoint_follower_reaches_all_its_points_in_order_and_stops(drive):
     route = [(3, 1), (6, 4), (1.5, 4), (1, 1)]  # the third lies behind
     robot = Robot(pose=(1, 2, 0), drive=drive, controller=FollowWaypoints(speed=0.4))
@@ -128,7 +130,7 @@ def test_where_there_is_no_wall_it_goes_straight_on():
 # -- after another robot -------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("drive", DRIVES.values(), ids=DRIVES)
+@each_case("drive", DRIVES.values())
 def test_a_follower_stays_behind_a_straight_leader_as_far_as_its_gain_says(drive):
     lead = Robot(name="lead", pose=(1, 0, 0), controller=lambda robot: (0.2, 0.0))
     law = FollowRobot(leader="lead", distance=0.5, gain=2.0, speed=0.4)
@@ -181,7 +183,7 @@ def test_a_law_without_its_sensor_says_which_one_it_misses():
 # -- what they want ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("law", "sensors", "want"),
     [
         (Wander(), [], "a sensor called proximity"),
@@ -220,8 +222,8 @@ def _all_laws():
 
 def test_scenario_files_python_files_and_records_keep_all_ready_made_laws(tmp_path):
     scenario = _all_laws()
-    assert scenario.save(tmp_path / "laws.toml") == ()
-    assert Scenario.from_file(tmp_path / "laws.toml") == scenario
+    assert save_scenario(scenario, tmp_path / "laws.toml") == ()
+    assert load_scenario(tmp_path / "laws.toml") == scenario
     (tmp_path / "laws.py").write_text(as_python(scenario))
     runs = [
         mars2d.run(source) for source in (scenario, tmp_path / "laws.toml", tmp_path / "laws.py")
@@ -231,7 +233,7 @@ def test_scenario_files_python_files_and_records_keep_all_ready_made_laws(tmp_pa
     assert mars2d.load(tmp_path / "run.npz").scenario == scenario
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("written", "said"),
     [
         ('"Wonder"', r"laws.toml, line 3, robots\[0\]: .*did you mean 'Wander'"),
@@ -245,7 +247,7 @@ def test_a_wrong_law_in_a_file_is_said_with_its_place(written, said, tmp_path):
     path = tmp_path / "laws.toml"
     path.write_text(f"format = 1\n[[robots]]\ncontroller = {written}\n")
     with pytest.raises(InputError, match=said):
-        Scenario.from_file(path)
+        load_scenario(path)
 
 
 def test_a_law_of_ones_own_may_derive_from_controller_and_is_named_as_code(tmp_path):
@@ -258,7 +260,7 @@ def test_a_law_of_ones_own_may_derive_from_controller_and_is_named_as_code(tmp_p
     scenario = Scenario(robots=[Robot(controller=Ahead())], stop_time=1)
     record = mars2d.run(scenario)
     assert record.pose[-1, 0, 0] == pytest.approx(0.25)
-    assert scenario.save(tmp_path / "own.toml") == ("law Ahead",)
+    assert save_scenario(scenario, tmp_path / "own.toml") == ("law Ahead",)
     assert "# This is code, which is not written down: law Ahead" in as_python(scenario)
     record.save(tmp_path / "own.npz")
     assert mars2d.load(tmp_path / "own.npz").scenario.robots[0].controller is None

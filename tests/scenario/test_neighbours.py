@@ -26,6 +26,7 @@ from mars2d import (
 )
 from mars2d.addons import Communication
 from mars2d.core.arithmetic import norm, norms
+from tests.cases import each_case
 from tests.worlds import untimed
 
 SEEDS = range(12)
@@ -71,7 +72,7 @@ def test_everyone_of_ten_thousand_takes_no_room():
     assert 7 not in found[7]
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each_case("seed", SEEDS)
 def test_within_is_whoever_is_no_farther(seed):
     x, y = position = scattered(seed)
     assert lists(Within(2.5).of(position)) == [
@@ -115,8 +116,8 @@ def test_within_is_who_hears_a_channel_of_that_range():
     assert heard == seen == [*range(1, 41)]
 
 
-@pytest.mark.parametrize("count", [1, 3, 24, 100])
-@pytest.mark.parametrize("seed", SEEDS)
+@each_case("count", [1, 3, 24, 100])
+@each_case("seed", SEEDS)
 def test_nearest_are_the_first_by_distance(seed, count):
     x, y = position = scattered(seed)
     for i, found in enumerate(Nearest(count).of(position)):
@@ -154,8 +155,8 @@ PLACES = {
 }
 
 
-@pytest.mark.parametrize("count", [1, 4, 25, 120, 10_000])
-@pytest.mark.parametrize("where", PLACES)
+@each_case("count", [1, 4, 25, 120, 10_000])
+@each_case("where", PLACES)
 def test_the_nearest_of_many_are_those_of_sorting_all(where, count):
     assert Nearest(count).of(PLACES[where]) == brute_nearest(PLACES[where], count)
 
@@ -178,7 +179,7 @@ def test_a_neighbour_need_not_be_one_in_turn():
     assert Nearest(1).of(np.array([[0.0, 1.0, 3.0], [0, 0, 0]])) == [[1], [0], [1]]
 
 
-@pytest.mark.parametrize("rule", [Everyone(), Within(1), Nearest(1), Delaunay(), Graph([[0]])])
+@each_case("rule", [Everyone(), Within(1), Nearest(1), Delaunay(), Graph([[0]])])
 def test_one_robot_alone_has_no_neighbours(rule):
     assert lists(rule.of(np.zeros((2, 1)))) == [[]]
 
@@ -211,8 +212,8 @@ def shared_edges(position, least=1e-9):
     return found
 
 
-@pytest.mark.parametrize("n", [2, 3, 4, 5, 9, 25])
-@pytest.mark.parametrize("seed", SEEDS)
+@each_case("n", [2, 3, 4, 5, 9, 25])
+@each_case("seed", SEEDS)
 def test_delaunay_neighbours_share_an_edge_of_their_voronoi_cells(seed, n):
     position = scattered(seed, n)
     assert edges(Delaunay().of(position)) == both_ways(shared_edges(position))
@@ -236,8 +237,8 @@ def test_two_robots_are_neighbours_wherever_they_are():
         assert Delaunay().of(np.array([[0.0, x], [0.0, y]])) == [[1], [0]]
 
 
-@pytest.mark.parametrize("turn", np.linspace(0, 3, 13))
-@pytest.mark.parametrize("noise", [0, 1e-16, 1e-13])
+@each_case("turn", np.linspace(0, 3, 13))
+@each_case("noise", [0, 1e-16, 1e-13])
 def test_robots_in_a_row_have_those_before_and_after_them(turn, noise):
     n = 12
     along = 0.5 * np.arange(n) + 3
@@ -252,8 +253,8 @@ def test_robots_in_a_row_have_those_before_and_after_them(turn, noise):
     assert edges(Delaunay().of(back)) == mixed
 
 
-@pytest.mark.parametrize("noise", [0, 1e-15])
-@pytest.mark.parametrize("turn", np.linspace(0, 3, 13))
+@each_case("noise", [0, 1e-15])
+@each_case("turn", np.linspace(0, 3, 13))
 def test_robots_in_ranks_have_no_neighbours_beyond_the_next_in_their_rank(turn, noise):
     """Rounding bends the ranks at the rim: that makes nobody a neighbour of the next but one."""
     x, y = np.meshgrid(np.arange(6.0), [0.0, 1.0, 2.0])
@@ -267,7 +268,7 @@ def test_robots_in_ranks_have_no_neighbours_beyond_the_next_in_their_rank(turn, 
     assert max(apart[pair] for pair in found) < 1.5  # the diagonals of squares: one of the two
 
 
-@pytest.mark.parametrize("seed", range(40))
+@each_case("seed", range(40))
 def test_a_row_and_one_who_watches_it(seed):
     """All flat triangles of the row's far side are taken off, however they lie on each other."""
     rng = np.random.default_rng(seed)
@@ -294,7 +295,7 @@ def test_of_robots_in_one_place_one_stands_for_all():
     assert edges(Delaunay().of(np.array([[0.0, 0, 1, 1], [0, 0, 0, 0]]))) == row(4)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@each_case("seed", SEEDS)
 def test_of_pairs_in_one_place_one_is_the_others_only_neighbour(seed):
     position = np.repeat(scattered(seed, 9), 2, axis=1)
     found = Delaunay().of(position)
@@ -334,13 +335,12 @@ def test_delaunay_of_a_thousand_is_quick_enough_for_each_control_step():
 PATH = [[0, 1, 0], [1, 0, 1], [0, 1, 0]]
 
 
-@pytest.mark.parametrize(
+@each_case(
     "matrix",
     [
         PATH, tuple(map(tuple, PATH)), np.array(PATH), np.array(PATH, bool),
         np.array(PATH) * 0.5, -np.array(PATH), np.array(PATH, np.uint8),
     ],
-    ids=["lists", "tuples", "array", "bool", "weights", "negative", "uint8"],
 )  # fmt: skip
 def test_an_adjacency_matrix_of_any_kind_is_a_graph(matrix):
     assert Graph(matrix).of(np.zeros((2, 3))) == [[1], [0, 2], [1]]
@@ -382,7 +382,7 @@ def test_graphs_of_networkx_are_the_matrices_that_it_makes_of_them():
         assert Graph(graph) == Graph(matrix)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("nodes", "message"),
     [
         (["a", "b"], "its nodes are ['a', 'b']: expected 0, 1, 2, ..., the robots' indices"),
@@ -425,7 +425,7 @@ def test_what_only_looks_like_a_graph_of_networkx_is_refused(what):
     assert NOT_A_GRAPH in str(raised.value)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("graph", "message"),
     [
         (np.ones((2, 3)), "Graph.graph: a matrix 2 x 3: expected as many columns as rows"),
@@ -550,7 +550,7 @@ def test_a_rule_of_the_users_own_is_a_class_with_one_method():
     assert listed(Ring(step=2)) == [[2], [3], [0], [1]]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("found", "message"),
     [
         (None, "returned None: expected for each robot a list of its neighbours' indices"),
@@ -604,7 +604,7 @@ def test_a_rule_can_not_move_robots():
         listed(Grab())
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("make", "message"),
     [
         (lambda: Scenario(neighbours="all"), "= 'all': expected a rule, such as Within(2.0)"),
@@ -630,9 +630,7 @@ def test_a_rule_with_wrong_fields_is_refused(make, message):
 # -- in a record ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "rule", [Everyone(), Within(2.5), Nearest(3), Delaunay(), Graph(PATH), Graph((3, []))], ids=repr
-)
+@each_case("rule", [Everyone(), Within(2.5), Nearest(3), Delaunay(), Graph(PATH), Graph((3, []))])
 def test_a_record_keeps_the_rule(rule, tmp_path):
     mars2d.run(Scenario(robots=3, neighbours=rule, stop_time=0)).save(tmp_path / "run.npz")
     record = mars2d.load(tmp_path / "run.npz")

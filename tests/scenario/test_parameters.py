@@ -7,11 +7,13 @@ import pytest
 from mars2d import InputError, Range, Robot, Scenario, load, run
 from mars2d.addons import Map
 from mars2d.bodies import Box
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.hot_reload import alike
 from mars2d.scenario.options import settings_in_words
 from mars2d.scenario.parameters import Parameter, arguments_of
 from mars2d.scenario.python_file import as_python
+from tests.cases import each_case
 
 FILE = """
 from functools import partial
@@ -81,7 +83,7 @@ def test_values_step_by_a_power_of_ten(file):
     assert odd.nearest(0.0) == 0.123, "its own ends can be reached"
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("options", "words"),
     [
         ({"mu": 2}, r"scenario\(mu\) = 2: expected a number >= 0.5 and <= 1.5, as its Range says"),
@@ -98,7 +100,7 @@ def test_what_no_range_allows_is_refused_by_name(file, options, words):
     assert raised.value.where == "file.py"
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("line", "words"),
     [
         ("mu: Annotated[float, Range(0, 1)] = 2.0", r"the default of scenario\(mu\) = 2.0: exp"),

@@ -16,6 +16,7 @@ from mars2d import InputError, Scenario
 from mars2d.addons import Density, Floor
 from mars2d.output.formats import SUFFIXES
 from mars2d.output.formats.header import as_text
+from mars2d.scenario import save_scenario
 
 BOUNDS = (0, 3, 0, 2)
 
@@ -30,26 +31,26 @@ def scenario(tmp_path, monkeypatch) -> Scenario:
     return Scenario(addons=[floor, Density(image="a b;c.png", bounds=BOUNDS)], stop_time=0.2)
 
 
-@pytest.mark.parametrize("suffix", SUFFIXES)
-def test_a_record_holds_its_pictures(scenario, suffix) -> None:
-    for library in {".nc": ("xarray",), ".mcap": ("mcap",)}.get(suffix, ()):
-        pytest.importorskip(library)
-    record = mars2d.run(scenario, record=f"run{suffix}")
+def test_a_record_holds_its_pictures(scenario) -> None:
+    record = mars2d.run(scenario)
     pixels = [addon.picture.pixels for addon in scenario.addons]
+    for suffix in SUFFIXES:
+        record.save(f"run{suffix}")
     Path("a b;c.png").unlink()
-    loaded = mars2d.load(f"run{suffix}")
-    assert loaded.digest == record.digest
-    assert loaded.missing == ()
-    for addon, before in zip(loaded.scenario.addons, pixels, strict=True):
-        assert np.array_equal(addon.picture.pixels, before)
-    again = mars2d.load(loaded.save(f"again{suffix}"))
-    assert again.scenario == loaded.scenario
+    for suffix in SUFFIXES:
+        loaded = mars2d.load(f"run{suffix}")
+        assert loaded.digest == record.digest
+        assert loaded.missing == ()
+        for addon, before in zip(loaded.scenario.addons, pixels, strict=True):
+            assert np.array_equal(addon.picture.pixels, before)
+        again = mars2d.load(loaded.save(f"again{suffix}"))
+        assert again.scenario == loaded.scenario
 
 
 def test_a_scenario_of_a_record_is_saved_with_its_pictures(scenario) -> None:
     mars2d.run(scenario, record="run.npz")
     Path("a b;c.png").unlink()
-    mars2d.load("run.npz").scenario.save("run.toml")
+    save_scenario(mars2d.load("run.npz").scenario, "run.toml")
     again = mars2d.run("run.toml")
     assert again.scenario.addons[0].pixels.shape == (4, 6, 3)
 

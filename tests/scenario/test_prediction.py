@@ -12,6 +12,7 @@ import mars2d
 from mars2d import InputError, LawError, Prediction
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.prediction import table
+from tests.cases import each_case
 
 HEAD = """\
 import numpy as np
@@ -23,7 +24,7 @@ scenario = Scenario(stop_time=1)
 # -- one prediction ---------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("measured", "ok"),
     [(1.0, True), (1.25, True), (0.75, True), (1.26, False), (0.74, False), (-1.0, False),
      (math.nan, False), (math.inf, False), (-math.inf, False)],
@@ -45,7 +46,7 @@ def test_numbers_of_numpy_become_those_of_python():
     }  # fmt: skip
 
 
-@pytest.mark.parametrize("measured", [math.nan, math.inf, -math.inf])
+@each_case("measured", [math.nan, math.inf, -math.inf])
 def test_what_could_not_be_measured_is_null_in_json(measured):
     text = json.dumps(Prediction("n", 1, measured, 1).as_dict(), allow_nan=False)
     assert json.loads(text)["measured"] is None
@@ -58,7 +59,7 @@ def test_a_share_of_the_predicted_number_is_a_tolerance():
     )
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("make", "words"),
     [
         (lambda: Prediction("n", math.nan, 1, 1), "Prediction.predicted = nan: expected a number"),
@@ -166,7 +167,7 @@ def finished(experiment):
     return mars2d.run(experiment.scenario)
 
 
-@pytest.mark.parametrize(
+@each_case(
     "body",
     [
         "    return [Prediction('end', 1, record.time[-1], 1e-9, 's')]\n",
@@ -222,7 +223,7 @@ def test_while_a_run_goes_on_what_checks_found_before_its_error_counts(tmp_path,
     assert experiment.predictions_so_far(world.record) == ((), None)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("body", "where", "words"),
     [
         ("pass", "mine.py, line 4", "checks returned nothing: expected a list of Prediction("),
@@ -245,7 +246,7 @@ def test_what_checks_do_wrong_is_named_with_file_and_line(tmp_path, body, where,
     assert words in str(caught.value)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("text", "words"),
     [
         ("checks = 3\n", "mine.py: checks = 3: expected a function of one argument, the record"),

@@ -2,16 +2,17 @@
 
 from pathlib import Path
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import mars2d
 from mars2d import Animation, Robot, Scenario, Sensor, load_law
-from mars2d.scenario import serialize
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario import load_scenario, serialize
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.pretty import Brackets, laid_out
 from mars2d.scenario.python_file import as_python
+from tests.cases import each_case
 from tests.worlds import without_laws
 
 EVERYTHING = Path(__file__).parent / "everything.toml"
@@ -24,7 +25,7 @@ def executed(text):
 
 
 def test_all_kinds_of_parts_are_listed():
-    scenario = Scenario.from_file(EVERYTHING)
+    scenario = load_scenario(EVERYTHING)
     text = as_python(scenario)
     assert executed(text) == scenario
     assert as_python(executed(text)) == text
@@ -32,7 +33,7 @@ def test_all_kinds_of_parts_are_listed():
     assert max(map(len, named)) <= 100
 
 
-@pytest.mark.parametrize("name", examples())
+@each_case("name", examples())
 def test_an_example_is_listed_but_for_its_code(name, tmp_path):
     experiment = open_experiment(name)
     text = as_python(experiment.scenario, experiment.control, tmp_path)
@@ -111,7 +112,7 @@ def test_any_title_can_be_listed(title):
     assert executed(text).title == title
 
 
-@pytest.mark.parametrize("width", range(12, 60))
+@each_case("width", range(12, 60))
 def test_what_is_laid_out_keeps_its_items_and_its_width(width):
     inner = [Brackets("(", [f"{i}.0", "-1.5"], ")") for i in range(8)]
     node = Brackets("f(", [Brackets("a=[", inner, "]", filled=True), "b=2"], ")")

@@ -16,11 +16,13 @@ from mars2d.bodies import Bar, Box, Rope
 from mars2d.cli import command_line as cli
 from mars2d.core.plane import lines_and_areas
 from mars2d.geometry import Disc, Polygon
+from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.schema import schema
 from mars2d.scenario.starts import footprint
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 FILE = """
 from mars2d import Robot, Scenario
@@ -144,7 +146,7 @@ def law(robot):
     return 0.1, 0.0
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2, 3, 2**63 - 1])
+@each_case("seed", [0, 1, 2, 3, 2**63 - 1])
 def test_all_start_in_their_area_apart_and_clear_of_everything(seed):
     found = crowd().started(seed)
     found.replace()  # refuses starts that overlap, or that are in a wall
@@ -193,8 +195,8 @@ def test_a_run_is_that_of_the_record_and_is_run_again_to_the_bit(tmp_path):
 
 def test_a_scenario_file_says_them(tmp_path):
     scenario = crowd(robots=[Robot(name="guest")], random_starts=[RandomStarts(["guest", "crate"])])
-    scenario.save(tmp_path / "a.toml")
-    assert Scenario.from_file(tmp_path / "a.toml") == scenario
+    save_scenario(scenario, tmp_path / "a.toml")
+    assert load_scenario(tmp_path / "a.toml") == scenario
     first = mars2d.run(tmp_path / "a.toml", seed=2)
     assert first.scenario.robots[0].pose == scenario.started(2).robots[0].pose
     errors = jsonschema.Draft202012Validator(schema()).iter_errors(
@@ -227,7 +229,7 @@ def test_no_run_of_a_sweep_fails_for_its_start(tmp_path):
     assert failed["placed.py"] == 0
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("changes", "words"),
     [
         (

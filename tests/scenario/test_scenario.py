@@ -20,6 +20,7 @@ from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.options import parse_setting
 from mars2d.sensors import Proximity
+from tests.cases import each_case
 from tests.worlds import ELL
 
 SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
@@ -93,7 +94,7 @@ def test_a_misspelt_field_gives_the_nearest_name():
         Unicycle(max_speed=1)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("robots", "fields", "problem"),
     [
         ([Robot(), Robot(pose=(0.2, 0, 0))], {}, "robot0 .* and of robot1 .* inside each other"),
@@ -110,7 +111,7 @@ def test_what_could_not_start_is_refused_with_the_reason(robots, fields, problem
         Scenario(robots=robots, **fields)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("robots", "fields"),
     [
         ([Robot(), Robot(pose=(0.3, 0, 0))], {}),
@@ -143,7 +144,7 @@ def test_thousands_of_robots_in_a_row_are_checked_quickly(axis):
         Scenario(robots=robots, workspace=None)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("stop_time", "sampling_time", "iterations"),
     [(0, 0.1, 0), (1, 0.1, 10), (0.3, 0.1, 3), (0.99, 0.1, 9), (1000, 1, 1000), (100, 0.3, 333),
      (0.05, 0.1, 0), (1e4, 1e-3, 10_000_000)],
@@ -171,7 +172,7 @@ def test_colours_are_the_robots_own_or_the_next_of_the_base_colours():
     assert scenario.colors == ("#000000", "#d62728", "#000000")
 
 
-@pytest.mark.parametrize("speed", [0, 1, 2.5, "max", np.float32(3), np.int64(2)])
+@each_case("speed", [0, 1, 2.5, "max", np.float32(3), np.int64(2)])
 def test_a_playback_speed_is_a_factor_or_max(speed):
     assert Animation(playback_speed=speed).playback_speed == speed
 
@@ -258,7 +259,7 @@ def test_bodies_are_the_robots_then_the_props():
     assert second.inertia == (2, 2 * 0.1**2 / 2)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "message"),
     [
         (
@@ -314,7 +315,7 @@ def test_a_body_that_cannot_be_held_is_refused_with_its_name_and_the_reason(fiel
     refused(message, **fields)
 
 
-@pytest.mark.parametrize("material", MATERIALS)
+@each_case("material", MATERIALS)
 def test_a_light_thing_of_any_material_is_accepted(material):
     plate = Box(pose=(1, 0), length=0.3, width=0.2, height=0.02, material=material)
     heavy = plate.inertia.mass
@@ -334,7 +335,7 @@ def test_props_may_lie_in_the_notch_of_another_one():
 JOINTED = {"robots": [Robot(), Robot(pose=(1, 0, 0))], "props": [Box(pose=(0, 1, 0))]}
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("joint", "message"),
     [
         (Rope(a="robto0", b="box0"), r"joints\[0\].a = 'robto0': .*did you mean 'robot0'"),
@@ -453,12 +454,12 @@ def test_options_of_props_and_joints_pass_the_same_gate():
             with_options(setting)
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@each_case("physics", ["contact", "stop", "ideal"])
 def test_physics_is_an_option(physics):
     assert with_options(f"physics={physics}").physics == physics
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("name", "option", "message"),
     [
         ("pursuit_corners", {"mu": "0,9"}, "scenario(mu) = '0,9': expected a number; its default"),

@@ -7,9 +7,10 @@ from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.bodies import Ball, Box, Puck
 from mars2d.scenario.experiment import open_experiment
+from tests.cases import each_case
 
 
-@pytest.mark.parametrize("kind", [Robot, Ball, Puck])
+@each_case("kind", [Robot, Ball, Puck])
 def test_a_radius_is_half_a_diameter(kind):
     small = kind(radius=0.25)
     assert small == kind(diameter=0.5)
@@ -19,7 +20,7 @@ def test_a_radius_is_half_a_diameter(kind):
     assert repr(small) == f"{kind.__name__}(diameter=0.5)"
 
 
-@pytest.mark.parametrize("kind", [Robot, Ball, Puck])
+@each_case("kind", [Robot, Ball, Puck])
 def test_only_one_of_them_is_given(kind):
     with pytest.raises(InputError, match=f"{kind.__name__} has both radius and diameter"):
         kind(radius=0.1, diameter=0.2)
@@ -74,7 +75,7 @@ def test_settings_name_things_as_laws_do(scenario):
     assert open_experiment(scenario, by_number | {"addons.0.friction": 0.7}).scenario == changed
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("name", "message"),
     [
         ("robots.rde.mass", r"'robots.rde': expected \* or 0 to 1 or a name; did you mean 'red'"),

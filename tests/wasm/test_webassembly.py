@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
 from tests.house.test_examples import DIGESTS
 
 pytestmark = pytest.mark.slow

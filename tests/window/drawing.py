@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from mars2d.scenario import save_scenario
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from tests.window.person import Driver
@@ -75,7 +76,7 @@ def open_editor(screen, tmp_path):
 
     def start(source="-", **options):
         if isinstance(source, Scenario):
-            source.save(tmp_path / "given.toml")
+            save_scenario(source, tmp_path / "given.toml")
             source = tmp_path / "given.toml"
         opened.append(Hands(screen, tmp_path, source, **options))
         return opened[-1]

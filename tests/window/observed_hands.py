@@ -60,7 +60,7 @@ class Observed(Window):
                 "status": self.director.status,
                 "robots": shown.pose.round(4).T.tolist(),
                 "props": shown.prop_pose.round(4).T.tolist(),
-                "pulls": len(self.director.timeline.world.hands.pulls),
+                "pulls": len(self.director.timeline.world.operator.pulls),
                 "branches": len(self.director.timeline.branches),
                 "past": self.player.past,
                 "camera": [self.camera.scale, self.camera.x, self.camera.y],

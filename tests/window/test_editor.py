@@ -12,8 +12,8 @@ import pytest
 
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
+from mars2d.scenario import load_scenario
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import keys
 from tests.processes import PATIENCE, bare_environment, mars, wait_until
 from tests.window.drawing import near, team
@@ -411,12 +411,12 @@ def test_saving_asks_for_a_name_once_and_before_it_overwrites(open_editor, tmp_p
     hands.type("room")
     hands.press("Return", "Return")
     hands.until(lambda s: s["notice"] == "Saved room.toml" and not s["changed"])
-    assert Scenario.from_file(tmp_path / "room.toml").title == "Room"
+    assert load_scenario(tmp_path / "room.toml").title == "Room"
     hands.click(2, 2)
     hands.until(lambda s: len(s["robots"]) == 2 and s["changed"])
     hands.press("ctrl+s")
     hands.until(lambda s: s["notice"] == "Saved room.toml")
-    assert len(Scenario.from_file(tmp_path / "room.toml").robots) == 2
+    assert len(load_scenario(tmp_path / "room.toml").robots) == 2
 
 
 @needs_screen
@@ -469,7 +469,7 @@ def test_leaving_asks_when_something_would_be_lost(open_editor, tmp_path):
     hands.until(lambda s: s["prompt"] is None)
     hands.press("Escape", "Return")
     hands.until(lambda s: s.get("left"))
-    assert Scenario.from_file(tmp_path / "given.toml").robots[0].pose == (2, 0, 0)
+    assert load_scenario(tmp_path / "given.toml").robots[0].pose == (2, 0, 0)
 
 
 @needs_screen
@@ -480,7 +480,7 @@ def test_backspace_discards_and_without_a_change_nobody_asks(open_editor, tmp_pa
     hands.until(lambda s: len(s["robots"]) == 2)
     hands.press("Escape", "Escape", "BackSpace")
     hands.until(lambda s: s.get("left"))
-    assert len(Scenario.from_file(tmp_path / "given.toml").robots) == 1
+    assert len(load_scenario(tmp_path / "given.toml").robots) == 1
     hands = open_editor(tmp_path / "given.toml")
     hands.press("Escape")
     hands.until(lambda s: s.get("left"))
@@ -622,7 +622,7 @@ def test_the_command_draws_a_new_file(screen, tmp_path):
     finally:
         process.kill()
         process.communicate()
-    assert len(Scenario.from_file(tmp_path / "room.toml").robots) == 1
+    assert len(load_scenario(tmp_path / "room.toml").robots) == 1
 
 
 @pytest.mark.parametrize(

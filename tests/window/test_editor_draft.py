@@ -12,7 +12,8 @@ from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Ball, Box, Gate
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, keys

@@ -34,7 +34,7 @@ def branched(row=20, newest=40):
     timeline = timeline_of()
     run_to(timeline, newest)
     timeline.go(row)
-    timeline.change(lambda w: w.hands.place(0, (w.pose[0, 0], -2.0, 0.0)))
+    timeline.change(lambda w: w.operator.place(0, (w.pose[0, 0], -2.0, 0.0)))
     run_to(timeline, newest)
     return timeline
 
@@ -106,7 +106,7 @@ def test_many_robots_and_branches_cost_little():
     run_to(timeline, 900)
     for row in (100, 300, 500, 700, 800):
         timeline.go(row)
-        timeline.change(lambda w: w.hands.place(0, (0.0, w.pose[1, 0] - 2.0, 0.0)))
+        timeline.change(lambda w: w.operator.place(0, (0.0, w.pose[1, 0] - 2.0, 0.0)))
         run_to(timeline, 900)
     frame = timeline.frame
     costs = []
@@ -128,7 +128,7 @@ def test_marks_of_hands_branches_and_collisions():
     touched = record.contacts["time"][record.contacts["began"]]
     assert len(touched) == 1
     timeline.go(30)
-    timeline.change(lambda w: w.hands.place(1, (3.0, 3.0, 0.0)))
+    timeline.change(lambda w: w.operator.place(1, (3.0, 3.0, 0.0)))
     rows = Marks(timeline).rows()
     assert rows["collision"] == [int(np.ceil(touched[0] / 0.5))]
     assert rows["hand"] == [30]
@@ -138,7 +138,7 @@ def test_marks_of_hands_branches_and_collisions():
 def test_a_recording_has_the_marks_that_its_run_had():
     timeline = timeline_of(addons=[Map([[(1.0, -1.0), (1.0, 1.0)]])])
     run_to(timeline, 30)
-    timeline.change(lambda w: w.hands.place(1, (3.0, 3.0, 0.0)))
+    timeline.change(lambda w: w.operator.place(1, (3.0, 3.0, 0.0)))
     run_to(timeline, 40)
     ran = Marks(timeline).rows()
     player = Player(Playback(timeline.record), 1.0)

@@ -138,7 +138,7 @@ def test_a_click_is_left_to_others_and_changes_nothing(running):
     person.move(0.02, 0.0)
     assert not person.release(0.02, 0.0)  # no more than a click
     assert not person.grab.busy
-    assert person.world.hands.log == []
+    assert person.world.operator.log == []
 
 
 def test_other_buttons_are_not_its_business():
@@ -162,7 +162,7 @@ def test_a_drag_pulls_a_robot_to_the_pointer_and_a_line_shows_how_strongly():
     person.wait(20)
     assert person.world.pose[:2, 0] == pytest.approx((0, -1), abs=0.06)
     assert person.release(0.0, -1.0)
-    assert person.world.hands.pulls == ()
+    assert person.world.operator.pulls == ()
     person.wait(3)
     assert person.grab.marks(person.world.frame, CAMERA) != []  # it is over the robot
 
@@ -172,10 +172,10 @@ def test_it_pulls_to_where_the_pointer_is_though_the_camera_moves():
     person.press(0, 0)
     person.move(0.0, -0.5)
     person.wait(1, CAMERA.panned(0.0, 50.0))
-    (pull,) = person.world.hands.pulls
+    (pull,) = person.world.operator.pulls
     assert pull.target == pytest.approx((0.0, 0.0))
     person.wait(1)
-    (pull,) = person.world.hands.pulls
+    (pull,) = person.world.operator.pulls
     assert pull.target == pytest.approx((0.0, -0.5))
 
 
@@ -183,7 +183,7 @@ def test_a_small_robot_that_is_gripped_beside_its_edge_is_held_at_the_edge():
     person = Person(Scenario(robots=[Robot(diameter=0.02)]), running=True)
     person.press(0.04, 0.0)
     person.move(0.5, 0.0)
-    (pull,) = person.world.hands.pulls
+    (pull,) = person.world.operator.pulls
     assert pull.grip == pytest.approx((0.01, 0.0))
 
 
@@ -192,7 +192,7 @@ def test_a_button_that_is_held_long_holds_what_moves():
     person = Person(Scenario(robots=[red]), running=True)
     person.press(0, 0)
     person.wait(5)
-    assert len(person.world.hands.pulls) == 1
+    assert len(person.world.operator.pulls) == 1
     person.wait(10)
     there = person.world.pose[0, 0]
     person.wait(5)
@@ -206,7 +206,7 @@ def test_what_is_pulled_is_held_where_it_was_pressed_though_it_has_moved_since()
     person.press(0.1, 0.0)
     person.wait(2)
     person.move(0.1, 0.5)
-    (pull,) = person.world.hands.pulls
+    (pull,) = person.world.operator.pulls
     assert pull.grip == pytest.approx((0.1, 0.0))
 
 
@@ -216,7 +216,7 @@ def test_once_time_stands_still_it_lets_go():
     person.move(0.0, -1.0)
     person.running = False
     person.grab.tick(person.world.frame, CAMERA, running=False)
-    assert person.world.hands.pulls == ()
+    assert person.world.operator.pulls == ()
     assert not person.grab.busy
 
 
@@ -242,7 +242,7 @@ def test_where_no_forces_act_it_says_what_to_do_instead_once_a_drag(physics):
     assert words.startswith("red can't be pulled: with physics =")
     assert "pause, and put it elsewhere" in words
     assert not person.grab.busy
-    assert person.world.hands.log == []
+    assert person.world.operator.log == []
 
 
 def test_in_a_recording_nothing_is_pulled_and_the_drag_ends():
@@ -268,7 +268,7 @@ def test_a_drag_shows_a_body_elsewhere_and_puts_it_there_when_it_ends():
     assert person.release(-1.05, -1.0)
     assert person.world.prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
     assert person.shown().prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
-    assert [type(i).__name__ for i in person.world.hands.log] == ["Place"]
+    assert [type(i).__name__ for i in person.world.operator.log] == ["Place"]
 
 
 def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
@@ -303,7 +303,7 @@ def test_once_time_passes_again_what_was_carried_is_back():
     person.grab.tick(person.world.frame, CAMERA, running=True)
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
     person.release(0, -1)
-    assert person.world.hands.log == []
+    assert person.world.operator.log == []
 
 
 def test_what_a_joint_holds_is_not_carried_and_this_is_said():
@@ -380,11 +380,3 @@ def test_points_that_an_addon_names_are_shown_under_the_pointer():
     person.move(2.0, 0.5)
     assert person.grab.over is None
     assert [text.text for text in person.marks(Text)] == ["door at 0 s"]
-
-
-def test_the_former_name_of_the_class_works_and_warns():
-    module = pytest.warns(FutureWarning, match="mars2d.window.hand is mars2d.window.grab now")
-    with module, pytest.warns(FutureWarning, match="Hand is mars2d.window.grab.Grab now"):
-        from mars2d.window.hand import Hand
-    assert Hand is Grab
-    assert not hasattr(grab, "Arm")

@@ -153,7 +153,7 @@ def test_who_stays_free_has_won_and_a_better_time_is_news(memory, catch):
 
 def test_a_game_that_hands_have_changed_does_not_count(memory, catch):
     window = opened(catch, memory, [1])
-    window.director.change(lambda world: world.hands.place("red", (-2, 1, 0)))
+    window.director.change(lambda world: world.operator.place("red", (-2, 1, 0)))
     run_to_the_end(window)
     assert window.game.result.news.startswith("Not counted")
     assert window.game.tally("evader") == Tally()

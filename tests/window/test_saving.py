@@ -278,6 +278,6 @@ def test_a_scenario_is_kept_with_short_numbers_which_are_those_of_the_file_for_w
     (x, y, theta), exact = kept.robots[0].pose, timeline.frame.pose[:, 0]
     assert np.abs(np.array([x, y, theta]) - exact).max() <= 5e-7
     assert all(len(repr(value)) <= 9 for value in (x, y, theta))
-    timeline.world.hands.place(0, (1e-9, -1e-9, 1.0))
+    timeline.world.operator.place(0, (1e-9, -1e-9, 1.0))
     director._player.settle()
     assert str(director.scenario_to_save().robots[0].pose) == "(0.0, 0.0, 1.0)"

@@ -141,13 +141,13 @@ def test_to_look_back_while_pulling_lets_go_and_makes_no_branch(desk, key):
     desk = desk()
     desk.play(12)
     desk.drag(0, by=(0, -80))
-    assert len(desk.timeline.world.hands.pulls) == 1
+    assert len(desk.timeline.world.operator.pulls) == 1
     newest = desk.timeline.newest
     desk.press(key)
     assert desk.timeline.row < newest
     assert desk.where[1:] == (newest, 0)
-    assert len(desk.timeline.world.hands.pulls) == 0
-    assert desk.timeline.world.hands.log[-1].target is None
+    assert len(desk.timeline.world.operator.pulls) == 0
+    assert desk.timeline.world.operator.log[-1].target is None
     desk.drop()
     assert desk.where[1:] == (newest, 0)
 
@@ -170,12 +170,12 @@ def test_b_while_pulling_lets_go_in_the_branch_that_is_left(desk):
     desk.drag(1, by=(40, 0))
     pulled = desk.timeline.world
     assert desk.where[2] == 1
-    assert len(pulled.hands.pulls) == 1
+    assert len(pulled.operator.pulls) == 1
     desk.press("b")
     desk.pass_pictures(3)
     desk.drop()
     assert desk.timeline.branches == [pulled]
-    assert len(pulled.hands.pulls) == 0
+    assert len(pulled.operator.pulls) == 0
 
 
 # -- driving --------------------------------------------------------------------------------------

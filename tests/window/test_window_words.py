@@ -88,7 +88,7 @@ def test_the_inspector_leaves_the_arena_to_one_who_drives(window):
 
 def test_the_first_branch_says_how_to_get_to_the_other(window):
     window.player.go(20)
-    assert window.director.change(lambda world: world.hands.place("blue", (2, 2, 0)))
+    assert window.director.change(lambda world: world.operator.place("blue", (2, 2, 0)))
     assert "a new branch begins here; B shows what was run before" in said(window)
     do(window, "branch")
     assert "another branch, run until 5 s; B goes back" in said(window)

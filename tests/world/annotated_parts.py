@@ -19,7 +19,7 @@ from mars2d.world.views import RobotView
 
 class ByClass(Addon):
     def on_step(self, world: World) -> None:
-        world.hands.let_go()
+        world.operator.let_go()
 
     def draw(self, scene: Scene, frame: Frame) -> None: ...
 

@@ -16,6 +16,7 @@ from mars2d.bodies.joints import Hinge, Rope, Spring
 from mars2d.bodies.props import Box, Puck
 from mars2d.physics.islands import reason_without
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 WALL = Map([[(1.0, -3.0), (1.0, 3.0)]])
 ROBOT = Robot(pose=(0, 0, 0))
@@ -29,7 +30,7 @@ def straight(robot):
 def pulled(scenario, body, target, grip=(0.0, 0.0), steps=40, **options):
     """The world, and the poses (steps, 3) of a body that is pulled to a target."""
     world = World(scenario)
-    world.hands.pull(body, grip, target, **options)
+    world.operator.pull(body, grip, target, **options)
     index = scenario.body_index_of("test", body)
     path = []
     for _ in range(steps):
@@ -41,7 +42,7 @@ def pulled(scenario, body, target, grip=(0.0, 0.0), steps=40, **options):
 # -- pulling what is free --------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("drive", [Unicycle(), Holonomic()])
+@each_case("drive", [Unicycle(), Holonomic()])
 def test_a_robot_whose_law_stands_still_follows_the_pointer_and_never_swings_back(drive):
     _, path = pulled(Scenario(robots=[ROBOT.replace(drive=drive)]), 0, (2.0, 1.0))
     ways = np.hypot(*(path[:, :2] - (2.0, 1.0)).T)
@@ -75,14 +76,14 @@ def test_a_pull_is_no_faster_than_it_is_allowed_to_be():
 
 def test_let_go_a_robot_stands_where_it_was_left():
     world, _ = pulled(Scenario(robots=[ROBOT]), 0, (2.0, 1.0), steps=8)
-    world.hands.pull(0, (0, 0), None)
+    world.operator.pull(0, (0, 0), None)
     for _ in range(5):
         world.step()
     there = world.pose[:, 0].copy()
     world.step()
     assert np.array_equal(world.pose[:, 0], there)
-    assert world.hands.pulls == ()
-    assert world.hands.force(0) == 0.0
+    assert world.operator.pulls == ()
+    assert world.operator.force(0) == 0.0
 
 
 def test_the_way_does_not_depend_on_the_sampling_time_by_more_than_a_slice():
@@ -112,8 +113,8 @@ def test_the_strongest_and_quickest_pull_neither_hangs_nor_goes_through_walls():
 
 def test_a_body_far_away_can_be_put_there_and_pulled_there():
     world = World(Scenario(robots=[ROBOT], workspace=None, on_exit="ignore"))
-    world.hands.place(0, (9e5, -9e5, 0.0))
-    world.hands.pull(0, (0.0, 0.0), (9e5 + 1, -9e5))
+    world.operator.place(0, (9e5, -9e5, 0.0))
+    world.operator.pull(0, (0.0, 0.0), (9e5 + 1, -9e5))
     for _ in range(20):
         world.step()
     assert world.pose[0, 0] == pytest.approx(9e5 + 1, rel=1e-12, abs=0.02)
@@ -122,8 +123,8 @@ def test_a_body_far_away_can_be_put_there_and_pulled_there():
 # -- against drives and floors -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize("drive", [Unicycle(), Holonomic()])
-@pytest.mark.parametrize("force", [0.5, 2.0, 4.9])
+@each_case("drive", [Unicycle(), Holonomic()])
+@each_case("force", [0.5, 2.0, 4.9])
 def test_a_pull_weaker_than_the_drive_leaves_a_robot_on_its_course(drive, force):
     robot = ROBOT.replace(drive=drive, controller=straight)
     world, path = pulled(Scenario(robots=[robot]), 0, (0.0, 4.5), force=force, steps=100)
@@ -152,8 +153,8 @@ def test_a_stronger_one_moves_it_as_newton_says():
 def test_two_hands_that_pull_equally_at_two_robots_meet_nobody_half_way():
     scenario = Scenario(robots=[ROBOT.at(-1, 0), ROBOT.at(1, 0)])
     world = World(scenario)
-    world.hands.pull(0, (0, 0), (-1.0, 2.0))
-    world.hands.pull(1, (0, 0), (1.0, 2.0))
+    world.operator.pull(0, (0, 0), (-1.0, 2.0))
+    world.operator.pull(1, (0, 0), (1.0, 2.0))
     for _ in range(30):
         world.step()
     assert np.allclose(world.pose[:2], [(-1, 1), (2, 2)], atol=0.01)
@@ -163,7 +164,7 @@ def test_two_hands_that_pull_equally_at_two_robots_meet_nobody_half_way():
 # -- walls, crowds, joints ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("mass", "force"), [(1.0, 17.5), (1.0, 60.0), (9.0, 400.0)])
+@each_case(("mass", "force"), [(1.0, 17.5), (1.0, 60.0), (9.0, 400.0)])
 def test_a_robot_that_is_pulled_at_a_wall_stays_on_its_side(mass, force):
     scenario = Scenario(robots=[ROBOT.replace(mass=mass)], addons=[WALL])
     world, path = pulled(scenario, 0, (4.0, 0.5), force=force, speed=5.0)
@@ -190,14 +191,14 @@ def crowd(seed):
     return scenario, rng.uniform(-3, 3, (8, 2))
 
 
-@pytest.mark.parametrize("seeds", [range(k, k + 25) for k in range(0, 100, 25)])
+@each_case("seeds", [range(k, k + 25) for k in range(0, 100, 25)])
 def test_nobody_escapes_from_a_crowd_that_one_is_pulled_through(seeds):
     for seed in seeds:
         scenario, targets = crowd(seed)
         world = World(scenario)
         start = time.process_time()
         for x, y in targets:
-            world.hands.pull(7, (0.05, 0.1), (x, y), force=40.0, speed=5.0)
+            world.operator.pull(7, (0.05, 0.1), (x, y), force=40.0, speed=5.0)
             world.step()
             reach = np.abs(world.pose[:2]).max()
             assert reach <= 1.5 - 0.15 + scenario.max_overlap, f"seed {seed}"
@@ -246,9 +247,9 @@ def digest_of_a_crowd():
     scenario, targets = crowd(3)
     world = World(scenario)
     for k, target in enumerate(targets):
-        world.hands.pull(7, (0.05, 0.1), target, force=40.0)
+        world.operator.pull(7, (0.05, 0.1), target, force=40.0)
         if k == 4:
-            world.hands.pull(3, (0.0, 0.0), (0.0, 0.0))
+            world.operator.pull(3, (0.0, 0.0), (0.0, 0.0))
         world.step()
     world.break_off("enough")
     return world.record.digest
@@ -258,7 +259,7 @@ def test_in_a_large_team_a_pull_is_the_same():
     places = [(0.5 * (k % 13) - 3, 0.5 * (k // 13) - 2.5) for k in range(143)]
     robots = [Robot(pose=(*place, 0)) for place in places]
     world = World(Scenario(robots=robots, on_exit="ignore"))
-    world.hands.pull(70, (0.0, 0.0), (4.5, 4.0), force=60.0)
+    world.operator.pull(70, (0.0, 0.0), (4.5, 4.0), force=60.0)
     for _ in range(60):
         world.step()
     assert world.pose[:2, 70] == pytest.approx((4.5, 4.0), abs=0.02)
@@ -273,7 +274,7 @@ def test_in_a_large_team_a_pull_is_the_same():
 def test_a_body_that_is_put_elsewhere_stands_still_there_and_goes_on():
     world = World(Scenario(robots=[ROBOT.replace(controller=straight), ROBOT.at(-2, -2)]))
     world.step()
-    world.hands.place(0, (-1.0, 1.0, np.pi / 2))
+    world.operator.place(0, (-1.0, 1.0, np.pi / 2))
     assert world.pose[:, 0].tolist() == [-1.0, 1.0, np.pi / 2]
     world.step()
     assert np.allclose(world.pose[:, 0], (-1.0, 1.03, np.pi / 2))
@@ -285,7 +286,7 @@ def test_the_others_do_not_feel_it():
     one, other = World(Scenario(robots=robots)), World(Scenario(robots=robots))
     for k in range(20):
         if k == 7:
-            one.hands.place(0, (2, 2, 1))
+            one.operator.place(0, (2, 2, 1))
         one.step()
         other.step()
     assert np.array_equal(one.pose[:, 1], other.pose[:, 1])
@@ -294,7 +295,7 @@ def test_the_others_do_not_feel_it():
 ROOM = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("pose", "words"),
     [
         ((1.0, 0.1, 0), "it would overlap blue"),
@@ -314,22 +315,22 @@ def test_where_a_body_can_not_be_put_is_said_in_words_and_nothing_happens(pose, 
     )
     world = World(scenario)
     with pytest.raises(InputError, match=f"^red can't be put there: {words}$"):
-        world.hands.place("red", pose)
+        world.operator.place("red", pose)
     assert world.pose[:, 0].tolist() == [0, 0, 0]
-    assert world.hands.log == []
+    assert world.operator.log == []
 
 
 def test_bodies_may_be_put_so_that_they_just_touch():
     world = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)], props=[CRATE.at(0, 2)]))
-    world.hands.place(0, (0.7, 0, 0))
-    world.hands.place(0, (0, 1.6, 0))
+    world.operator.place(0, (0.7, 0, 0))
+    world.operator.place(0, (0, 1.6, 0))
     world.step()
     assert np.allclose(world.pose[:, 0], (0, 1.6, 0), atol=1e-3)
 
 
 def test_where_nothing_collides_a_robot_may_be_put_into_another():
     world = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)], physics="ideal"))
-    world.hands.place(0, (1, 0, 0))
+    world.operator.place(0, (1, 0, 0))
     assert world.pose[0].tolist() == [1, 1]
 
 
@@ -338,10 +339,10 @@ def test_the_parts_of_a_hinge_may_overlap_but_not_what_lies_beside_them():
     scenario = Scenario(robots=[ROBOT, ROBOT.at(0.2, 0), ROBOT.at(2, 0)], joints=[hinge])
     world = World(scenario)
     with pytest.raises(InputError, match="robot2 can't be put there: it would overlap robot"):
-        world.hands.place("robot2", (0.3, 0, 0))
-    world.hands.place("robot2", (1, 0, 0))
+        world.operator.place("robot2", (0.3, 0, 0))
+    world.operator.place("robot2", (1, 0, 0))
     with pytest.raises(InputError, match="a joint holds it; it can be pulled"):
-        world.hands.place("robot1", (1, 1, 0))
+        world.operator.place("robot1", (1, 1, 0))
 
 
 # -- driving -------------------------------------------------------------------------------------
@@ -356,10 +357,10 @@ def test_a_robot_that_is_driven_has_the_hands_command_and_its_law_is_asked_all_t
 
     world = World(Scenario(robots=[ROBOT.replace(controller=law)]))
     world.step()
-    world.hands.steer("robot0", (0.4, 0.2))
+    world.operator.steer("robot0", (0.4, 0.2))
     world.step()
     world.step()
-    world.hands.steer(0, None)
+    world.operator.steer(0, None)
     world.step()
     assert world.record.command[:, 0, 0].tolist() == [0.1, 0.4, 0.4, 0.1]
     assert world.record.command[:, 1, 0].tolist() == [0.0, 0.2, 0.2, 0.0]
@@ -368,7 +369,7 @@ def test_a_robot_that_is_driven_has_the_hands_command_and_its_law_is_asked_all_t
 
 def test_a_hands_command_is_limited_by_the_drive_as_any_other():
     world = World(Scenario(robots=[ROBOT]))
-    world.hands.steer(0, (50.0, 0.0))
+    world.operator.steer(0, (50.0, 0.0))
     world.step()
     assert world.command[:, 0].tolist() == [0.5, 0.0]
 
@@ -377,7 +378,7 @@ def test_who_is_out_of_the_game_does_not_move_by_hand_either():
     robots = [Robot(name="red").at(0.5, 0), Robot(name="blue"), Robot(name="green").at(3, 3)]
     game = Game({"pursuer": ["red"], "evader": ["blue", "green"]}, capture=0.5)
     world = World(Scenario(robots=robots, addons=[game]))
-    world.hands.steer("blue", (0.5, 0.0))
+    world.operator.steer("blue", (0.5, 0.0))
     for _ in range(5):
         world.step()
     assert world.pose[:2, 1].tolist() == [0.0, 0.0]
@@ -385,13 +386,13 @@ def test_who_is_out_of_the_game_does_not_move_by_hand_either():
 
 def test_all_is_let_go_at_once():
     world = World(Scenario(robots=[ROBOT, ROBOT.at(2, 2)]))
-    world.hands.steer(0, (0.4, 0.0))
-    world.hands.pull(1, (0, 0), (3, 3))
+    world.operator.steer(0, (0.4, 0.0))
+    world.operator.pull(1, (0, 0), (3, 3))
     world.step()
-    world.hands.let_go()
+    world.operator.let_go()
     world.step()
-    assert world.hands.driven == ()
-    assert world.hands.pulls == ()
+    assert world.operator.driven == ()
+    assert world.operator.pulls == ()
     assert world.command.tolist() == [[0, 0], [0, 0]]
     assert rerun_is_the_same(world)
 
@@ -399,7 +400,7 @@ def test_all_is_let_go_at_once():
 # -- what can't be done ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("act", "words"),
     [
         (
@@ -431,18 +432,18 @@ def test_all_is_let_go_at_once():
 def test_what_makes_no_sense_is_refused_and_nothing_happens(act, words):
     world = World(Scenario(robots=[Robot(name="red"), Robot(name="blue").at(1, 0)]))
     with pytest.raises(InputError, match=words):
-        act(world.hands)
-    assert world.hands.log == []
-    assert world.hands.driven == ()
+        act(world.operator)
+    assert world.operator.log == []
+    assert world.operator.driven == ()
     world.step()
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_where_no_forces_act_nothing_can_be_pulled_but_put_elsewhere(physics):
     world = World(Scenario(robots=[ROBOT], physics=physics))
     with pytest.raises(InputError, match=f"can't be pulled: with physics = '{physics}' no forces"):
-        world.hands.pull(0, (0, 0), (1, 1))
-    world.hands.place(0, (1, 1, 1))
+        world.operator.pull(0, (0, 0), (1, 1))
+    world.operator.place(0, (1, 1, 1))
     world.step()
     assert world.pose[:, 0].tolist() == [1, 1, 1]
 
@@ -454,7 +455,7 @@ def test_an_error_of_a_sensor_ends_the_run_as_ever_where_a_body_is_put_elsewhere
 
     world = World(Scenario(robots=[ROBOT.replace(sensors=[Broken()])]))
     with pytest.raises(LawError, match="no light"):
-        world.hands.place(0, (1, 1, 1))
+        world.operator.place(0, (1, 1, 1))
     assert world.over
 
 
@@ -476,19 +477,19 @@ def poked(seed=0):
     world = World(Scenario(robots=robots, props=props, addons=[WALL]), seed=seed)
     for k in range(40):
         if k == 3:
-            world.hands.pull("puck", (0.02, 0.0), (0.5, -0.5))
+            world.operator.pull("puck", (0.02, 0.0), (0.5, -0.5))
         if k >= 5:
-            world.hands.pull("puck", (0.02, 0.0), (0.5 + 0.01 * k, -0.4))
+            world.operator.pull("puck", (0.02, 0.0), (0.5 + 0.01 * k, -0.4))
         if k == 10:
-            world.hands.place("robot1", (2.0, -2.0, 1.0))
-            world.hands.place("box0", (-1.0, 2.0, 1.0))
+            world.operator.place("robot1", (2.0, -2.0, 1.0))
+            world.operator.place("box0", (-1.0, 2.0, 1.0))
         if k == 12:
-            world.hands.steer("robot2", (0.3, 1.0))
+            world.operator.steer("robot2", (0.3, 1.0))
         if k == 20:
-            world.hands.steer("robot2", None)
-            world.hands.pull("puck", (0, 0), None)
+            world.operator.steer("robot2", None)
+            world.operator.pull("puck", (0, 0), None)
         if k == 25:
-            world.hands.place("robot0", (0.0, -2.0, 2.0))
+            world.operator.place("robot0", (0.0, -2.0, 2.0))
         world.step()
     return world
 
@@ -515,7 +516,7 @@ def test_worlds_that_are_stepped_in_turn_do_not_feel_each_other():
     first = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)]))
     second = World(Scenario(robots=[ROBOT, ROBOT.at(1, 0)]))
     for world in (first, second):
-        world.hands.pull(0, (0, 0), (2, 0))
+        world.operator.pull(0, (0, 0), (2, 0))
     for _ in range(10):
         first.step()
         second.step()
@@ -526,17 +527,17 @@ def test_worlds_that_are_stepped_in_turn_do_not_feel_each_other():
 def test_only_the_last_word_of_a_control_step_is_kept():
     world = World(Scenario(robots=[ROBOT]))
     for x in (1.0, 2.0, 3.0):
-        world.hands.pull(0, (0, 0), (x, 0))
-    assert [pull.target for pull in world.hands.log] == [(3.0, 0.0)]
+        world.operator.pull(0, (0, 0), (x, 0))
+    assert [pull.target for pull in world.operator.log] == [(3.0, 0.0)]
     world.step()
-    world.hands.pull(0, (0, 0), (3, 0))  # nothing new
-    assert len(world.hands.log) == 1
+    world.operator.pull(0, (0, 0), (3, 0))  # nothing new
+    assert len(world.operator.log) == 1
     world.step()
-    world.hands.pull(0, (0, 0), (4, 0))
-    world.hands.pull(0, (0, 0), None)
-    assert [(pull.row, pull.target) for pull in world.hands.log] == [(0, (3.0, 0.0)), (2, None)]
+    world.operator.pull(0, (0, 0), (4, 0))
+    world.operator.pull(0, (0, 0), None)
+    assert [(pull.row, pull.target) for pull in world.operator.log] == [(0, (3.0, 0.0)), (2, None)]
     world.step()
-    world.hands.pull(0, (0, 0), (4, 0))
-    world.hands.pull(0, (0, 0), None)  # a touch that nothing came of
-    assert len(world.hands.log) == 2
+    world.operator.pull(0, (0, 0), (4, 0))
+    world.operator.pull(0, (0, 0), None)  # a touch that nothing came of
+    assert len(world.operator.log) == 2
     assert rerun_is_the_same(world)

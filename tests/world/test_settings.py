@@ -142,7 +142,7 @@ def test_undo_takes_back_one_slider_and_what_it_says(timeline):
 def test_a_branch_off_the_past_has_the_values_of_now(timeline):
     after(timeline, 10).set({"mass": 2.0, "speed": 0.4})
     after(timeline, 10).go(5)
-    timeline.change(lambda world: world.hands.place(0, (0, 0, 0)))
+    timeline.change(lambda world: world.operator.place(0, (0, 0, 0)))
     assert timeline.world.scenario.robots[0].mass == 2.0
     record = after(timeline, 5).record
     assert dict(record.changes[0].settings) == {"mass": 2.0, "speed": 0.4}

@@ -6,7 +6,7 @@ import argparse
 
 from mars2d.core.extras import extra
 from mars2d.core.terminal import tell
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
 
 SHELLS = ("bash", "zsh", "tcsh")
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
-from mars2d.scenario.courses import files_of
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,7 +26,9 @@ def execute(arguments: argparse.Namespace) -> None:
     name, folder = arguments.example, Path(arguments.folder)
     if name not in examples():
         raise InputError(f"there is no example {name!r}{nearest(name, examples())}")
-    sources = files_of(name)
+    path = examples()[name]
+    read = {file.relative_to(path.parent).parts[0] for file in open_experiment(path).files}
+    sources = [path, *(path.parent / each for each in sorted(read - {path.name}))]
     for source in sources:
         if (folder / source.name).exists():
             raise InputError(

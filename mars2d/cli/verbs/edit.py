@@ -10,7 +10,8 @@ from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
 from mars2d.core.terminal import warn
 from mars2d.output.raster import require_pygame
-from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.options import parse_setting
 from mars2d.scenario.scenario import Scenario
 
@@ -39,7 +40,8 @@ def execute(arguments: argparse.Namespace) -> None:
     if not has_display():
         require_pygame("a window")
         raise InputError(NO_DISPLAY)
-    from mars2d.window.editor import Editor, EditorWindow
+    from mars2d.window.editor import Editor
+    from mars2d.window.editor_window import EditorWindow
     from mars2d.window.looks import Looks
 
     robots_wanted = any(name.partition(".")[0] == "robots" for name in options)

@@ -19,8 +19,8 @@ from mars2d.core.errors import InputError, nearest
 from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
-from mars2d.scenario.courses import GAMES, title_of
-from mars2d.scenario.experiment import Experiment, examples, open_experiment
+from mars2d.scenario.examples import games, title_of
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.roles import contest_of, contests_of, robots_named
 from mars2d.scenario.scenario import Scenario
 
@@ -64,9 +64,8 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _list() -> None:
-    known = examples()
-    print_table("Games", {name: title_of(name)[1] for name in GAMES if name in known})
-    tell(f"\nPlay one:  mars2d play {next(iter(GAMES))}")
+    print_table("Games", {name: title_of(name)[1] for name in games()})
+    tell(f"\nPlay one:  mars2d play {games()[0]}")
 
 
 def _people(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:

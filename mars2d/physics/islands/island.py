@@ -24,6 +24,9 @@ from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
 
+STUCK = 16
+"""After how many substeps in a row with bodies too deep in each other they are mended faster."""
+
 
 @cython.final
 @cython.cclass
@@ -187,7 +190,10 @@ class Island:
     def adapt_iterations(self) -> cython.void:
         """Learn from overlaps how many pushes add up, and how hard the solver has to try."""
         accuracy: Accuracy = self.accuracy
+        self.solver.hurries = False
         if self.deepest > accuracy.overload:
+            # What turns fast gets deeper again and again before the engine has corrected it.
+            self.solver.hurries = self.tries >= STUCK
             self.load = min(accuracy.load_growth * self.load, self.most_load)
             # If the solver goes round in a circle it ends elsewhere in it each time.
             self.tries = min(self.tries + 1, 64)
@@ -227,7 +233,7 @@ class Island:
         tie: Tie
         for tie in self.ties:
             solver.tie(tie)
-        self.tries = 0
+        self.tries, solver.hurries = 0, False
         chipmunk.set_iterations(solver.space, self.iterations)
         solver.used = True
 

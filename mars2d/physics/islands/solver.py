@@ -56,6 +56,8 @@ class Solver:
     joint_bias_rate: cython.double
     bias_base: cython.double  # e to the power of minus the rate
     joint_bias_base: cython.double
+    hurries: cython.bint  # whether overlaps are to go as fast as what joints are off by
+    hurried: cython.bint
     bias: cython.double  # what the engine is told for steps as long as the last one
     joint_bias: cython.double
     surfaces: object  # kept for the space, which knows its address
@@ -327,9 +329,12 @@ class Solver:
         ratio: cython.double = 0.0 if self.stale else h / self.last_step
         self.stale = False
         k: cython.int
-        if h != self.last_step:
-            self.last_step = h
-            self.bias, self.joint_bias = decay_base(self.bias_rate, self.bias_base, h), 0.0
+        if h != self.last_step or self.hurries != self.hurried:
+            self.last_step, self.hurried, self.joint_bias = h, self.hurries, 0.0
+            if self.hurries:
+                self.bias = decay_base(self.joint_bias_rate, self.joint_bias_base, h)
+            else:
+                self.bias = decay_base(self.bias_rate, self.bias_base, h)
         if ratio != 1.0:
             for k in range(self.find_contacts()):
                 chipmunk.scale(self.arbiters.at(k), ratio)

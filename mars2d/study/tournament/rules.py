@@ -9,7 +9,8 @@ from pathlib import Path
 
 from mars2d.addons.contest import Contest
 from mars2d.core.errors import counted
-from mars2d.scenario.experiment import Experiment, examples
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.isolation.limits import Limits

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError, likely, nearest, shown
-from mars2d.scenario.experiment import examples, open_experiment
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.policy import SUFFIX as POLICY
 from mars2d.scenario.roles import contest_of
 from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of

@@ -71,7 +71,7 @@ class Document:
         for folder in (wanted.parent, Path(tempfile.gettempdir())):
             with suppress(InputError):
                 path = free_name(folder, f"{wanted.stem}_unsaved", toml_file.SUFFIX)
-                toml_file.save(scenario, path, self.control)
+                toml_file.save_scenario(scenario, path, self.control)
                 return path
         return None
 
@@ -79,7 +79,7 @@ class Document:
         """Save a scenario to a file, which is the open one from now on; return a text about it."""
         if scenario.title == UNTITLED:
             scenario = scenario.replace(title=path.stem.replace("_", " ").capitalize())
-        missing = toml_file.save(scenario, path, self.control)
+        missing = toml_file.save_scenario(scenario, path, self.control)
         self.path, self._wanted, self.new = path, path, False
         if missing:
             return f"Saved {path}, without what is code: {', '.join(missing)}"

@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from mars2d.core.extras import pip_line
-from mars2d.scenario.experiment import examples
+from mars2d.scenario.examples import examples
+from tests.cases import each_case
 from tests.house.test_examples import DIGESTS
 
 pytestmark = pytest.mark.slow
@@ -27,7 +28,7 @@ def test_the_experiment_of_the_paper_runs_to_its_digest(child):
     assert done.stdout.split() == [DIGESTS["path_planning"]], done.stderr
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("name", "library"),
     [("plan.dxf", "ezdxf"), ("plan.svg", "svgelements"), ("plan.yaml", "PyYAML")],
 )

@@ -9,11 +9,11 @@ import re
 
 import ezdxf
 import numpy as np
-import pytest
 from PIL import Image
 
 from mars2d import InputError
 from mars2d.addons import Map
+from tests.cases import each_case
 
 TRIALS = 60
 
@@ -96,7 +96,7 @@ def changed(data, rng):
     return bytes(data)
 
 
-@pytest.mark.parametrize(
+@each_case(
     "name",
     [f"good.{kind}" for kind in ("dxf", "svg", "wkt", "geojson", "yaml", "pgm", "png", "jpg")]
     + ["binary.dxf"],

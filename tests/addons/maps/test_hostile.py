@@ -17,6 +17,7 @@ from PIL import Image
 from mars2d import InputError
 from mars2d.addons import Map
 from mars2d.addons.maps import obstacles, read
+from tests.cases import each_case
 
 LONGEST = 10.0
 """Seconds that any file may take, on a slow machine."""
@@ -556,18 +557,7 @@ SLOW = {
 # -- all of them -------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("expected", "maker"),
-    [
-        pytest.param(
-            expected,
-            maker,
-            id=about.replace(" ", "_"),
-            marks=[pytest.mark.slow] if about.replace(" ", "_") in SLOW else [],
-        )
-        for about, expected, maker in CASES
-    ],
-)
+@each_case("expected, maker", [(expected, maker) for _, expected, maker in CASES])
 def test_a_bad_file_is_refused_in_one_line_that_names_it(expected, maker, tmp_path):
     path = maker(tmp_path)
     resolution = 0.05 if path.suffix in IMAGES else None

@@ -10,6 +10,7 @@ import mars2d
 from mars2d import InputError, Scenario
 from mars2d.addons import Map
 from mars2d.scenario.experiment import open_experiment
+from tests.cases import each_case
 from tests.processes import mars
 
 SQUARE = "LINESTRING (0 0, 6 0, 6 4, 0 4, 0 0)"
@@ -51,7 +52,7 @@ def test_a_map_is_added_where_there_is_none(folder):
     assert [type(addon) for addon in scenario.addons] == [Map]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("workspace", "expected"),
     [
         ("", (-1, 7, -1, 5)),  # the default one
@@ -152,7 +153,7 @@ def test_in_python_a_map_can_be_given_as_it_is():
     assert len(record.scenario.obstacles) == 4
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("options", "said"),
     [
         ({"map": "rom.wkt"}, "there is no such file beside walk.py or in the current folder; did"),
@@ -211,7 +212,7 @@ def test_check_names_the_nearest_file_and_how_to_bring_a_dwg(folder):
     assert mars("check", "plan.dwg").stderr.endswith("; save the drawing as DXF\n")
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("words", "said"),
     [
         (["room.wkt", "--set", "units=cm"], "--set units: no option; did you mean 'unit'?"),
@@ -230,7 +231,7 @@ def test_check_says_what_it_can_not_do(words, said):
     assert done.stderr.startswith(f"mars2d: {said}")
 
 
-@pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
+@each_case("suffix", ["png", "pdf", "svg"])
 def test_a_picture_of_a_map_is_the_same_each_time(folder, suffix):
     from mars2d.addons.maps import read
     from mars2d.output.figures.map import save_map

@@ -14,6 +14,7 @@ from PIL import Image
 from mars2d import InputError
 from mars2d.addons import Map
 from mars2d.addons.maps import described, obstacles, read
+from tests.cases import each_case
 
 
 def dxf(path, *, units=6):
@@ -60,7 +61,7 @@ def test_a_closed_polyline_is_a_wall_round_free_room(plan):
     assert len(found.obstacles()) == 4
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("add", "expected"),
     [
         (lambda s: s.add_arc((1, 2), 2, 0, 90), pi),
@@ -71,7 +72,6 @@ def test_a_closed_polyline_is_a_wall_round_free_room(plan):
         (lambda s: s.add_spline([(0, 0), (1, 0), (2, 0), (3, 0)]), 3),
         (lambda s: s.add_open_spline([(0, 0), (0, 0), (3, 4), (3, 4)]), 5),
     ],
-    ids=["arc", "circle", "ellipse", "bulge", "two bulges", "spline by points", "spline"],
 )
 def test_curves_are_as_long_as_they_are(plan, add, expected):
     document, space = dxf(plan)
@@ -154,7 +154,7 @@ def test_hidden_layers_are_read_only_when_they_are_named(plan):
     assert read(plan, layers="WALLS, off").layers == {"WALLS": 1, "OFF": 1}
 
 
-@pytest.mark.parametrize(("units", "metres"), [(1, 0.0254), (2, 0.3048), (4, 1e-3), (5, 1e-2)])
+@each_case(("units", "metres"), [(1, 0.0254), (2, 0.3048), (4, 1e-3), (5, 1e-2)])
 def test_the_unit_is_that_of_the_header_unless_it_is_given(plan, units, metres):
     document, space = dxf(plan, units=units)
     space.add_line((0, 0), (100, 0))
@@ -233,7 +233,7 @@ def test_what_is_filled_is_solid_what_has_a_line_alone_is_a_wall_y_points_up(tmp
     assert found.walls == (((5, 0), (5, 4)),)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("content", "areas", "walls"),
     [
         (f'<rect width="2" height="1" fill="white"/><path d="M0 0H1" {LINE}/>', 0, 1),
@@ -275,7 +275,7 @@ def test_curves_and_arcs_of_a_path_are_round(tmp_path):
     assert read(svg(tmp_path, bow)).bounds == pytest.approx((0, 4, 4, 8), abs=1e-6)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("rule", "inner", "area"),
     [
         ("nonzero", "M1 1H3V3H1z", 16),
@@ -298,7 +298,7 @@ def test_a_layer_is_the_innermost_group_with_a_label_or_an_id(tmp_path):
     assert drawing.layers == {"Walls": 1, "doors": 1, "inner": 1, "no layer": 1}
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("head", "width"),
     [
         ('viewBox="0 0 100 80"', 50),
@@ -385,7 +385,7 @@ def test_the_dark_cells_of_a_grid_are_solid_where_the_origin_says(tmp_path):
     assert covered(drawing).symmetric_difference(boxes(CELLS, 0.5, 1, 2)).area < 1e-9
 
 
-@pytest.mark.parametrize("seed", range(20))
+@each_case("seed", range(20))
 def test_any_grid_is_covered_exactly_and_its_obstacles_have_no_holes(tmp_path, seed):
     rng = np.random.default_rng(seed)
     mask = rng.random((14, 17)) < rng.uniform(0.3, 0.8)
@@ -405,7 +405,7 @@ def test_a_grid_is_turned_about_its_lower_left_corner(tmp_path):
     assert covered(drawing).symmetric_difference(turned).area < 1e-9
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "occupied"),
     [
         ({}, {0, 80}),  # darker than 1 - 0.65
@@ -471,7 +471,7 @@ def test_areas_that_overlap_are_joined(tmp_path):
     assert shapely.Polygon(outlines[0]).equals(shapely.box(0, 7, 3, 8))
 
 
-@pytest.mark.parametrize("tolerance", [0.0, 0.01, 0.1, 0.5])
+@each_case("tolerance", [0.0, 0.01, 0.1, 0.5])
 def test_corners_move_by_no_more_than_the_tolerance(plan, tolerance):
     document, space = dxf(plan)
     space.add_circle((0, 0), 5)
@@ -486,7 +486,7 @@ def test_corners_move_by_no_more_than_the_tolerance(plan, tolerance):
     assert tolerance < 0.1 or found.corners < exact.corners / 4
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("options", "said"),
     [
         ({"unit": "inch"}, "unit = 'inch': expected one of mm, cm, m, in, ft"),

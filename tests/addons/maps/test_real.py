@@ -21,6 +21,7 @@ from mars2d.addons import Map
 from mars2d.addons.maps import nearest_room
 from mars2d.cli.command_line import main
 from mars2d.sensors import Proximity
+from tests.cases import each_case
 
 FREE, UNKNOWN, OCCUPIED = 254, 205, 0
 CELL = 0.05
@@ -177,7 +178,7 @@ def read(maps, name):
     return Map.from_file(maps / file, **options)
 
 
-@pytest.mark.parametrize("name", ROOMS)
+@each_case("name", ROOMS)
 def test_a_real_map_is_read_in_no_time(maps, name):
     start = time.process_time()
     found = read(maps, name)
@@ -185,7 +186,7 @@ def test_a_real_map_is_read_in_no_time(maps, name):
     assert (len(found.outlines), len(found.walls)) == COUNTS[name]
 
 
-@pytest.mark.parametrize("name", ROOMS)
+@each_case("name", ROOMS)
 def test_robots_wander_in_a_real_map_and_stay_in_its_rooms(maps, name):
     found = read(maps, name)
     starts = ROOMS[name][2]

@@ -1,0 +1,272 @@
+"""The data of a run's record: its columns over time, its contacts and messages."""
+
+from __future__ import annotations
+
+import hashlib
+from bisect import bisect_left, bisect_right
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mars2d.core.arrays import sealed
+from mars2d.core.errors import counted
+from mars2d.core.scene import Scene
+from mars2d.record.columns import Texts, blocks
+from mars2d.record.contact import CONTACT, count_meetings, rows_of
+from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
+from mars2d.record.frame import Frame
+from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
+from mars2d.record.message import MESSAGE, in_flight
+from mars2d.scenario.scenario import Scenario
+
+Float = NDArray[np.float64]
+
+COLUMNS = (
+    "time", "pose", "command", "command_time", "prop_pose", "effort", "velocity", "prop_velocity",
+    "work",
+)  # fmt: skip
+"""The columns of every record, with a row for each control step."""
+
+FORMER = COLUMNS[:6]
+"""The columns of records from before velocities and work were recorded."""
+
+
+def _not_given() -> Float:
+    return np.empty(0)
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """All data of a run. Row k of a column is the world at ``time[k]`` = k sampling times.
+
+    time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, 2, n), issued at
+    ``time``, after saturation; it takes effect at command_time (T,). prop_pose: (T, 3, p). effort:
+    (T, n), the largest share of its bounds that a drive used in the control step before. velocity,
+    prop_velocity: (T, 3, n) and (T, 3, p) = x', y' [m/s], theta' [rad/s] at ``time``, before its
+    command takes effect; where they are not given, the means over the control step before. work:
+    (T, 6) J since the start, of what `mars2d.record.energy.WORK` names; nan where it is not given.
+    sensors: for each sensor's name an array (T, m, ...) of readings, of the m robots in
+    ``sensor_robots[name]``. contacts: a row for each control step, pair and normal, with the fields
+    of `mars2d.record.CONTACT`. messages: a row for each message and receiver, with the fields of
+    `mars2d.record.MESSAGE`; contents: the texts that were sent, as JSON, to which their field
+    `content` refers. over_message: why the run ended. finished: False if an error or Ctrl-C ended
+    the run, or while it goes on. drawn: the add-ons' drawing at the end, which files do not keep.
+    missing: the user's own parts that a file could not hold. interventions: changes that were made
+    to the world from outside, in order; `scenario` is the one at the start. settings: the options
+    with which the experiment was opened, by the names of ``--set``; files keep numbers, texts, and
+    lists of these. branches: runs in a
+    window that were left for this one, which are kept in files of their own.
+    """
+
+    scenario: Scenario
+    seed: int
+    time: Float
+    pose: Float
+    command: Float
+    command_time: Float
+    prop_pose: Float
+    effort: Float
+    velocity: Float = field(default_factory=_not_given)
+    prop_velocity: Float = field(default_factory=_not_given)
+    work: Float = field(default_factory=_not_given)
+    sensors: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    sensor_robots: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    contacts: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=CONTACT))
+    messages: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=MESSAGE))
+    contents: Sequence[str] = ()
+    over_message: str = ""
+    finished: bool = True
+    filename: str = ""
+    versions: Mapping[str, str] = field(default_factory=dict)
+    drawn: Scene = field(default_factory=Scene, repr=False)
+    missing: tuple[str, ...] = ()
+    interventions: tuple[Intervention, ...] = ()
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    branches: tuple[Rows, ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        self._complete()
+        for name in (*COLUMNS, "contacts", "messages"):
+            object.__setattr__(self, name, sealed(getattr(self, name)))
+        sensors = {name: sealed(values) for name, values in self.sensors.items()}
+        object.__setattr__(self, "sensors", sensors)
+
+    def _complete(self) -> None:
+        """Put mean velocities and nan in place of velocities and work that are not given."""
+        for name, pose in (("velocity", self.pose), ("prop_velocity", self.prop_pose)):
+            if getattr(self, name).ndim == 1:
+                object.__setattr__(self, name, _mean_velocity(self.time, pose))
+        if self.work.ndim == 1:
+            object.__setattr__(self, "work", np.full((len(self.time), len(WORK)), np.nan))
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __copy__(self) -> Self:
+        return self  # nothing in it can be changed
+
+    def __deepcopy__(self, memo: object) -> Self:
+        return self
+
+    def __repr__(self) -> str:
+        size = f"{counted(len(self), 'row')}, {counted(len(self.scenario.robots), 'robot')}"
+        return f"<Record of {self.scenario.title!r}: {size}, {self.over_message!r}>"
+
+    @cached_property
+    def digest(self) -> str:
+        """The sha256 over all columns: the same for the same run, to the last bit."""
+        return digest_of(self.columns(), self.over_message)
+
+    @cached_property
+    def energy(self) -> Energy:
+        """The kinetic energy of each body in each row, and the work that has made it, J."""
+        kinetic = [
+            energy_of(scenario, self._poses[rows], self._velocities[rows], self.work).kinetic
+            for scenario, rows in self._spans
+        ]
+        return Energy(np.concatenate(kinetic), self.work)
+
+    @cached_property
+    def momentum(self) -> Momentum:
+        """The momentum of each body in each row, N s, and the angular one of all, N m s."""
+        found = [
+            momentum_of(scenario, self._poses[rows], self._velocities[rows])
+            for scenario, rows in self._spans
+        ]
+        return Momentum(*map(np.concatenate, zip(*found, strict=True)))
+
+    @property
+    def _spans(self) -> list[tuple[Scenario, slice]]:
+        """The rows between changes, with the scenario that holds in them."""
+        begins = sorted({0, *(change.row for change in self.changes)})
+        ends = [*begins[1:], len(self)]
+        return [(self.scenario_at(a), slice(a, b)) for a, b in zip(begins, ends, strict=True)]
+
+    @property
+    def _poses(self) -> Float:
+        return np.concatenate([self.pose, self.prop_pose], axis=-1)
+
+    @property
+    def _velocities(self) -> Float:
+        return np.concatenate([self.velocity, self.prop_velocity], axis=-1)
+
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """Those of `COLUMNS` that were recorded: `FORMER` where the work is unknown."""
+        return FORMER if np.isnan(self.work[:1]).any() else COLUMNS
+
+    @property
+    def collisions(self) -> int:
+        """How many times two bodies came to touch that did not touch before."""
+        return count_meetings(blocks(self.contacts))
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Return all columns as plain arrays, by their names in files.
+
+        The names for sensors, contacts and messages are ``sensor:NAME``, ``contact:FIELD`` and
+        ``message:FIELD``. The texts of messages are in ``contents`` (UTF-8, one after the other)
+        and ``content_sizes`` (the bytes of each).
+        """
+        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in self.kept}
+        columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
+        # Field by field, since a structured array has undefined bytes between its fields.
+        columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
+        if self.contents:
+            columns |= {f"message:{name}": self.messages[name] for name in MESSAGE.names or ()}
+            texts = Texts.of(self.contents)
+            columns |= {"contents": texts.data, "content_sizes": texts.sizes}
+        return columns
+
+    def frame(self, row: int) -> Frame:
+        """Return the frame of row `row`; negative numbers count from the end."""
+        row = range(len(self))[row]
+        last = row == len(self) - 1
+        readings = {
+            name: [(robot, values[row, k]) for k, robot in enumerate(self.sensor_robots[name])]
+            for name, values in self.sensors.items()
+        }
+        return Frame(
+            scenario=self.scenario_at(row),
+            time=float(self.time[row]),
+            iteration=row,
+            pose=self.pose[row],
+            path=self.pose[:row],
+            readings=readings,
+            over_message=self.over_message if last else "",
+            prop_pose=self.prop_pose[row],
+            contacts=self._contacts_before(row),
+            effort=self.effort[row],
+            prop_path=self.prop_pose[:row],
+            effort_path=self.effort[:row],
+            contact_log=lambda: self.contacts[: np.searchsorted(self.contact_rows, row, "right")],
+            messages=self._messages_before(row),
+            command_path=self.command[:row],
+            message_log=lambda: (self.messages, self.contents),
+            reading_path=lambda name, robot: self._readings_before(row, name, robot),
+            exact_velocity=np.hstack([self.velocity[row], self.prop_velocity[row]]),
+            work=self.work[row],
+            leaps=self._leaps[: bisect_left(self._leaps, (row + 1, 0))],
+            draw_addons=(lambda scene: scene.extend(self.drawn.shapes)) if last else None,
+        )
+
+    def scenario_at(self, row: int) -> Scenario:
+        """Return the scenario at row `row`, with the changes made at that row."""
+        k = bisect_right(self.changes, row, key=lambda change: change.row)
+        return self.changes[k - 1].scenario if k else self.scenario
+
+    @cached_property
+    def changes(self) -> tuple[Change, ...]:
+        """The interventions that changed the scenario, in order."""
+        return tuple(each for each in self.interventions if isinstance(each, Change))
+
+    @cached_property
+    def _leaps(self) -> tuple[Leap, ...]:
+        return leaps_of(self.interventions)
+
+    @cached_property
+    def contact_rows(self) -> NDArray[np.intp]:
+        """The row at the end of each contact's control step, (c,); see `rows_of`."""
+        return rows_of(self.contacts, self.time, self.scenario.sampling_time)
+
+    def _contacts_before(self, row: int) -> NDArray[np.void]:
+        """Return the contacts of the control step that led to a row."""
+        ends = np.searchsorted(self.contact_rows, [row, row + 1])
+        return self.contacts[ends[0] : ends[1]]
+
+    def _messages_before(self, row: int) -> NDArray[np.void]:
+        """Return the messages that were under way in the control step that led to a row."""
+        time, dt = float(self.time[row]), self.scenario.sampling_time
+        return in_flight(self.messages, time, dt, self._longest_flight)
+
+    def _readings_before(self, row: int, name: str, robot: int) -> NDArray[Any] | None:
+        """Return a sensor's readings on a robot before a row, (row, ...); None if not recorded."""
+        robots = self.sensor_robots.get(name, ())
+        return self.sensors[name][:row, robots.index(robot)] if robot in robots else None
+
+    @cached_property
+    def _longest_flight(self) -> float:
+        flight = self.messages["arrival"] - self.messages["time"]
+        return float(np.nanmax(flight, initial=0.0))
+
+
+def digest_of(columns: Mapping[str, NDArray[Any]], over_message: str) -> str:
+    """Return the sha256 over columns by name, and over why a run ended."""
+    sha = hashlib.sha256()
+    for name, column in columns.items():
+        sha.update(f"{name} {column.dtype.str} {column.shape} ".encode())
+        for block in blocks(column):
+            sha.update(block.tobytes())
+    sha.update(over_message.encode())
+    return sha.hexdigest()
+
+
+def _mean_velocity(time: Float, pose: Float) -> Float:
+    """Return the means (T, 3, k) over the control step before each row, 0 in the first."""
+    velocity = np.zeros_like(pose)
+    with np.errstate(over="ignore"):  # of numbers that no run has
+        velocity[1:] = np.diff(pose, axis=0) / np.diff(time)[:, None, None]
+    return velocity

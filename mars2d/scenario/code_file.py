@@ -1,0 +1,115 @@
+"""Files of Python code: modules of their own, which hold experiments and laws."""
+
+from __future__ import annotations
+
+import importlib.util
+import inspect
+import itertools
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from types import ModuleType
+from typing import Any, cast
+
+from mars2d.core import checks
+from mars2d.core.errors import InputError, nearest
+from mars2d.core.files import note_file
+from mars2d.core.hints import described
+from mars2d.core.usercode import stack_of
+from mars2d.scenario.policy import SUFFIX, Policy
+
+_counter = itertools.count()
+
+MAX_LINE = 100
+"""The most characters of a line of code in an error."""
+
+
+def module_in(path: Path, what: str = "an experiment") -> ModuleType:
+    """Run a file as a module of its own, which no other module can see."""
+    if path.suffix != ".py":
+        other = ".toml" if what == "an experiment" else SUFFIX
+        raise InputError(f"{path}: expected {what}, a file that ends in .py or {other}")
+    note_file(path)
+    name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    before = set(sys.modules)
+    sys.modules[name] = module  # dataclasses look up a class's module by name
+    folder = str(path.parent.absolute())
+    sys.path.insert(0, folder)  # an experiment may import what lies beside it
+    # If a file is saved twice within a second, compiled code of the first would be taken as new.
+    keeps, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    try:
+        spec.loader.exec_module(module)
+    except SyntaxError as error:
+        line = (error.text or "").strip()
+        line = line if len(line) <= MAX_LINE else line[: MAX_LINE - 3] + "..."
+        problem = InputError(": ".join(filter(None, [error.msg, line])))
+        note_file(Path(error.filename or path))
+        place = Path(error.filename or path).name
+        problem.where = f"{place}, line {error.lineno}" if error.lineno else place
+        raise problem from error
+    except (Exception, SystemExit) as error:
+        problem = InputError(described(error))
+        problem.where = line_in(error, path)
+        raise problem from error
+    finally:
+        sys.path.remove(folder)
+        sys.dont_write_bytecode = keeps
+        _forget_modules(before, folder)
+    return module
+
+
+def _forget_modules(before: set[str], folder: str) -> None:
+    """Forget the modules of a folder, so that they are not taken for those of another."""
+    for name in set(sys.modules) - before:
+        file = getattr(sys.modules[name], "__file__", None)
+        if file is not None and str(Path(file).parent) == folder:
+            note_file(Path(file))
+            del sys.modules[name]
+
+
+def line_in(error: BaseException, path: Path) -> str:
+    """Return the line of `path` that an error passed through."""
+    lines = [
+        step.lineno for step in stack_of(error) if Path(step.filename).absolute() == path.absolute()
+    ]
+    return f"{path.name}, line {lines[-1]}" if lines else path.name
+
+
+def law_in(
+    file: Path,
+    name: str,
+    subject: str = "the robot",
+    given: tuple[Sequence[Any], Mapping[str, Any]] = ((), {}),
+) -> Callable[[Any], Any]:
+    """Return the law called `name` in a file, which is run again.
+
+    subject: the robot or world. given: the arguments of the function that are given.
+    """
+    if file.suffix == SUFFIX:
+        if name != "control" or given != ((), {}):
+            raise InputError(f"{file.name}: a learned law has no other names and no arguments")
+        return Policy(file)
+    module = module_in(file, "a law")
+    try:
+        return _law_of(module, name, subject, *given)
+    except InputError as error:
+        error.where = file.name
+        raise
+
+
+def _law_of(
+    module: ModuleType, name: str, subject: str, args: Sequence[Any], values: Mapping[str, Any]
+) -> Callable[[Any], Any]:
+    law = getattr(module, name, None)
+    if law is None:
+        functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
+        raise InputError(f"has no law {name!r}{nearest(name, functions)}")
+    if (args or values) and callable(law):
+        law = partial(law, *args, **values)
+    checks.law(name, law, subject)
+    return cast("Callable[[Any], Any]", law)
