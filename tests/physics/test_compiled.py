@@ -15,6 +15,7 @@ import mars2d
 from mars2d import Scenario, World
 from mars2d.physics import islands
 from mars2d.physics.settings import versions
+from tests.cases import each_case
 from tests.islands import plainly
 
 KNOWN = islands.reason_without()
@@ -190,7 +191,7 @@ print("over")
 """
 
 
-@pytest.mark.parametrize("n", [5, 40])
+@each_case("n", [5, 40])
 def test_numbers_out_of_all_bounds_neither_hang_nor_crash_it(child, n):
     done = child(LOST.format(n=n))
     assert done.stdout == "over\n", done.stderr

@@ -26,6 +26,7 @@ from mars2d.physics.islands.contacts import (
 )
 from mars2d.physics.motion import WIDE
 from mars2d.record.contact import CONTACT
+from tests.cases import each_case
 from tests.islands import DISC, body_of, piece_of, place
 from tests.worlds import drive
 
@@ -372,8 +373,8 @@ def scenes(friction: float) -> list[tuple]:
     ]
 
 
-@pytest.mark.parametrize("time", [1.0, 0.5, 0.1, 0.005])
-@pytest.mark.parametrize("friction", [0.0, 0.6])
+@each_case("time", [1.0, 0.5, 0.1, 0.005])
+@each_case("friction", [0.0, 0.6])
 def test_rows_add_up_to_the_momentum_that_contacts_give_in_each_control_step(time, friction):
     """In corners, on turns, in crowds, and where two meet several times in a control step."""
     faults = []
@@ -465,8 +466,8 @@ def let_touch(island, a: int, b: int) -> None:
     body.first_touch = SimpleNamespace(other=b, is_wall=False, next_touch=body.first_touch)
 
 
-@pytest.mark.parametrize("bodies", [(0, 1), (1, 0)])
-@pytest.mark.parametrize("sign", [1.0, -1.0])
+@each_case("bodies", [(0, 1), (1, 0)])
+@each_case("sign", [1.0, -1.0])
 def test_the_impulse_is_that_on_b_whatever_the_solvers_sign_and_order(told, bodies, sign):
     let_touch(told, 0, 1)
     a, b = told.numbers[:2]

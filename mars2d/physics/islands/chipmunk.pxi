@@ -235,11 +235,9 @@ cdef void move(Handle body, double h) noexcept:
 cdef inline void aim(Handle body, double vx, double vy, double spin) noexcept:
     engine.cpBodySetVelocity(body, vector(vx, vy))
     engine.cpBodySetAngularVelocity(body, spin)
-
 cdef inline void settle_down(Handle body) noexcept:
     cdef double *n = <double *>body
     n[BIAS] = n[BIAS + 1] = n[SPIN_BIAS] = 0.0
-
 cdef inline void push(Handle body, double x, double y, double torque) noexcept:
     engine.cpBodySetForce(body, vector(x, y))
     engine.cpBodySetTorque(body, torque)
@@ -320,15 +318,12 @@ cdef double damped(Handle spring, int rest, int lost, int felt, double closing) 
 cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
     engine.cpConstraintSetErrorBias(joint, bias)
     engine.cpConstraintSetCollideBodies(joint, collide)
-
 cdef inline void set_limits(Handle joint, double least, double largest) noexcept:
     engine.cpRotaryLimitJointSetMin(joint, least)
     engine.cpRotaryLimitJointSetMax(joint, largest)
-
 cdef inline Vector drag_of(Handle joint, int kind) noexcept:
     cdef double *n = <double *>joint + (GROOVE_IMPULSE if kind == GROOVE else PIVOT_IMPULSE)
     return vector(n[0], n[1])
-
 cdef inline double twist_of(Handle joint) noexcept:
     return (<double *>joint)[GEAR_IMPULSE]
 
@@ -383,7 +378,6 @@ cdef class Arbiters:
 
 cdef int first_of(Arbiter arbiter) noexcept:
     return number_of(arbiter.body_a)
-
 cdef int second_of(Arbiter arbiter) noexcept:
     return number_of(arbiter.body_b)
 
@@ -396,10 +390,8 @@ cdef inline void scale(Arbiter arbiter, double ratio) noexcept:
 cdef inline void set_surface(Arbiter arbiter, double friction, double restitution) noexcept:
     engine.cpArbiterSetFriction(arbiter, friction)
     engine.cpArbiterSetRestitution(arbiter, restitution)
-
 cdef void settle_contact(Handle touched, Handle space, Handle data) noexcept:
     (<Surfaces>data).settle(<Arbiter>touched)
-
 cdef void watch(Handle space, surfaces) noexcept:
     set_handler(engine.cpSpaceAddGlobalCollisionHandler(space), settle_contact, <void *>surfaces)
 
@@ -422,7 +414,6 @@ cdef inline Vector point_of(Arbiter arbiter, int k, bint second) noexcept:
 
 cdef inline double depth_of(Arbiter arbiter, int k) noexcept:
     return -engine.cpArbiterGetDepth(arbiter, k)
-
 cdef inline int check_signals() except -1:
     return PyErr_CheckSignals()
 
@@ -436,7 +427,6 @@ cdef void mend_contact(Handle touched, Handle space, Handle data) noexcept:
 cdef inline void sew(Handle segment, seams) noexcept:
     engine.cpShapeSetUserData(segment, <void *>seams)
     engine.cpShapeSetCollisionType(segment, SEWN)
-
 cdef inline Vector corner_of(Handle shape, int k) noexcept:
     return engine.cpBodyLocalToWorld(
         engine.cpShapeGetBody(shape), engine.cpPolyShapeGetVert(shape, k))
@@ -448,12 +438,9 @@ cdef void straighten_contact(Handle touched, Handle space, Handle data) noexcept
 
 cdef inline void show(Handle shape, flush) noexcept:
     engine.cpShapeSetUserData(shape, <void *>flush)
-
 cdef inline void join(Handle shape) noexcept:
     engine.cpShapeSetCollisionType(shape, JOINED)
-
 cdef inline Flush flush_of(Arbiter arbiter, bint second):
     return <Flush>engine.cpShapeGetUserData(shape_of(arbiter, second))
-
 cdef inline Vector place_of(Handle shape, double x, double y) noexcept:
     return engine.cpBodyLocalToWorld(engine.cpShapeGetBody(shape), vector(x, y))

@@ -222,20 +222,18 @@ def make_joint(
     of a goes from (-p, -q) to (p, q).
     """
     itself = _ALLOC[kind]() if joint is None else ffi.cast(_OWN[kind], joint)
-    if kind == PIVOT:
-        _INIT[kind](itself, a, b, ends[0], ends[1])
-    elif kind in (GEAR, ROTARY_LIMIT):
-        _INIT[kind](itself, a, b, p, q)
+    taken: tuple[Any, ...] = (p, q, r)
+    if kind in (GEAR, ROTARY_LIMIT):
+        taken = (p, q)
+    elif kind in (PIVOT, PIN):
+        taken = ends
     elif kind == GROOVE:
-        _INIT[kind](itself, a, b, (-p, -q), (p, q), ends[1])
+        taken = (-p, -q), (p, q), ends[1]
     elif kind == SLIDE:
-        _INIT[kind](itself, a, b, ends[0], ends[1], p, q)
-    elif kind == PIN:
-        _INIT[kind](itself, a, b, ends[0], ends[1])
+        taken = (*ends, p, q)
     elif kind == DAMPED_SPRING:
-        _INIT[kind](itself, a, b, ends[0], ends[1], p, q, r)
-    else:
-        _INIT[kind](itself, a, b, p, q, r)
+        taken = (*ends, p, q, r)
+    _INIT[kind](itself, a, b, *taken)
     made = ffi.cast(_BASE, itself)
     if kind == PIN:
         lib.cpPinJointSetDist(made, p)
