@@ -27,6 +27,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
     "Prop": {
         _PLACE: "pose=(x, y, theta)",
         "r size": "diameter=... or radius=..., for a Box length=... and width=...",
+        "weight density": "mass=... or material='...'",
     },
     "Scenario": {
         "n number numrobots agents": "robots=3, or robots=[Robot(...), ...]",

@@ -20,6 +20,7 @@ from mars2d.core.arithmetic import (
 )
 from mars2d.geometry.logarithm import arsinh, logarithm
 from mars2d.physics.islands import arithmetic as engine
+from tests.cases import each_case
 
 PACKAGE = Path(arithmetic.__file__).parents[1]
 ROOMS = ("core", "geometry", "bodies", "sensors", "addons", "scenario", "physics", "world")
@@ -41,7 +42,7 @@ def test_sines_are_right_to_the_last_digit_but_one_and_those_of_the_engine():
         assert (*pair,) == cosine_sine(number) == engine.cosine_sine(number)
 
 
-@pytest.mark.parametrize("shape", [(), (3,), (2, 4), (40, 2), (0,)])
+@each_case("shape", [(), (3,), (2, 4), (40, 2), (0,)])
 def test_shapes_stay_and_few_are_as_many(shape):
     angles = np.resize(ANGLES, shape)
     c, s = cosines_sines(angles)

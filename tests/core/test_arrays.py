@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from mars2d.core.arrays import locked, sealed, within
+from tests.cases import each_case
 
 
 def test_a_locked_array_is_the_same_one_and_can_not_be_written():
@@ -16,8 +17,8 @@ def test_a_locked_array_is_the_same_one_and_can_not_be_written():
         array[0] = 1.0
 
 
-@pytest.mark.parametrize("kind", [float, bool, [("a", np.int32), ("b", float, (2,))]])
-@pytest.mark.parametrize("shape", [(0,), (3,), (2, 3), (3, 0)])
+@each_case("kind", [float, bool, [("a", np.int32), ("b", float, (2,))]])
+@each_case("shape", [(0,), (3,), (2, 3), (3, 0)])
 def test_a_sealed_array_is_a_view_that_can_not_be_written(kind, shape):
     array = np.zeros(shape, dtype=kind)
     view = sealed(array)
@@ -28,8 +29,8 @@ def test_a_sealed_array_is_a_view_that_can_not_be_written(kind, shape):
         assert not each.flags.writeable
 
 
-@pytest.mark.parametrize("most", [1.0, 1e6, 1e300, sys.float_info.max])
-@pytest.mark.parametrize("count", [1, 2, 1000])
+@each_case("most", [1.0, 1e6, 1e300, sys.float_info.max])
+@each_case("count", [1, 2, 1000])
 def test_values_are_within_a_bound_if_each_of_them_is(most, count):
     for value in (0.0, most, -most, most / 2, 1e-300):
         assert within(most, np.full((2, count), value))

@@ -10,12 +10,13 @@ from hypothesis import strategies as st
 
 from mars2d import InputError, Robot
 from mars2d.core.checks import MAX_COORDINATE, instance, listing, outline, outlines, point, pose
+from tests.cases import each_case
 
 NAN, INF = float("nan"), float("inf")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
 
-@pytest.mark.parametrize(
+@each_case(
     "value", [(1, 2), [1, 2.0], np.array([1, 2]), np.array([1.0, 2]), (np.float32(1), np.int8(2))]
 )
 def test_a_point_is_two_numbers_however_they_come(value):
@@ -23,12 +24,11 @@ def test_a_point_is_two_numbers_however_they_come(value):
     assert all(type(v) is float for v in point("p", value))
 
 
-@pytest.mark.parametrize(
+@each_case(
     "value",
     [(1,), (1, 2, 3), 1, None, "12", b"12", {1: 2, 3: 4}, (NAN, 0), (0, INF), (None, 0), ("1", 2),
      (1j, 0), (True, 0), (10**400, 0), (2 * MAX_COORDINATE, 0), ((1, 2), 3),
      np.zeros((2, 2)), np.array(1.0), (np.array([1.0]), 2)],
-    ids=repr,
 )  # fmt: skip
 def test_anything_else_is_no_point(value):
     with pytest.raises(InputError, match=r"^p = "):
@@ -61,7 +61,7 @@ def test_an_outline_may_be_an_array():
     assert outline("o", np.array(SQUARE)) == tuple(SQUARE)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("value", "problem"),
     [
         ([(0, 0), (1, 1), (1, 0), (0, 1)], "crosses or touches itself"),
@@ -114,7 +114,7 @@ def test_an_outline_in_a_list_is_named_by_its_place():
         outlines("Map.outlines", [SQUARE, [(0, 0)]])
 
 
-@pytest.mark.parametrize("value", [None, 5, "x", {"a": 1}, 1.5])
+@each_case("value", [None, 5, "x", {"a": 1}, 1.5])
 def test_outlines_are_a_list(value):
     with pytest.raises(InputError, match="a list of outlines"):
         outlines("Map.outlines", value)

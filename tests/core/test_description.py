@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from mars2d import InputError
 from mars2d.core.description import Description, choice, entry, flag, integer, number, text
+from tests.cases import each_case
 
 NAN, INF = float("nan"), float("inf")
 
@@ -48,13 +49,12 @@ def test_numpy_scalars_and_fractions_are_numbers():
         assert Motor(share=value).share == float(value)
 
 
-@pytest.mark.parametrize(
+@each_case(
     "value",
     [NAN, INF, -INF, "0.5", None, True, 1j, [0.5], (), {}, b"1", 10**400, -(10**400), ...,
      np.float64(NAN), np.array([0.5]), np.complex128(1), np.bool_(True), Motor],
-    ids=repr,
 )  # fmt: skip
-@pytest.mark.parametrize("field", ["power", "share", "plain"])
+@each_case("field", ["power", "share", "plain"])
 def test_what_is_no_finite_number_is_refused(field, value):
     with pytest.raises(InputError, match=f"^Motor.{field} = "):
         Motor(**{field: value})
@@ -70,7 +70,7 @@ def test_a_number_is_within_its_bounds_or_refused(value):
         assert 0 < motor.power <= 100
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("field", "good", "bad"),
     [
         ("power", [1e-300, 100], [0, -1, 100.0001]),

@@ -12,6 +12,7 @@ import pytest
 import mars2d
 from mars2d import InputError, Scenario
 from mars2d.core.files import atomic_write, growing
+from tests.cases import each_case
 from tests.processes import mars
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="files of POSIX")
@@ -78,7 +79,7 @@ def test_a_name_may_be_as_long_as_the_system_allows(tmp_path) -> None:
     assert len(mars2d.load(target)) == 11
 
 
-@pytest.mark.parametrize("suffix", [".npz", ".mcap"])
+@each_case("suffix", [".npz", ".mcap"])
 def test_a_pipe_is_refused_before_the_run(tmp_path, suffix) -> None:
     pipe = tmp_path / f"run{suffix}"
     os.mkfifo(pipe)

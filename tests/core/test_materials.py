@@ -6,11 +6,12 @@ import pytest
 
 from mars2d.core.errors import InputError
 from mars2d.core.materials import MATERIALS, material, surface_friction, surface_restitution
+from tests.cases import each_case
 
 CHECKS = [(surface_friction, "friction", 1000), (surface_restitution, "restitution", 1)]
 
 
-@pytest.mark.parametrize("name", MATERIALS)
+@each_case("name", MATERIALS)
 def test_a_material_is_one_that_can_be(name):
     density, friction, restitution = MATERIALS[name]
     assert 10 < density < 20_000
@@ -18,7 +19,7 @@ def test_a_material_is_one_that_can_be(name):
     assert 0 < restitution < 1
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("a", "b", "low", "high"),
     [
         # Sliding friction of dry pairs, in the ranges of the tables that materials.py names.
@@ -43,7 +44,7 @@ def test_glass_bounces_better_than_steel_and_steel_better_than_cardboard():
     assert bounces == sorted(bounces, reverse=True)
 
 
-@pytest.mark.parametrize(("check", "quantity", "high"), CHECKS)
+@each_case(("check", "quantity", "high"), CHECKS)
 def test_a_surface_takes_a_number_or_a_materials_name(check, quantity, high):
     for value in (0, 0.5, high):
         assert check("Robot.x", value) == value
@@ -52,8 +53,8 @@ def test_a_surface_takes_a_number_or_a_materials_name(check, quantity, high):
         assert check("Robot.x", name) == getattr(found, quantity)
 
 
-@pytest.mark.parametrize(("check", "quantity", "high"), CHECKS)
-@pytest.mark.parametrize("value", [-0.1, 1000.5, float("nan"), float("inf"), None, True, [0.5]])
+@each_case(("check", "quantity", "high"), CHECKS)
+@each_case("value", [-0.1, 1000.5, float("nan"), float("inf"), None, True, [0.5]])
 def test_anything_else_is_refused_with_what_was_expected(check, quantity, high, value):
     with pytest.raises(InputError) as error:
         check("Robot.x", value)
@@ -61,8 +62,8 @@ def test_anything_else_is_refused_with_what_was_expected(check, quantity, high, 
     assert "or a material's name" in str(error.value)
 
 
-@pytest.mark.parametrize("check", [surface_friction, surface_restitution, material])
-@pytest.mark.parametrize(
+@each_case("check", [surface_friction, surface_restitution, material])
+@each_case(
     ("value", "hint"),
     [
         ("woood", "did you mean 'wood'"),

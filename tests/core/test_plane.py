@@ -9,6 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mars2d.core import plane
+from tests.cases import each_case
 
 
 @given(st.floats(-1e4, 1e4))
@@ -63,7 +64,7 @@ def test_a_grid_step_is_the_next_of_1_2_and_5_times_a_power_of_ten(wanted):
     )
 
 
-@pytest.mark.parametrize("wanted", [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 1e-3, 2e-5])
+@each_case("wanted", [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 1e-3, 2e-5])
 def test_a_grid_step_of_1_2_or_5_stays(wanted):
     assert plane.grid_step(wanted) == pytest.approx(wanted, rel=1e-12)
     assert plane.grid_step(wanted * (1 + 1e-10)) == pytest.approx(wanted, rel=1e-12)  # rounded

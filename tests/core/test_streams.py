@@ -7,13 +7,14 @@ import pytest
 
 from mars2d import InputError
 from mars2d.core.streams import check_seed, stream
+from tests.cases import each_case
 
 
 def test_the_same_seed_and_name_give_the_same_numbers():
     assert np.array_equal(stream(7, "robot a").random(9), stream(7, "robot a").random(9))
 
 
-@pytest.mark.parametrize(
+@each_case(
     "other", [(8, "robot a"), (7, "robot b"), (7, "robot a "), (7 + 2**32, "robot a"), (7, "")]
 )
 def test_another_seed_or_name_gives_other_numbers(other):
@@ -30,13 +31,13 @@ def test_the_numbers_stay_the_same_in_later_versions():
     assert stream(0, "control").integers(1000, size=4).tolist() == [662, 295, 792, 384]
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2**63 - 1, np.int64(5), np.uint8(3)])
+@each_case("seed", [0, 1, 2**63 - 1, np.int64(5), np.uint8(3)])
 def test_a_seed_is_a_whole_number(seed):
     assert check_seed(seed) == int(seed)
     assert type(check_seed(seed)) is int
 
 
-@pytest.mark.parametrize("seed", [-1, 2**63, 1.0, "1", None, True, float("nan"), 1j, [1]])
+@each_case("seed", [-1, 2**63, 1.0, "1", None, True, float("nan"), 1j, [1]])
 def test_anything_else_is_refused(seed):
     with pytest.raises(InputError, match="seed"):
         check_seed(seed)
