@@ -23,7 +23,6 @@ from typing import Any, NamedTuple, TypeVar
 
 from mars2d.core.errors import InputError, shown
 from mars2d.core.hints import described
-from mars2d.core.interrupt import interrupts_blocked
 from mars2d.study import ONE_THREAD
 
 T = TypeVar("T")
@@ -203,7 +202,7 @@ def _started(count: int) -> ProcessPoolExecutor:
 def _submitted(pool: ProcessPoolExecutor, call: Callable[..., R], *arguments: Any) -> Future[R]:
     """Submit a call, for which a process may be started; a broken pool's future says so."""
     try:
-        with interrupts_blocked(), _one_thread():
+        with _deaf(), _one_thread():
             return pool.submit(call, *arguments)
     except BrokenProcessPool as error:
         broken: Future[R] = Future()
@@ -216,6 +215,19 @@ def _end(pool: ProcessPoolExecutor) -> None:
     for process in [*(pool._processes or {}).values()]:  # public as kill_workers from 3.14 on
         process.kill()
     pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Start processes that ignore Ctrl-C from their first moment: they inherit that."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager
