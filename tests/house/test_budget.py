@@ -26,7 +26,7 @@ LINES = {
     "study": 8_595,
     "testing": 1_378,
     "window": 15_204,
-    "world": 3_845,
+    "world": 3_812,
     "tests": 69_433,
 }
 """Lines at most, by room of the package, and of all tests."""

@@ -395,6 +395,7 @@ def test_on_a_full_disk_it_says_so_and_the_file_before_stays(suffix, small_disk)
         _large().save(path)
     assert [each.name for each in small_disk.iterdir()] == [path.name]
     assert path.read_bytes() == b"before"
+    path.unlink()
 
 
 def _large() -> mars2d.Record:
