@@ -56,11 +56,12 @@ from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame, between
-from mars2d.record.record import COLUMNS, Record
+from mars2d.record.rows import COLUMNS
 from mars2d.reports.bench.scenes import s2
 from mars2d.sensors import RangeFinder
 from mars2d.window.display import Preferences, be_quick
 from mars2d.window.window import Window
+from mars2d.world.record import Record
 
 SIZE = (1280, 720)
 SEEING = 20

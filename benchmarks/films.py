@@ -32,11 +32,11 @@ from mars2d.output.films.footage import Cut, Footage, shots
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster.picture import Artist
 from mars2d.record.frame import Frame
-from mars2d.record.record import Record
 from mars2d.reports.bench.scenes import Turns, s2
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.sensors import RangeFinder
 from mars2d.world.loop import simulate
+from mars2d.world.record import Record
 
 SIZE = (1280, 720)
 FPS = 25

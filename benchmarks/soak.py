@@ -27,10 +27,10 @@ from mars2d.addons import Communication, Map, Trails
 from mars2d.core.progress import Progress
 from mars2d.output.formats.mcap import Log
 from mars2d.record.columns import Scratch, blocks
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.world.loop import open_world
+from mars2d.world.record import Record
 
 LOOKS = 100
 """How often memory is looked at."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import re
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,7 @@ from mars2d import (
 )
 from mars2d.addons import Addon, Burst
 from mars2d.bodies import Joint, Prop
-from mars2d.core.description import Description
+from mars2d.core.description import Description, snake_case
 from mars2d.core.errors import InputError
 from mars2d.core.materials import MATERIALS
 from mars2d.geometry import Compound, Disc, Polygon
@@ -63,9 +64,10 @@ HEAD = """\
 # Fields
 
 Every field that an experiment can set, with its unit, its default and what it accepts. All values
-are checked when an object is made: anything else is an error that names the field. Fields are given
-by name, as in `Robot(diameter=0.2)`; those marked with * may also be given without their name, in
-their order, as in `Disc(0.2)`. What must be given has no default.
+are checked when an object is made: anything else is an error that names the field. Numbers have an
+interval: (0, 10] is more than 0 and at most 10. Fields are given by name, as in
+`Robot(diameter=0.2)`; those marked with * may also be given without their name, in their order, as
+in `Disc(0.2)`. What must be given has no default.
 
 `object.replace(field=value)` returns a copy with some fields changed; the objects themselves never
 change.
@@ -132,6 +134,9 @@ def title(kind: type[Description]) -> str:
 def section(kind: type[Description]) -> str:
     """Return the part about one class."""
     text = f"\n## {title(kind)}\n\n{summary(kind)}\n"
+    if issubclass(kind, Sensor) and kind is not Sensor:
+        page = f"sensors/{snake_case(kind.__name__)}.md#parameters"
+        return text + f"\nIts fields are on [its page]({page}).\n"
     base, fields = base_of(kind), fields_of(kind)
     if base is not None:
         link = f"[{base.__name__}](#{base.__name__.lower()})"
@@ -172,6 +177,11 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
         if check(name, None) is None and "None" not in expected:
             expected += ", or None"
     expected = expected.replace(f" [{field.metadata['unit']}]", "")
+    expected = re.sub(
+        r"a number (>=?) (\S+) and (<=?) ([^\s,]+(?: pi)?)",
+        lambda m: f"{'[' if m[1] == '>=' else '('}{m[2]}, {m[4]}{']' if m[3] == '<=' else ')'}",
+        expected,
+    )
     return expected.removesuffix("None") + "`None`" if expected.endswith("None") else expected
 
 

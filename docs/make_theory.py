@@ -18,10 +18,10 @@ from mars2d.addons import Map
 from mars2d.bodies import Ball, Box, Gate, Joint, Prop, Puck, Rope, Spring
 from mars2d.core.materials import GRAVITY
 from mars2d.record import episodes
-from mars2d.record.record import Record
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import simulate
+from mars2d.world.record import Record
 
 Float = NDArray[np.float64]
 

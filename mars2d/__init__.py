@@ -8,7 +8,6 @@
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +17,6 @@ from mars2d.core import interrupt  # noqa: F401 - first: Ctrl-C while the others
 from mars2d.addons import Addon
 from mars2d.bodies import Car, Differential, Drive, Dubins, Holonomic, Unicycle
 from mars2d.core.errors import InputError, LawError, Mars2dError
-from mars2d.core.former import FormerNames
-from mars2d.record.record import Record, load
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import load_law, load_scenario
 from mars2d.scenario.material_pair import MaterialPair
@@ -31,6 +28,7 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.toml_file import save_scenario
 from mars2d.sensors import Sensor
+from mars2d.world.record import Record, load
 from mars2d.world.world import World
 
 if TYPE_CHECKING:
@@ -86,9 +84,6 @@ _LATER = {
     "tournament": "mars2d.study.tournament.tournament",
 }
 """The names that are imported when they are first asked for: not every program needs them."""
-
-if not any(isinstance(finder, FormerNames) for finder in sys.meta_path):
-    sys.meta_path.append(FormerNames())
 
 
 def __getattr__(name: str) -> Any:

@@ -2,43 +2,60 @@
 
 from __future__ import annotations
 
-import functools
 import inspect
-from collections.abc import Callable, Iterable, Sequence
+import traceback
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import wraps
 from typing import Any
 
 import pytest
 
-Test = Callable[..., None]
 
+def each_case(
+    names: str | Sequence[str], cases: Iterable[Any]
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Let a test go through all cases and tell, at the end, in which of them it failed.
 
-def each_case(names: str | Sequence[str], cases: Iterable[Any]) -> Callable[[Test], Test]:
-    """Run a test with every case, and name the cases that fail.
-
-    It is written like `pytest.mark.parametrize`, for cases that are quick. A `tmp_path` is a new
-    folder for each case; other fixtures are shared.
+    It is written like `pytest.mark.parametrize`. Each case has a folder, a monkeypatch and an empty
+    capsys of its own, if the test asks for them; other fixtures are shared.
     """
-    words = [name.strip() for name in names.split(",")] if isinstance(names, str) else [*names]
-    rows = [case if len(words) > 1 else (case,) for case in cases]
+    arguments = [name.strip() for name in names.split(",")] if isinstance(names, str) else [*names]
+    every = list(cases)
 
-    def decorate(test: Test) -> Test:
-        @functools.wraps(test)
+    def wrap(test: Callable[..., None]) -> Callable[..., None]:
+        @wraps(test)
         def run(**fixtures: Any) -> None:
-            failed = []
-            for k, row in enumerate(rows):
-                given = fixtures | dict(zip(words, row, strict=True))
-                if "tmp_path" in given:
-                    given["tmp_path"] = fixtures["tmp_path"] / str(k)
-                    given["tmp_path"].mkdir()
+            failures = []
+            for number, case in enumerate(every):
+                values = dict(zip(arguments, case if len(arguments) > 1 else [case], strict=True))
                 try:
-                    test(**given)
+                    with _own(fixtures, number) as own:
+                        test(**own, **values)
+                except pytest.skip.Exception:
+                    continue
                 except (Exception, pytest.fail.Exception) as error:
-                    failed.append(f"{row}: {type(error).__name__}: {error}")
-            assert not failed, "\n\n".join([f"{len(failed)} of {len(rows)} cases fail", *failed])
+                    told = "".join(traceback.format_exception(error, limit=-3))
+                    failures.append(f"{values}\n{told}")
+            assert not failures, f"{len(failures)} of {len(every)} cases\n\n" + "\n".join(failures)
 
         signature = inspect.signature(test)
-        own = [p for name, p in signature.parameters.items() if name not in words]
-        run.__signature__ = signature.replace(parameters=own)  # type: ignore[attr-defined]
+        left = [each for name, each in signature.parameters.items() if name not in arguments]
+        run.__signature__ = signature.replace(parameters=left)  # type: ignore[attr-defined]
         return run
 
-    return decorate
+    return wrap
+
+
+@contextmanager
+def _own(fixtures: dict[str, Any], number: int) -> Iterator[dict[str, Any]]:
+    own = dict(fixtures)
+    if "tmp_path" in own:
+        own["tmp_path"] = own["tmp_path"] / f"case{number}"
+        own["tmp_path"].mkdir()
+    if "capsys" in own:
+        own["capsys"].readouterr()
+    with pytest.MonkeyPatch.context() as patch:
+        if "monkeypatch" in own:
+            own["monkeypatch"] = patch
+        yield own

@@ -48,8 +48,7 @@ def cost(world):
 def outcome(world, plan):
     trial = world.fork(laws=False)
     for command in np.repeat(plan, HOLD, axis=1).T:
-        if not trial.over:
-            trial.step(command[:, None])
+        trial.step(command[:, None])
     return cost(trial)
 
 

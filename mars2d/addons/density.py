@@ -116,7 +116,7 @@ class Density(Addon, Weight):
 
     def on_start(self, world: WorldLike) -> None:
         """Evaluate it all over the workspace, so that errors are raised at once."""
-        _, _, phi = self._raster(world.workspace or rectangle(*world.bounds))
+        _, _, phi = self._raster(world.scenario.workspace or rectangle(*world.scenario.bounds))
         if not phi.any():
             what = "Density.function" if self.image is None else f"Density.image = {self.image!r}"
             raise InputError(f"{what}: it is 0 everywhere in the workspace")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from mars2d.core import checks
 from mars2d.core.arithmetic import norms
 from mars2d.core.description import accepts, entry, integer, real, wrong
 from mars2d.core.errors import InputError, counted, likely, ordinal
-from mars2d.core.interfaces import FrameLike, RecordLike, ScenarioLike, WorldLike
+from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, edges_of, outside_polygon
 from mars2d.core.scene import Scene, faded
 
@@ -181,7 +181,7 @@ class Game(Contest):
 
     # -- how it stands, by a record ----------------------------------------------------------------
 
-    def outcome(self, record: RecordLike) -> Outcome:
+    def outcome(self, record: Any) -> Outcome:
         """Return captures, score and winner of a record, loaded or just made."""
         teams = self.players(record.scenario)
         contacts = record.contacts[record.contact_rows < len(record)]  # before its last row

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import inf
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from mars2d.addons.contest import MARK, Contest, Outcome, Teams, listed, mark
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
 from mars2d.core.description import entry, number
-from mars2d.core.interfaces import FrameLike, RecordLike, ScenarioLike, WorldLike
+from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
 
@@ -93,7 +93,7 @@ class Ring(Contest):
 
     # -- how it stands, by a record ----------------------------------------------------------------
 
-    def outcome(self, record: RecordLike) -> Outcome:
+    def outcome(self, record: Any) -> Outcome:
         """Return score and winner of a record, loaded or just made; there are no captures."""
         teams = self.teams(record.scenario)
         return self._outcome(teams, self._found(teams, record.time, record.pose))

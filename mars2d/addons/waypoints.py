@@ -132,8 +132,8 @@ class Waypoints(Addon):
                 f"Waypoints.routes has {counted(len(self.routes), 'route')}, but there "
                 f"{'is' if len(robots) == 1 else 'are'} {counted(len(robots), 'robot')}"
             )
-        if world.workspace is not None and world.scenario.on_exit != "ignore":
-            self._check_inside(np.array(world.workspace))
+        if world.scenario.workspace is not None and world.scenario.on_exit != "ignore":
+            self._check_inside(np.array(world.scenario.workspace))
         self._reached = self.reached
 
     def _check_inside(self, workspace: NDArray[np.float64]) -> None:

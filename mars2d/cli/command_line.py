@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import atexit
 import errno
-import multiprocessing
 import os
 import re
 import signal
 import sys
 import threading
-import time
 import traceback
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache, partial
-from multiprocessing import resource_tracker
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
@@ -24,27 +20,12 @@ from typing import NoReturn
 from mars2d import __version__
 from mars2d.cli.home import home
 from mars2d.cli.verbs import VERBS
-from mars2d.core.errors import InputError, Mars2dError, counted, likely
-from mars2d.core.interrupt import (
-    ENDING,
-    INTERRUPTED,
-    OURS,
-    ending,
-    raised_once,
-    unwrapped,
-    was_interrupted,
-)
-from mars2d.core.lastresort import keep_orphans, kill, look_on, started_here
-from mars2d.core.terminal import legible, warn
+from mars2d.core.errors import InputError, Mars2dError, likely
+from mars2d.core.interrupt import ENDING, INTERRUPTED, interrupts
+from mars2d.core.terminal import legible, usable_standard_files, warn
 from mars2d.core.words import instead
 
 OK, FAULT, BAD_INPUT = 0, 1, 2
-
-LEFT = 2.0
-"""How long threads and processes of the user's code may take to end after the command, seconds."""
-
-LOOK = 0.01
-"""The time between two looks at whether they have, seconds."""
 
 UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
 """Errors of paths typed by the user for which even asking whether they exist fails."""
@@ -54,75 +35,30 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit code.
 
     0: everything was done. 1: a fault of MARS2D, or no run of a sweep succeeded. 2: bad input. 130:
-    Ctrl-C, or the terminal was closed.
+    Ctrl-C, or the terminal was closed. argv: None for a process that is the command, and ends here.
     """
-    _hold_standard_files()
-    if OURS:
-        look_on([signal.SIGINT, *ENDING])
-        keep_orphans()
+    if argv is None:
+        usable_standard_files()
+    os.environ["MPLBACKEND"] = "agg"  # a law that shows a figure of its own waits for nobody
     try:
-        with legible(), raised_once(), unwrapped(), hang_up_as_interrupt():
+        with legible(), interrupts(), hang_up_as_interrupt():
             code = _outcome(argv)
     except KeyboardInterrupt as interrupt:
         warn(str(interrupt) or "interrupted")
         code = INTERRUPTED
-    finally:
-        ending()
-    if OURS:
-        _leave_behind(code)
+    if argv is None:
+        _leave(code)
     return code
 
 
-def _leave_behind(code: int) -> None:
-    """End the threads and processes that the user's code has started, which may never end."""
-    children = [child for child in multiprocessing.active_children() if not child.daemon]
-    own = threading.current_thread()
-    threads = [t for t in threading.enumerate() if not t.daemon and t is not own]
-    until = time.monotonic() + LEFT
-    joins = [child.join for child in children] + [thread.join for thread in threads]
-    for join in joins:
-        join(max(0.0, until - time.monotonic()))
-    while (others := _others()) and time.monotonic() < until:
-        time.sleep(LOOK)
-    running = [child for child in children if child.is_alive()]
-    if names := [*(child.name for child in running), *others.values()]:
-        warn(f"killed processes that did not end: {', '.join(names)}")
-    for child in running:
-        child.kill()
-    killed: set[int] = set()
-    while new := others.keys() - killed:  # they may have started more
-        for process in new:
-            kill(process)
-        killed |= new
-        others = _others()
-    left = [thread.name for thread in threads if thread.is_alive()]
-    if not left:
-        return
-    warn(f"left {counted(len(left), 'thread')} that did not end: {', '.join(left)}")
-    atexit._run_exitfuncs()
+def _leave(code: int) -> NoReturn:
+    """End the process at once: threads and exit functions of the user's code can't hold it."""
+    for number in ENDING:
+        signal.signal(number, signal.SIG_IGN)
     for stream in (sys.stdout, sys.stderr):
-        with suppress(OSError, ValueError, AttributeError):
+        with suppress(OSError, ValueError):
             stream.flush()
     os._exit(code)
-
-
-def _others() -> dict[int, str]:
-    """Return the processes that the user's code has started, by number, and their names."""
-    ours = getattr(resource_tracker, "_resource_tracker", None)  # ends with this process
-    own = {getattr(ours, "_pid", None)} | {each.pid for each in multiprocessing.active_children()}
-    return {number: name for number, name in started_here().items() if number not in own}
-
-
-def _hold_standard_files() -> None:
-    """Open the standard files that were closed, so that none of ours takes their numbers.
-
-    Libraries in C write on number 2: with `2>&-` that would be in the first file that is opened.
-    """
-    for number in range(3):
-        try:
-            os.fstat(number)
-        except OSError:
-            os.open(os.devnull, os.O_RDWR)  # the lowest number that is free
 
 
 def _outcome(argv: Sequence[str] | None) -> int:
@@ -133,8 +69,7 @@ def _outcome(argv: Sequence[str] | None) -> int:
         if unknown:
             arguments.refuse(f"unrecognized arguments: {' '.join(unknown)}")
         arguments.execute(arguments)
-        if sys.stdout is not None:  # it is None if it was closed
-            sys.stdout.flush()
+        sys.stdout.flush()
     except InputError as error:
         warn(error)
         return BAD_INPUT
@@ -144,8 +79,6 @@ def _outcome(argv: Sequence[str] | None) -> int:
     except BrokenPipeError:
         _stop_telling()  # the reader of our output, such as `head`, has ended
     except Exception as error:
-        if was_interrupted(error):
-            raise
         if isinstance(error, OSError) and error.errno in UNUSABLE and error.filename:
             warn(f"{error.filename}: {error.strerror}")
             return BAD_INPUT
@@ -171,8 +104,7 @@ def _stop_telling() -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.close(nowhere)
-    if sys.stderr is not None:
-        sys.stderr.close()
+    sys.stderr.close()
 
 
 def parser(words: Sequence[str] = ()) -> argparse.ArgumentParser:

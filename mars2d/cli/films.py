@@ -12,8 +12,8 @@ from mars2d.core.progress import Progress
 from mars2d.output.films import film
 from mars2d.output.films.footage import Cut
 from mars2d.record.frame import Frame
-from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.record import Record
 
 if TYPE_CHECKING:
     from mars2d.output.films.footage import Footage

@@ -14,18 +14,18 @@ from mars2d.cli.arguments import times
 from mars2d.cli.films import Film, add_film, save_film_of
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.files import why_unwritable
-from mars2d.core.interrupt import held_back
+from mars2d.core.interrupt import interrupts
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.world.loop import Interrupted
+from mars2d.world.record import Record
 
 OUTPUTS = {
-    "record": formats.SUFFIXES,
+    "record": tuple(formats.FORMATS),
     "figure": figure.SUFFIXES,
     "video": film.SUFFIXES,
     "html": (".html", ".htm"),
@@ -106,7 +106,7 @@ def run_and_save(
     film: Film | None = None
     target: Path | None = arguments.record
     saving = "" if target is None else f"the run is being saved in {one_line(target)}"
-    with held_back(saving, lambda kept: _rescue(arguments, kept)):
+    with interrupts(held=saving, rescue=lambda kept: _rescue(arguments, kept)):
         try:
             record, film = run()
         except (Mars2dError, Interrupted) as error:

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell, warn
-from mars2d.record.record import Record
 from mars2d.scenario.examples import courses, title_of
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.prediction import Prediction, table
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.display import Preferences
 from mars2d.world.loop import simulate
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:

@@ -1,93 +1,168 @@
-"""A time limit for the user's code, which is interrupted, with the line where that happened."""
+"""A time limit for the user's code, which is broken off, with the line where that happened."""
 
 from __future__ import annotations
 
 import contextlib
+import ctypes
+import os
 import sys
 import threading
 import time
 import traceback
 from collections.abc import Callable
-from types import TracebackType
+from types import FrameType
 
-from mars2d.core.errors import Passing
-from mars2d.core.usercode import raise_in, users_line
+from mars2d.core.errors import InputError, Late, shown
+from mars2d.core.usercode import users_line
+
+VARIABLE = "MARS2D_PATIENCE"
+"""The environment variable that sets the patience with a law, seconds; 0 waits for ever."""
 
 PATIENCE = 10.0
-"""The time that a control step may take, seconds."""
+"""The time that a control step, or a call of a law, may take, seconds."""
 
 GRACE = 5.0
-"""The time that the interruption may take, seconds."""
+"""The time that breaking off may take, seconds."""
+
+LOOK = 0.1
+"""The longest time between two looks, seconds."""
+
+SOON = 3
+"""After as many looks at the same call somebody may be asked whether to go on waiting."""
+
+_Pending = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 
 
-class Late(Passing):
-    """The user's code took too long; a BaseException, so that its own `except` can't swallow it."""
+def patience() -> float:
+    """Return how long a call of a law may take, seconds. Raises InputError for a bad variable."""
+    text = os.environ.get(VARIABLE)
+    if not text:
+        return PATIENCE
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = -1.0
+    if not seconds >= 0:
+        raise InputError(f"{VARIABLE}={shown(text)}: expected seconds, 0 or more; 0 waits for ever")
+    return seconds or float("inf")
 
 
 class Deadline:
-    """Interrupts the block by raising Late, `patience` seconds after the last call of `alive`.
+    """Breaks off the block by raising Late, `patience` seconds after the last sign of life.
 
-    A separate thread watches the block, so it works in every thread and on every system. A call
-    that waits in the operating system (``time.sleep``) can't be interrupted; then `give_up`, if
-    given, is called from the watching thread with the line that hangs. If no thread can be
-    started, for example in a browser, nothing is interrupted.
+    It looks from a thread of its own, so it works in every thread and on every system, and counts
+    its looks: a process that was suspended is not late. A call that waits in the operating system
+    or in C can't be broken off: `GRACE` later `give_up`, if given, is called from the watching
+    thread with the line. Where no thread can be started, as in a browser, nothing is broken off.
+
+    calls: returns what changes with each call of the user's code, which is then all that is broken
+    off, and Late says so of the call; a debugger is waited for. Else `alive` is the sign of life.
+    meanwhile: called in the main thread while a call takes long, with the file and line; returns
+    the reason to break it off at once, or "".
     """
 
     def __init__(
-        self, patience: float = PATIENCE, give_up: Callable[[str], None] | None = None
+        self,
+        patience: float = PATIENCE,
+        give_up: Callable[[str], None] | None = None,
+        calls: Callable[[], object] | None = None,
+        meanwhile: Callable[[str], str] | None = None,
     ) -> None:
-        self.patience, self._give_up = patience, give_up
-        self._lock = threading.Lock()
-        self._ended = threading.Event()
-        self._thread = 0
-        self._since, self._fired = 0.0, False
-        self.where = ""
+        self.patience, self.where = patience, ""
+        self._give_up, self._calls, self._meanwhile = give_up, calls, meanwhile
+        self._lock, self._ended = threading.Lock(), threading.Event()
+        self._signs, self._looks, self._fired = 0, 0, False
+        self._thread, self._block = 0, sys._getframe()
+        self._ask = _Pending(self._asked)  # kept: the interpreter calls it later
+        self._waits = False
+        self._due: type[BaseException] | None = None  # the exception that the next look raises
 
     def alive(self) -> None:
-        """Restart the clock."""
-        self._since, self._fired = time.monotonic(), False
+        """Start counting again."""
+        self._signs, self._looks, self._fired = self._signs + 1, 0, False
 
     def arrived(self) -> str:
-        """Return the line that was interrupted; to be called where the block caught Late."""
+        """Return the line that was broken off; to be called where the block caught Late."""
         self.alive()
         return self.where
 
     def __enter__(self) -> Deadline:
         self.alive()
-        self.where, self._thread, self._ended = "", threading.get_ident(), threading.Event()
-        watch = threading.Thread(target=self._watch, args=(self._ended,), daemon=True)
+        self._thread, self._block = threading.get_ident(), sys._getframe(1)
+        self.where, self._ended = "", threading.Event()
+        watch = threading.Thread(
+            target=self._watch, args=(self._ended,), daemon=True, name="mars2d deadline"
+        )
         with contextlib.suppress(RuntimeError):  # "can't start new thread"
             watch.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        tb: TracebackType | None,
-    ) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         with self._lock:
             self._ended.set()
-        if self._fired and (kind is None or not issubclass(kind, Late)):
+        if self._fired and (kind is None or not issubclass(kind, Late)) and not self._calls:
             # Late was raised but has not arrived. Revoking it would slow the interpreter down.
             with contextlib.suppress(Late):
                 time.sleep(GRACE)
 
     def _watch(self, ended: threading.Event) -> None:
-        while not ended.wait(min(self.patience / 10, 0.2)):
-            waited = time.monotonic() - self._since
-            if self._fired and waited > GRACE and self._give_up is not None:
-                self._give_up(self.where)
-                return
-            if not self._fired and waited > self.patience:
+        look, last = min(self.patience / 10, LOOK), None
+        while not ended.wait(look):
+            sign, line = self._signs if self._calls is None else self._calls(), self._line()
+            due, self._due = self._due, None
+            if sign != last or (self._calls is not None and not line):
+                last, self._looks, self._fired = sign, 0, False
+                continue
+            self._looks += 1
+            waited = self._looks * look
+            if due is None and waited > (GRACE if self._fired else self.patience):
+                if self._fired and self._give_up is not None:
+                    self._give_up(self.where)
+                due = _late(f"did not return within {self.patience:g} s" if self._calls else "")
+            if due is not None:
                 with self._lock:
                     if ended.is_set():
                         return
-                    self.where = self._line()
-                    self.alive()
-                    self._fired = True
-                    raise_in(self._thread, Late)
+                    self.where, self._looks, self._fired = line, 0, True
+                    _raise_in(self._thread, due)
+            elif self._meanwhile is not None and self._looks >= SOON and not self._waits:
+                self._waits = True
+                ctypes.pythonapi.Py_AddPendingCall(self._ask, None)
+
+    def _asked(self, _: object) -> int:
+        """Ask whether to go on waiting; the interpreter calls it in the main thread.
+
+        The answer waits for the next look: raised here, it would be lost.
+        """
+        try:
+            line = self._line()
+            if self._meanwhile is not None and line:
+                why = self._meanwhile(line)
+                self._due = _late(why) if why else None
+        except BaseException as error:
+            self._due = type(error)
+        finally:
+            self._waits = False
+        return 0
 
     def _line(self) -> str:
-        frame = sys._current_frames().get(self._thread)
-        return "" if frame is None else users_line(traceback.extract_stack(frame)) or ""
+        """Return the line of the user's code that the block is in; "" if a debugger looks at it."""
+        steps: list[traceback.FrameSummary] = []
+        step: FrameType | None = sys._current_frames().get(self._thread)
+        while step is not None and step is not self._block:
+            if step.f_trace is not None and self._calls is not None:
+                return ""
+            code = step.f_code
+            steps.append(traceback.FrameSummary(code.co_filename, step.f_lineno, code.co_name))
+            step = step.f_back
+        return users_line(traceback.StackSummary.from_list(steps[::-1])) or ""
+
+
+def _late(why: str) -> type[Late]:
+    return type("Late", (Late,), {"why": why})
+
+
+def _raise_in(thread: int, error: type[BaseException]) -> None:
+    """Raise an exception in another thread, between two steps of its Python code."""
+    raised = ctypes.py_object(error)
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)

@@ -5,9 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterable
-from typing import Any, TypeGuard, TypeVar
-
-Raised = TypeVar("Raised", bound=BaseException)
+from typing import Any
 
 CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
 """Line breaks and the control characters of terminals."""
@@ -40,38 +38,13 @@ class InputError(Mars2dError, ValueError):
     """An input can't be used; the message names it and says what was expected."""
 
 
-class Passing(BaseException):
-    """Raised by MARS2D through the user's code, as KeyboardInterrupt is: no error of that code.
+class Late(BaseException):
+    """The user's code is broken off; a BaseException, so that few `except` in it catch it.
 
-    Only its subclasses are raised.
+    why: what the call did, for the `LawError` that it becomes; "" for whoever set the limit to say.
     """
 
-
-def is_a(error: BaseException | None, kind: type[Raised]) -> TypeGuard[Raised]:
-    """Return whether an exception is of a class, without asking it, as isinstance does."""
-    return issubclass(type(error), kind)
-
-
-def passes(error: BaseException) -> bool:
-    """Return whether an exception goes through the user's code: Ctrl-C, or a `Passing` of ours."""
-    kind = type(error)
-    ours = is_a(error, Passing) and kind is not Passing and is_ours(kind)
-    return ours or is_a(error, KeyboardInterrupt)
-
-
-def part_of(error: BaseException, name: str) -> Any:
-    """Return ``__traceback__`` or the like of an exception, also of one that hides it."""
-    return getattr(BaseException, name).__get__(error)
-
-
-def is_ours(kind: type) -> bool:
-    """Return whether a class of exceptions is one of MARS2D's own."""
-    return str(kind.__module__).partition(".")[0] == "mars2d"
-
-
-def is_made_here(error: BaseException) -> bool:
-    """Return whether an error is as MARS2D makes them: of a class of its own, with one text."""
-    return is_ours(type(error)) and [type(each) for each in error.args] == [str]
+    why = ""
 
 
 class LawError(InputError):
@@ -145,11 +118,6 @@ def nearest(name: object, known: Iterable[str], likeness: float = LIKENESS, most
     return likely(name, names, likeness) or listed
 
 
-def class_name(thing: object) -> str:
-    """Return the name of the class of a thing, whatever that class or its own class defines."""
-    return str(type.__dict__["__name__"].__get__(type(thing)))
-
-
 def counted(count: int, thing: str) -> str:
     """Return a number with its noun, such as ``1 step`` or ``2 steps``."""
     return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
@@ -186,10 +154,5 @@ def one_line(text: object, most: int = MAX_TEXT) -> str:
 
 def shown(value: Any, limit: int = 60) -> str:
     """Return `value` as quoted in a message: its repr, cut to `limit` characters."""
-    try:
-        text = " ".join(repr(value).split())
-    except BaseException as error:
-        if passes(error):
-            raise
-        text = f"<{class_name(value)} whose repr raises {class_name(error)}>"
+    text = " ".join(repr(value).split())
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import shutil
 import stat
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, closing, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from io import BufferedRandom
 from pathlib import Path
@@ -14,14 +15,12 @@ from secrets import token_hex
 from typing import BinaryIO
 
 from mars2d.core.errors import InputError, nearest
-from mars2d.core.lock import lock
 
 REPLACED_OPEN = sys.platform != "win32"
 """Whether the system lets a file be replaced while it is open."""
 
-
-DESCRIPTORS = Path("/proc/self/fd")
-"""Where Linux has the open files of this process, also those without a name."""
+LOCKED_BYTE = 2**40
+"""The byte to lock on systems that lock bytes: far behind the end of any file."""
 
 
 def why_unwritable(target: Path) -> str:
@@ -37,13 +36,6 @@ def why_unwritable(target: Path) -> str:
     if not stat.S_ISREG(mode):
         return "this is a pipe or a device; expected a file"
     return "" if os.access(target, os.W_OK) else "it may only be read"
-
-
-def refuse_unwritable(target: Path) -> None:
-    """Raise InputError for a file that can't be written."""
-    why = why_unwritable(target)
-    if why:
-        raise InputError(f"{target}: can't be written: {why}")
 
 
 @contextmanager
@@ -64,82 +56,21 @@ def atomic_write(target: Path, held: BinaryIO | None = None) -> Iterator[BinaryI
     Raises InputError if the file can't be written, for example because the disk is full, or because
     something else is adding to it.
     """
-    refuse_unwritable(target)
-    with _not_growing(target, held):
-        pass  # else it would be known only after all the work
-    with writing(target), closing(_Part(Path(os.path.realpath(target)))) as part:
-        with part.path.open("r+b") as file:
-            yield file
-        with _not_growing(target, held):
-            part.replace()
-
-
-@contextmanager
-def _not_growing(target: Path, held: BinaryIO | None) -> Iterator[None]:
-    """Let nobody begin to add to a file within the block; InputError where somebody does.
-
-    held: the file, if it is the caller who adds to it.
-    """
-    with ExitStack() as stack:
-        if held is None:
-            with suppress(OSError):  # there is no such file yet, or it can't be read
-                file = stack.enter_context(target.open("rb"))
-                lock(file, target, shared=True)
-        if not REPLACED_OPEN:
-            stack.close()
-        yield
-
-
-class _Part:
-    """A file that is being written, beside that of which it takes the place.
-
-    path: where it can be opened, by FFmpeg once more. It gets a name when it is complete. So a
-    process that is killed leaves nothing behind, unless the system has no files without names:
-    there it has a name that nobody can guess.
-    """
-
-    def __init__(self, target: Path) -> None:
-        self._target = target
-        self._name = target.with_name(f".mars2d-{token_hex(8)}.part")
-        self._named = False
+    _refuse_unwritable(target)
+    if held is None:
+        with suppress(OSError), target.open("rb") as file:  # there may be no such file yet
+            lock(file, target, shared=True)
+    whole = Path(os.path.realpath(target))
+    part = whole.with_name(f".mars2d-{token_hex(8)}.part")
+    with writing(target):
         try:
-            DESCRIPTORS.stat()
-            self.descriptor = os.open(target.parent, os.O_RDWR | os.O_TMPFILE, 0o666)
-            self.path = DESCRIPTORS / str(self.descriptor)
-        except (AttributeError, OSError):  # not Linux, or not on this file system
-            flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
-            self.descriptor = os.open(self._name, flags, 0o666)
-            self.path, self._named = self._name, True
-        self._keep_permissions()
-
-    def _keep_permissions(self) -> None:
-        """Take over the owner and the permissions of the file that is to be replaced."""
-        with suppress(AttributeError, OSError):  # not on Windows; only root gives files away
-            before = self._target.stat()
+            with part.open("x+b") as new:
+                yield new
             with suppress(OSError):
-                os.fchown(self.descriptor, before.st_uid, before.st_gid)
-            os.fchmod(self.descriptor, stat.S_IMODE(before.st_mode))
-
-    def replace(self) -> None:
-        """Take the place of the other file."""
-        if not self._named:
-            self._named = True
-            folder = os.open(DESCRIPTORS, os.O_RDONLY)  # Python follows links from a folder only
-            try:
-                os.link(self.path.name, self._name, src_dir_fd=folder, follow_symlinks=True)
-            finally:
-                os.close(folder)
-        os.close(self.descriptor)
-        self.descriptor = -1
-        self._name.replace(self._target)
-        self._named = False
-
-    def close(self) -> None:
-        """Leave nothing behind."""
-        if self.descriptor >= 0:
-            os.close(self.descriptor)
-        if self._named:
-            self._name.unlink(missing_ok=True)
+                shutil.copymode(whole, part)
+            part.replace(whole)
+        finally:
+            part.unlink(missing_ok=True)
 
 
 def growing(path: Path, *, afresh: bool = False) -> BufferedRandom:
@@ -148,31 +79,47 @@ def growing(path: Path, *, afresh: bool = False) -> BufferedRandom:
     It is made if it is not there. afresh: drop what it holds. Raises InputError where it can't be
     written, and where something else is writing to it.
     """
-    refuse_unwritable(path)
-    flags = os.O_RDWR | os.O_CREAT | (0 if afresh else os.O_APPEND)
-    for name in ("O_BINARY", "O_NONBLOCK"):  # on Windows; elsewhere, lest a new pipe hangs it
-        flags |= getattr(os, name, 0)
-    while True:
-        with writing(path):
-            file = os.fdopen(os.open(path, flags, 0o666), "w+b" if afresh else "a+b")
-        try:
-            lock(file, path)
-            if _is_at(path, file):
-                if afresh:
-                    file.truncate(0)
-                return file
-        except BaseException:
-            file.close()
-            raise
-        file.close()  # it was replaced before it was locked
-
-
-def _is_at(path: Path, file: BinaryIO) -> bool:
-    """Return whether an open file is the one that has this name."""
+    _refuse_unwritable(path)
+    with writing(path):
+        path.touch()
+        file = path.open("r+b" if afresh else "a+b")
     try:
-        return os.path.samestat(path.stat(), os.fstat(file.fileno()))
-    except FileNotFoundError:
-        return False
+        lock(file, path)
+        if afresh:
+            file.truncate(0)
+    except BaseException:
+        file.close()
+        raise
+    return file
+
+
+def lock(file: BinaryIO, path: Path, *, shared: bool = False) -> None:
+    """Lock a file until it is closed or the process ends.
+
+    shared: others may lock it in this way as well; Windows has no such locks. Raises InputError if
+    it is locked already. Does nothing on systems without locks.
+    """
+    with suppress(ImportError, OSError):
+        try:
+            if sys.platform == "win32":
+                import msvcrt
+
+                os.lseek(file.fileno(), LOCKED_BYTE, os.SEEK_SET)
+                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+            else:
+                import fcntl
+
+                fcntl.flock(file, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+        except (BlockingIOError, PermissionError):
+            raise InputError(
+                f"{path}: another process is writing to it, or another part of this one: wait for "
+                "its end, or give another name"
+            ) from None
+
+
+def _refuse_unwritable(target: Path) -> None:
+    if why := why_unwritable(target):
+        raise InputError(f"{target}: can't be written: {why}")
 
 
 _files: ContextVar[tuple[set[Path], ...]] = ContextVar("files", default=())
@@ -208,10 +155,9 @@ def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[s
         if (folder / path).is_file():
             note_file(folder / path)
             return folder / path
-        if (folder / path).exists():
-            kind = "a folder" if (folder / path).is_dir() else "not a file"
+        if (folder / path).is_dir():
             ends = " or ".join(suffixes)
-            raise InputError(f"{path}: {kind}; expected {what}, a file that ends in {ends}")
+            raise InputError(f"{path}: a folder; expected {what}, a file that ends in {ends}")
     known = {
         str(path.parent / file.name)
         for folder in folders

@@ -5,12 +5,9 @@ from __future__ import annotations
 import builtins
 import sys
 import traceback
-from collections.abc import Callable
-from contextlib import suppress
 from importlib import import_module
-from types import FrameType
 
-from mars2d.core.errors import InputError, class_name, is_a, likely, passes
+from mars2d.core.errors import InputError, likely
 from mars2d.core.words import instead
 
 ROOMS = ("mars2d", "mars2d.sensors", "mars2d.addons", "mars2d.bodies", "mars2d.geometry")
@@ -20,133 +17,76 @@ ABBREVIATIONS = {"np": "import numpy as np", "plt": "import matplotlib.pyplot as
 
 LIBRARIES = ("numpy", "scipy", "matplotlib", "pygame", "pymunk", "mars2d")
 
+_FIXED: list[tuple[type[BaseException], str, str, str]] = [
+    (AttributeError, "has no setter", "",
+     "it can't be set: a law returns its command, and keeps things in robot.memory"),
+    (TypeError, "'numpy.ndarray' object is not callable", "",
+     "it is an array: write it without the brackets ()"),
+    (TypeError, "object is not callable", "robot.drive(",
+     "a law returns its command, such as `return v, omega`"),
+    (ValueError, "read-only", "",
+     "a law can't change the world: it returns its command. Calculate with a copy: pose.copy()"),
+    (ValueError, "to unpack", ".pose", "a pose is three numbers: x, y, theta = robot.pose"),
+    (IndexError, "", ".position[", "a position is (x, y); the angle is pose[2]"),
+    (IndexError, "", ".pose[", "a pose is (x, y, theta), from 0 to 2"),
+    (EOFError, "", "input(",
+     "nobody answers while a simulation runs: make it a parameter of scenario(...)"),
+]  # fmt: skip
+"""The class of an exception, a part of its text, a part of its line, and the hint."""
+
 
 def described(error: BaseException) -> str:
     """Return the message of an exception in the user's code, with a hint at the correction."""
-    name = class_name(error)
-    try:
-        said = str(error)
-    except BaseException as worse:  # a class of the user's may refuse
-        if passes(worse):
-            raise
-        return f"{name}, whose text raises {class_name(worse)}"
-    if is_a(error, InputError) and said:
+    name, said = type(error).__name__, str(error)
+    if isinstance(error, InputError) and said:
         return said
-    if is_a(error, ImportError):
+    if isinstance(error, ImportError):
         said = said.partition(" (")[0]  # the path of the module helps nobody
     text = f"{name}: {said}" if said else name
-    for kind, hint in _HINTS.items():
-        if is_a(error, kind):
-            with suppress(Exception):  # of the user's own classes, which may be anything
-                return text + hint(error)
-    return text
-
-
-def _of_unbound(error: UnboundLocalError) -> str:
-    """Return how a law keeps a number: ``integral += ...`` makes a local one."""
-    name, frame = _name_of(error), _innermost(error)
-    if frame is not None and name in frame.f_globals:
-        keep = f"robot.memory.{name}" if "robot" in frame.f_locals else "an object of your own"
-        return f"; a function that assigns {name!r} has its own: keep it in {keep}"
-    return "; give it a value first, in each branch"
+    steps = traceback.extract_tb(error.__traceback__)
+    line = (steps[-1].line or "") if steps else ""
+    for kind, part, code, hint in _FIXED:
+        if isinstance(error, kind) and part in said and code in line:
+            return f"{text}; {hint}"
+    if isinstance(error, NameError):
+        return text + _of_name(error)
+    if isinstance(error, AttributeError):
+        return text + likely(error.name, {n for n in dir(error.obj) if not n.startswith("_")})
+    return text + _of_import(error) if isinstance(error, ImportError) else text
 
 
 def _of_name(error: NameError) -> str:
-    """Return the import that lacks, or the known name that is nearest."""
-    name, frame = _name_of(error), _innermost(error)
-    if name in ABBREVIATIONS:
-        return f"; write `{ABBREVIATIONS[name]}` at the top"
+    """Return how to keep a number, the import that is missing, or the nearest known name."""
+    name, known = error.name or _quoted(error), {n for n in dir(builtins) if n.islower()}
+    frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
+    if isinstance(error, UnboundLocalError):  # ``integral += ...`` makes a local one
+        if not frames or name not in frames[-1].f_globals:
+            return "; give it a value first, in each branch"
+        law = "robot" in frames[-1].f_locals
+        keep = f"robot.memory.{name}" if law else "an object of your own"
+        return f"; a function that assigns {name!r} has its own: keep it in {keep}"
+    line = ABBREVIATIONS.get(name) or _import_of(name)
     if name in sys.stdlib_module_names or name in LIBRARIES:
-        return f"; write `import {name}` at the top"
-    known = set() if frame is None else {*frame.f_locals, *frame.f_globals}
-    line = _import_of(name)
+        line = f"import {name}"
     if line:
         return f"; write `{line}` at the top"
-    said = {each for each in dir(builtins) if each.islower()}
-    return instead(name, "a room") or likely(name, known | said)
-
-
-def _of_attribute(error: AttributeError) -> str:
-    """Return the attribute that is nearest, or how to go without setting it."""
-    if "has no setter" in str(error):
-        return "; it can't be set: a law returns its command, and keeps things in robot.memory"
-    known = {name for name in dir(error.obj) if not name.startswith("_")}
-    return likely(error.name, known)
+    known |= {*frames[-1].f_locals, *frames[-1].f_globals} if frames else set()
+    return instead(name, "a room") or likely(name, known)
 
 
 def _of_import(error: ImportError) -> str:
     """Return where a name is, or the package that is nearest."""
+    module = error.name or ""
     if isinstance(error, ModuleNotFoundError):
-        modules = [*ROOMS, *LIBRARIES]
-        if (error.name or "").startswith("mars2d."):
-            return likely(error.name, ROOMS, 0.6) or f"; there are {', '.join(ROOMS[1:])}"
-        return likely(error.name, modules, 0.7)
-    name = _quoted(error)
-    if not (error.name or "").startswith("mars2d"):
+        if module.startswith("mars2d."):
+            return likely(module, ROOMS, 0.6) or f"; there are {', '.join(ROOMS[1:])}"
+        return likely(module, [*ROOMS, *LIBRARIES], 0.7)
+    if not module.startswith("mars2d"):
         return ""
-    line = _import_of(name)
-    if line:
+    if line := _import_of(name := _quoted(error)):
         return f"; write `{line}`"
-    known = {each for room in ROOMS for each in _public(room)}
+    known = {each for room in ROOMS for each in import_module(room).__all__}
     return instead(name, "a room") or likely(name, known, 0.7)
-
-
-def _of_type(error: TypeError) -> str:
-    """Return how to write an expression that was called or indexed, though it can't be."""
-    text = str(error)
-    if text.startswith("'numpy.ndarray' object is not callable"):
-        return "; it is an array: write it without the brackets ()"
-    if text.endswith("object is not callable") and "robot.drive(" in _line_of(error):
-        return "; a law returns its command, such as `return v, omega`"
-    return ""
-
-
-def _of_value(error: ValueError) -> str:
-    """Return how to change a copy, or to unpack a pose."""
-    if "read-only" in str(error):
-        return (
-            "; a law can't change the world: it returns its command. To calculate with an array, "
-            "take a copy: pose.copy()"
-        )
-    if "to unpack" in str(error) and ".pose" in _line_of(error):
-        return "; a pose is three numbers: x, y, theta = robot.pose"
-    return ""
-
-
-def _of_index(error: IndexError) -> str:
-    """Return which numbers a pose and a position have."""
-    if ".position[" in _line_of(error):
-        return "; a position is (x, y); the angle is pose[2]"
-    return "; a pose is (x, y, theta), from 0 to 2" if ".pose[" in _line_of(error) else ""
-
-
-_HINTS: dict[type[BaseException], Callable[..., str]] = {
-    UnboundLocalError: _of_unbound,
-    NameError: _of_name,
-    AttributeError: _of_attribute,
-    ImportError: _of_import,
-    TypeError: _of_type,
-    ValueError: _of_value,
-    IndexError: _of_index,
-}
-"""The hint at an exception, by its class; the first that fits."""
-
-
-def _innermost(error: BaseException) -> FrameType | None:
-    """Return the frame in which an exception was raised."""
-    frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
-    return frames[-1] if frames else None
-
-
-def _line_of(error: BaseException) -> str:
-    """Return the line of code in which an exception was raised, or ""."""
-    steps = traceback.extract_tb(error.__traceback__)
-    return (steps[-1].line or "") if steps else ""
-
-
-def _name_of(error: NameError) -> str:
-    """Return the name that an exception is about; an UnboundLocalError has it in its text only."""
-    return error.name or _quoted(error)
 
 
 def _quoted(error: BaseException) -> str:
@@ -154,14 +94,10 @@ def _quoted(error: BaseException) -> str:
     return str(error).partition("'")[2].partition("'")[0]
 
 
-def _public(room: str) -> list[str]:
-    return list(import_module(room).__all__)
-
-
 def _import_of(name: str) -> str:
     """Return the line that imports a name, in whatever letters it is written, or ""."""
     for room in ROOMS:
-        for each in _public(room):
+        for each in import_module(room).__all__:
             if each.lower() == name.lower():
                 return f"from {room} import {each}"
     return ""

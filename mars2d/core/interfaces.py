@@ -1,10 +1,11 @@
-"""What parts may use of a robot, a scenario, a frame, a record and a world, as Protocols.
+"""What parts may use of a scenario, a frame, a robot and a world, as Protocols.
 
 Sensors and add-ons lie below the scenario and the world, so they can't import those classes. They
-annotate what they are handed with these Protocols, which `Scenario`, `Frame`, `Record` and `World`
-satisfy. A base class whose methods users override takes `Any` instead: so an override may name the
-Protocol or the class itself.
+annotate what they are handed with these Protocols, which `Scenario`, `Frame` and `World`
+satisfy: what a name means, those say. A base class whose methods users override takes `Any`
+instead: so an override may name the Protocol or the class itself.
 """
+# ruff: noqa: D102 - documented by the classes that satisfy them
 
 from __future__ import annotations
 
@@ -17,215 +18,90 @@ from numpy.typing import NDArray
 from mars2d.core.plane import Outline
 
 Float = NDArray[np.float64]
-
-
-class RobotSpec(Protocol):
-    """A robot as the scenario describes it."""
-
-    @property
-    def name(self) -> str | None:
-        """Its name, unique in the scenario."""
-
-    @property
-    def pose(self) -> tuple[float, float, float]:
-        """Where it starts: x, y [m], theta [rad]."""
-
-    @property
-    def radius(self) -> float:
-        """The radius of its chassis, or of a circle round it, metres."""
-
-    @property
-    def drive(self) -> Any:
-        """Its drive, a `mars2d.bodies.Drive`."""
-
-    @property
-    def sensors(self) -> Sequence[Any]:
-        """Its sensors, each a `mars2d.sensors.Sensor`."""
-
-    @property
-    def controller(self) -> Callable[[Any], Any] | None:
-        """Its own law, or None."""
+Contacts = NDArray[np.void]
+"""Rows of `mars2d.record.CONTACT`."""
 
 
 class ScenarioLike(Protocol):
-    """A scenario, as add-ons see it."""
+    """A `mars2d.Scenario`, as add-ons see it; initial_pose is (3, n)."""
 
     @property
-    def robots(self) -> Sequence[RobotSpec]:
-        """The robots' descriptions, n."""
-
+    def robots(self) -> Sequence[Any]: ...
     @property
-    def addons(self) -> Sequence[Any]:
-        """The add-ons, each a `mars2d.addons.Addon`."""
-
+    def addons(self) -> Sequence[Any]: ...
     @property
-    def colors(self) -> Sequence[str]:
-        """The robots' colours, n of ``#rrggbb``."""
-
+    def colors(self) -> Sequence[str]: ...
     @property
-    def initial_pose(self) -> Float:
-        """The poses (3, n) at the start: x, y [m], theta [rad]."""
-
+    def initial_pose(self) -> Float: ...
     @property
-    def sampling_time(self) -> float:
-        """The time between control steps, seconds."""
-
+    def sampling_time(self) -> float: ...
     @property
-    def last_iteration(self) -> int:
-        """The control step at which the stop time is reached."""
-
+    def last_iteration(self) -> int: ...
     @property
-    def workspace(self) -> Outline | None:
-        """The polygon in which the robots move [m], or None."""
-
+    def workspace(self) -> Outline | None: ...
     @property
-    def on_exit(self) -> str:
-        """What happens when a robot leaves the workspace: "stop", "ignore" or "wall"."""
-
+    def on_exit(self) -> str: ...
     @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-
+    def bounds(self) -> tuple[float, float, float, float]: ...
     @property
-    def obstacles(self) -> Sequence[Outline]:
-        """The outlines of all obstacles [m]."""
-
-    def index_of(self, field: str, robot: str | int) -> int:
-        """Return a robot's index. Raises InputError, which names `field`, if there is none."""
+    def obstacles(self) -> Sequence[Outline]: ...
+    def index_of(self, field: str, robot: str | int) -> int: ...
 
 
 class FrameLike(Protocol):
-    """One instant, live or recorded."""
+    """A `mars2d.record.frame.Frame`: one instant, pose (3, n) and the path (k, 3, n) before."""
 
     @property
-    def scenario(self) -> ScenarioLike:
-        """What is simulated."""
-
+    def scenario(self) -> ScenarioLike: ...
     @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
-
+    def time(self) -> float: ...
     @property
-    def pose(self) -> Float:
-        """The poses (3, n): x, y [m], theta [rad, not wrapped]."""
-
+    def pose(self) -> Float: ...
     @property
-    def path(self) -> Float:
-        """The poses (k, 3, n) at all sampling times before."""
-
+    def path(self) -> Float: ...
     @property
-    def contact_log(self) -> Callable[[], NDArray[np.void]]:
-        """Returns all contacts so far, rows of `mars2d.record.CONTACT`."""
-
-
-class RecordLike(Protocol):
-    """What a run has left."""
-
-    @property
-    def scenario(self) -> ScenarioLike:
-        """What was simulated."""
-
-    @property
-    def time(self) -> Float:
-        """The times (T,) of the rows, seconds."""
-
-    @property
-    def pose(self) -> Float:
-        """The poses (T, 3, n): x, y [m], theta [rad, not wrapped]."""
-
-    @property
-    def contacts(self) -> NDArray[np.void]:
-        """All contacts, rows of `mars2d.record.CONTACT`."""
-
-    @property
-    def contact_rows(self) -> NDArray[np.intp]:
-        """The row (c,) that each contact's control step led to."""
-
-    def __len__(self) -> int:
-        """Return the number of rows, T."""
+    def contact_log(self) -> Callable[[], Contacts]: ...
 
 
 class RobotLike(Protocol):
-    """A robot while a world runs, with everything known of it, as its sensors see it."""
+    """A robot while a world runs, as its sensors see it; pose and velocity are (3,)."""
 
     @property
-    def index(self) -> int:
-        """Its column in poses and commands."""
-
+    def index(self) -> int: ...
     @property
-    def name(self) -> str:
-        """Its name."""
-
+    def name(self) -> str: ...
     @property
-    def drive(self) -> Any:
-        """Its drive, a `mars2d.bodies.Drive`."""
-
+    def drive(self) -> Any: ...
     @property
-    def radius(self) -> float:
-        """The radius of its chassis, or of a circle round it, metres."""
-
+    def radius(self) -> float: ...
     @property
-    def pose(self) -> Float:
-        """Its pose (3,): x, y [m], theta [rad, not wrapped]."""
-
+    def pose(self) -> Float: ...
     @property
-    def velocity(self) -> Float:
-        """Its velocity (3,): x', y' [m/s], theta' [rad/s]."""
-
+    def velocity(self) -> Float: ...
     @property
-    def contacts(self) -> NDArray[np.void]:
-        """Its contacts since the last control step, rows of `mars2d.record.CONTACT`."""
-
+    def contacts(self) -> Contacts: ...
     @property
-    def sense(self) -> Any:
-        """The readings of its sensors, as attributes by their names."""
+    def sense(self) -> Any: ...
 
 
 class WorldLike(Protocol):
-    """A running world, as add-ons see and use it."""
+    """A running `mars2d.World`, as add-ons use it; pose is (3, n), position (2, n)."""
 
     @property
-    def scenario(self) -> ScenarioLike:
-        """What is simulated."""
-
+    def scenario(self) -> ScenarioLike: ...
     @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
-
+    def time(self) -> float: ...
     @property
-    def iteration(self) -> int:
-        """The number of control steps done."""
-
+    def iteration(self) -> int: ...
     @property
-    def pose(self) -> Float:
-        """The poses (3, n): x, y [m], theta [rad, not wrapped]."""
-
+    def pose(self) -> Float: ...
     @property
-    def position(self) -> Float:
-        """The positions (2, n): x, y [m]."""
-
+    def position(self) -> Float: ...
     @property
-    def contacts(self) -> NDArray[np.void]:
-        """The contacts since the last control step, rows of `mars2d.record.CONTACT`."""
-
+    def contacts(self) -> Contacts: ...
     @property
-    def workspace(self) -> Outline | None:
-        """The polygon in which the robots move [m], or None."""
-
+    def robots(self) -> Sequence[RobotLike]: ...
     @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-
-    @property
-    def robots(self) -> Sequence[RobotLike]:
-        """The robots, n."""
-
-    @property
-    def addons(self) -> Any:
-        """The add-ons, as attributes by their names."""
-
-    def stop(self, why: str) -> None:
-        """End the experiment with the present control step, and say why."""
-
-    def hold(self, robot: str | int) -> None:
-        """Let a robot stand still from now on, whatever its law says."""
+    def addons(self) -> Any: ...
+    def stop(self, why: str) -> None: ...
+    def hold(self, robot: str | int) -> None: ...

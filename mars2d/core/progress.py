@@ -28,7 +28,7 @@ class Progress:
         self._total = max(total, 1)
         self._unit = unit
         self._stream = sys.stderr if stream is None else stream
-        self._on = self._stream is not None and self._stream.isatty()  # None: it was closed
+        self._on = self._stream.isatty()
         self._start = time.monotonic()
         self._next = self._start + after
         self._shown = False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -30,12 +31,29 @@ def warn(text: object) -> None:
         _write(sys.stderr, f"mars2d: {one_line(text)}\n")
 
 
-def _write(stream: TextIO | None, text: str) -> None:
-    if stream is not None:  # it is None where it was closed before the start
-        lines = (escaped(line) for line in text.split("\n"))
-        encoding = stream.encoding or "utf-8"
-        stream.write("\n".join(lines).encode(encoding, "backslashreplace").decode(encoding))
-        stream.flush()
+def _write(stream: TextIO, text: str) -> None:
+    lines = (escaped(line) for line in text.split("\n"))
+    encoding = stream.encoding or "utf-8"
+    stream.write("\n".join(lines).encode(encoding, "backslashreplace").decode(encoding))
+    stream.flush()
+
+
+def usable_standard_files() -> None:
+    """Let stdin be empty: nobody answers a law that asks. Open stdout and stderr if closed.
+
+    Else the first file that is opened would take the number of one that is closed, and libraries in
+    C write on number 2. Processes that are started inherit them.
+    """
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if number and getattr(sys, name) is not None:
+            continue
+        nowhere = os.open(os.devnull, os.O_RDWR)
+        os.dup2(nowhere, number)
+        os.set_inheritable(number, True)
+        if nowhere > 2:
+            os.close(nowhere)
+        stream = open(number, "w" if number else "r", encoding="utf-8", closefd=False)  # noqa: SIM115
+        setattr(sys, name, stream)
 
 
 @contextmanager

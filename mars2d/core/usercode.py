@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import functools
 import inspect
 import io
@@ -19,31 +18,11 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mars2d.core.errors import (
-    InputError,
-    LawError,
-    is_a,
-    is_made_here,
-    is_ours,
-    part_of,
-    passes,
-)
+from mars2d.core.errors import InputError, Late, LawError
 from mars2d.core.hints import described
 
 _PACKAGE = Path(__file__).parents[1]
 _STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
-
-
-class Hangs(BaseException):
-    """The user's code was broken off; a BaseException, so that few `except` in it catch it."""
-
-    why = "was broken off"
-
-
-def raise_in(thread: int, error: type[BaseException]) -> None:
-    """Raise an exception in another thread, between two steps of its Python code."""
-    raised = ctypes.py_object(error)
-    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)
 
 
 class called:  # noqa: N801 - used like a function, as contextlib's are
@@ -74,36 +53,25 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
 
     def blame(self, error: BaseException) -> None:
         """Raise the LawError for an exception that was caught, unless it is to be passed on."""
-        if passes(error):
+        late = error.why if isinstance(error, Late) else ""
+        if not (late or isinstance(error, (Exception, SystemExit))):  # such as Ctrl-C
             return
         where = users_line(stack_of(error)) or definition(self._function)
-        if is_a(error, LawError) and _is_plain(error):
+        if isinstance(error, LawError):
             error.where, error.robot = error.where or where, error.robot or self._robot
             return
         at_start = getattr(self._function, "__name__", "") == "on_start"
-        if is_a(error, InputError) and where is None and at_start:
+        if isinstance(error, InputError) and where is None and at_start:
             return
-        what = f"raised {described(error)}"
-        if is_a(error, Hangs) and is_ours(type(error)):
-            what = type(error).why
+        what = late or f"raised {described(error)}"
         wrapped = LawError(f"{self._name} {what}")
         wrapped.where, wrapped.robot = where, self._robot
         raise wrapped from error
 
 
-def _is_plain(error: LawError) -> bool:
-    """Return whether a LawError is as MARS2D makes them, not one that a law has put together."""
-    return (
-        is_made_here(error)
-        and (error.where is None or type(error.where) is str)
-        and type(error.robot) is str
-        and (error.time is None or isinstance(error.time, float))
-    )
-
-
 def stack_of(error: BaseException) -> traceback.StackSummary:
     """Return the steps from where an exception was caught to where it was raised."""
-    return traceback.extract_tb(part_of(error, "__traceback__"))
+    return traceback.extract_tb(error.__traceback__)
 
 
 def users_line(stack: traceback.StackSummary) -> str | None:
@@ -209,14 +177,13 @@ def _stacks(error: BaseException | None) -> list[traceback.StackSummary]:
     chain: dict[int, BaseException] = {}
     while error is not None and id(error) not in chain:
         chain[id(error)] = error
-        cause = part_of(error, "__cause__")
-        error = part_of(error, "__context__") if cause is None else cause
+        error = error.__cause__ or error.__context__
     return [_stack(step) for step in reversed(chain.values())]
 
 
 def _stack(error: BaseException) -> traceback.StackSummary:
     stack = stack_of(error)
-    if is_a(error, SyntaxError) and error.filename:
+    if isinstance(error, SyntaxError) and error.filename:
         stack.append(traceback.FrameSummary(error.filename, error.lineno, "", lookup_line=False))
     return stack
 

@@ -20,7 +20,7 @@ from mars2d.record.energy import WORK
 from mars2d.record.interventions import Change, Place
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
     from mars2d.sensors import Sensor
 
 Float = NDArray[np.float64]
@@ -64,9 +64,7 @@ class Signal:
     """The names of the curves, where the values are of no single bodies."""
 
 
-def signals(
-    record: Record, names: Sequence[str], robots: Sequence[str | int] | None
-) -> list[Signal]:
+def signals(record: Rows, names: Sequence[str], robots: Sequence[str | int] | None) -> list[Signal]:
     """Return the signals of some column names; a command gives two, one for each part.
 
     robots: names or indices; None: all. Raises InputError for an unknown column or robot, and for
@@ -81,7 +79,7 @@ def signals(
     ]
 
 
-def signals_of_bodies(record: Record, name: str, bodies: Sequence[int]) -> list[Signal]:
+def signals_of_bodies(record: Rows, name: str, bodies: Sequence[int]) -> list[Signal]:
     """Return the signals of a column name, of robots and props alike.
 
     bodies: indices of `Scenario.bodies`; what is of all bodies together does not depend on them.
@@ -118,7 +116,7 @@ def net_forces(
     return np.asarray(np.hypot(*net).reshape(len(steps), count))
 
 
-def chosen_robots(record: Record, robots: Sequence[str | int] | None) -> tuple[int, ...]:
+def chosen_robots(record: Rows, robots: Sequence[str | int] | None) -> tuple[int, ...]:
     """Return the indices of robots by name or index, all for None, each once."""
     scenario = record.scenario
     if robots is None:
@@ -134,7 +132,7 @@ def chosen_robots(record: Record, robots: Sequence[str | int] | None) -> tuple[i
     return tuple(dict.fromkeys(found))
 
 
-def known_columns(record: Record) -> list[str]:
+def known_columns(record: Rows) -> list[str]:
     """Return the names of all columns, without their parts."""
     names = [*POSE_UNITS, SPEED, "command", "effort", "force", "impulse"]
     names += ["energy", "kinetic", "momentum", "momentum.each"]
@@ -145,7 +143,7 @@ def known_columns(record: Record) -> list[str]:
     return names
 
 
-def _named(record: Record, name: object, robots: tuple[int, ...]) -> list[Signal]:
+def _named(record: Rows, name: object, robots: tuple[int, ...]) -> list[Signal]:
     if not isinstance(name, str):
         raise wrong("columns", name, "names of columns, such as 'x' or 'effort'")
     head, *parts = name.strip().split(".")
@@ -177,7 +175,7 @@ def _no_parts(name: str, head: str, parts: list[str]) -> None:
 
 
 def _motion(
-    record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
+    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     _no_parts(name, head, parts)
     if max(robots, default=0) < len(record.scenario.robots):
@@ -185,12 +183,12 @@ def _motion(
     return [_of_poses(record, head, head, _poses(record), robots, 0)]
 
 
-def _poses(record: Record) -> Float:
+def _poses(record: Rows) -> Float:
     """Return the poses of robots and props, (T, 3, N)."""
     return np.concatenate([record.pose, record.prop_pose], axis=2)
 
 
-def _those_that_drive(record: Record, name: str, bodies: tuple[int, ...]) -> tuple[int, ...]:
+def _those_that_drive(record: Rows, name: str, bodies: tuple[int, ...]) -> tuple[int, ...]:
     """Return the robots among bodies. Raises InputError if there is none."""
     robots = tuple(body for body in bodies if body < len(record.scenario.robots))
     if not robots:
@@ -199,7 +197,7 @@ def _those_that_drive(record: Record, name: str, bodies: tuple[int, ...]) -> tup
 
 
 def _of_poses(
-    record: Record, name: str, what: str, pose: Float, which: Sequence[int], first: int
+    record: Rows, name: str, what: str, pose: Float, which: Sequence[int], first: int
 ) -> Signal:
     """Return a coordinate or the speed of some poses; column k belongs to body `first + k`."""
     columns = list(which)
@@ -217,7 +215,7 @@ def _of_poses(
     return Signal(name, "m/s", speed, numbers, "pre")
 
 
-def _put_elsewhere(record: Record) -> Iterator[tuple[int, int]]:
+def _put_elsewhere(record: Rows) -> Iterator[tuple[int, int]]:
     """Yield (row, body) for each body that was placed by hand, rather than driven."""
     for each in record.interventions:
         if isinstance(each, Place):
@@ -227,7 +225,7 @@ def _put_elsewhere(record: Record) -> Iterator[tuple[int, int]]:
 
 
 def _command(
-    record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
+    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     robots = _those_that_drive(record, name, robots)
     found = {record.scenario.robots[i].drive.quantities for i in robots}
@@ -250,7 +248,7 @@ def _command(
 
 
 def _effort(
-    record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
+    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     _no_parts(name, head, parts)
     robots = _those_that_drive(record, name, robots)
@@ -258,7 +256,7 @@ def _effort(
 
 
 def _force(
-    record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
+    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     """Return the net contact force on each body in the control step before, or its impulse."""
     _no_parts(name, head, parts)
@@ -269,7 +267,7 @@ def _force(
 
 
 def _distance(
-    record: Record,
+    record: Rows,
     name: str,
     head: str,  # noqa: ARG001
     parts: list[str],
@@ -291,7 +289,7 @@ def _distance(
 
 
 def _energy(
-    record: Record,
+    record: Rows,
     name: str,
     head: str,
     parts: list[str],
@@ -308,14 +306,14 @@ def _energy(
 
 
 def _kinetic(
-    record: Record, name: str, head: str, parts: list[str], robots: tuple[int, ...]
+    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     _no_parts(name, head, parts)
     return [Signal("kinetic energy", "J", record.energy.kinetic[:, list(robots)], robots)]
 
 
 def _momentum(
-    record: Record,
+    record: Rows,
     name: str,
     head: str,
     parts: list[str],
@@ -338,7 +336,7 @@ def _momentum(
     ]
 
 
-def _props(record: Record, name: str, parts: list[str]) -> list[Signal]:
+def _props(record: Rows, name: str, parts: list[str]) -> list[Signal]:
     known = (*POSE_UNITS, SPEED)
     if not record.scenario.props:
         raise InputError(f"columns: {name!r}: the record has no props")
@@ -354,7 +352,7 @@ def _props(record: Record, name: str, parts: list[str]) -> list[Signal]:
 
 
 def _readings(
-    record: Record, name: str, key: str, parts: list[str], robots: tuple[int, ...]
+    record: Rows, name: str, key: str, parts: list[str], robots: tuple[int, ...]
 ) -> list[Signal]:
     carriers = record.sensor_robots[key]
     mine = [k for k, robot in enumerate(carriers) if robot in robots]
@@ -458,7 +456,7 @@ def without_nothing(signal: Signal) -> Signal:
 # -- as a table -----------------------------------------------------------------------------------
 
 
-def as_csv(record: Record, found: Sequence[Signal]) -> str:
+def as_csv(record: Rows, found: Sequence[Signal]) -> str:
     """Return signals with curves (T, k) as a table of comma-separated values, a row for each time.
 
     The columns are the time [s] and each curve, with its body and unit.

@@ -2,6 +2,6 @@
 
 from mars2d.record.contact import CONTACT, episodes
 from mars2d.record.message import MESSAGE, STATUS
-from mars2d.record.record import Record, load
+from mars2d.record.rows import Rows
 
-__all__ = ["CONTACT", "MESSAGE", "STATUS", "Record", "episodes", "load"]
+__all__ = ["CONTACT", "MESSAGE", "STATUS", "Rows", "episodes"]

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from mars2d.record.contact import met
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
 
 MarkKind = Literal["collision", "hand", "branch", "error"]
 """Bodies came to touch; a person intervened; a branch begins; a law, sensor or add-on failed."""
 
 
-def marks_of(record: Record) -> dict[MarkKind, list[int]]:
+def marks_of(record: Rows) -> dict[MarkKind, list[int]]:
     """Return the rows of a record that have marks, ascending.
 
     It does not know of branches, nor whether an end was an error.

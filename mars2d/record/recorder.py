@@ -17,7 +17,7 @@ from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE, as_of, in_flight
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.error_model import as_numbers
 
@@ -234,10 +234,10 @@ class Recorder:
         filename: str,
         drawn: Scene,
         interventions: Sequence[Intervention] = (),
-    ) -> Record:
+    ) -> Rows:
         """Return the record so far; later rows do not change it."""
         now = float(self.column("time")[-1]) if self.rows else 0.0
-        return Record(
+        return Rows(
             scenario=self.scenario,
             seed=seed,
             time=self.column("time"),

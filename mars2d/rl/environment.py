@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.extras import extra
-from mars2d.record.record import Record
 from mars2d.rl.episode import Episode, Law, Reward, Source
 from mars2d.rl.screen import MODES, Screen
+from mars2d.world.record import Record
 from mars2d.world.world import World
 
 with extra("rl", "environments need gymnasium"):

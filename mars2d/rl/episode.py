@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, shown
 from mars2d.core.quantity import UNKNOWN
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import load_law, open_experiment
 from mars2d.scenario.observation import Action, Observation
 from mars2d.scenario.policy import describe
 from mars2d.scenario.roles import contests_of, robots_named, role_of, roles_of
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.record import Record
 from mars2d.world.room import Room
 from mars2d.world.views import RobotView
 from mars2d.world.world import World

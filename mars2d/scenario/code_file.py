@@ -13,7 +13,7 @@ from types import ModuleType
 from typing import Any, cast
 
 from mars2d.core import checks
-from mars2d.core.errors import InputError, nearest, passes
+from mars2d.core.errors import InputError, nearest
 from mars2d.core.files import note_file
 from mars2d.core.hints import described
 from mars2d.core.usercode import stack_of
@@ -52,9 +52,7 @@ def module_in(path: Path, what: str = "an experiment") -> ModuleType:
         place = Path(error.filename or path).name
         problem.where = f"{place}, line {error.lineno}" if error.lineno else place
         raise problem from error
-    except BaseException as error:
-        if passes(error):
-            raise
+    except (Exception, SystemExit) as error:
         problem = InputError(described(error))
         problem.where = line_in(error, path)
         raise problem from error

@@ -20,11 +20,8 @@ from mars2d.core.errors import (
     InputError,
     LawError,
     Mars2dError,
-    is_a,
-    is_made_here,
     likely,
     nearest,
-    passes,
     shown,
 )
 from mars2d.core.files import file_beside, files_read, note_file
@@ -459,11 +456,9 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
             raise wrong(f"scenario({name})", value, expected)
     try:
         return function(**chosen)
-    except BaseException as error:
-        if passes(error):
-            raise
+    except (Exception, SystemExit) as error:
         problem: Mars2dError = InputError(described(error))
-        if is_a(error, Mars2dError) and is_made_here(error):
+        if isinstance(error, Mars2dError):
             problem = error
         code = getattr(function, "__code__", None)
         if code is not None and problem.where is None:

@@ -14,7 +14,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from mars2d.core.description import Description
-from mars2d.core.errors import nearest, passes, shown
+from mars2d.core.errors import nearest, shown
 from mars2d.core.hints import described
 
 if TYPE_CHECKING:
@@ -109,9 +109,7 @@ def _load(family: str, entry: EntryPoint) -> Plugin:
     problem = ""
     try:
         kind = entry.load()
-    except BaseException as error:  # raised by the other package's code
-        if passes(error):
-            raise
+    except Exception as error:  # raised by the other package's code
         problem = f"{entry.value} can't be loaded: {described(error)}"
         return Plugin(family, entry.name, package, version, problem=problem)
     if not (isinstance(kind, type) and issubclass(kind, base)):

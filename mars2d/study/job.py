@@ -131,7 +131,8 @@ def _within(seconds: float | None, work: Callable[[], T]) -> T:
     """
     if seconds is None:
         return work()
-    from mars2d.core.deadline import Deadline, Late
+    from mars2d.core.deadline import Deadline
+    from mars2d.core.errors import Late
 
     outcome: SimpleQueue[Callable[[], T]] = SimpleQueue()
     limit = Deadline(seconds, lambda where: outcome.put(partial(_raise, late(where))))

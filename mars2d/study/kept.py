@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError
-from mars2d.record.record import Record, load
 from mars2d.scenario.experiment import Experiment
 from mars2d.study.code import code_of_run
 from mars2d.study.table import cells_of
 from mars2d.world.loop import simulate
+from mars2d.world.record import Record, load
 
 NAME_DIGITS = 16
 """How many digits of a hash are the name of a record's file."""

@@ -16,8 +16,8 @@ from mars2d.core.usercode import called, definition
 from mars2d.scenario.roles import contests_of
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
     from mars2d.scenario.scenario import Scenario
+    from mars2d.world.record import Record
 
 Measure = Callable[["Record"], Any]
 

@@ -12,7 +12,7 @@ from typing import cast
 
 from mars2d.core.errors import InputError, Mars2dError, shown
 from mars2d.core.files import writing
-from mars2d.core.interrupt import noted_interrupts
+from mars2d.core.interrupt import interrupts
 from mars2d.core.progress import Progress
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.job import Job, run_job
@@ -71,7 +71,7 @@ def run_study(
         run.refuse_hopeless()
         try:
             todo = run.results(executor, workers, show_progress)
-            with noted_interrupts() as check, closing(todo) as results:
+            with interrupts() as check, closing(todo) as results:
                 for result in results:
                     if file is not None:
                         file.add(result)

@@ -110,8 +110,6 @@ class Table:
         found = (result.measures.get(measure) for result in results)
         return np.array([nan if v is None or isinstance(v, str) else v for v in found], dtype=float)
 
-    # -- for programs ------------------------------------------------------------------------------
-
     def to_frame(self) -> DataFrame:
         """Return a table of pandas: one row a run; settings, seed and measures are columns.
 
@@ -149,26 +147,6 @@ class Table:
     def load(path: str | Path) -> Table:
         """Return the table in a .csv file of a study; see `load_table`."""
         return load_table(path)
-
-    # -- for people --------------------------------------------------------------------------------
-
-    def summary(self, confidence: float = 0.95) -> str:
-        """Return the means of each point with their intervals, as text."""
-        from mars2d.study.summary import summary
-
-        return summary(self, confidence)
-
-    def compare(self, setting: str, confidence: float = 0.95) -> str:
-        """Return how the values of a setting differ from its first one, seed by seed, as text."""
-        from mars2d.study.summary import comparison
-
-        return comparison(self, setting, confidence)
-
-    def plot(self, axes: Any = None, *, confidence: float = 0.95, **how: Any) -> Any:
-        """Draw the measures over the settings, with intervals; see `mars2d.study.figure`."""
-        from mars2d.study.figure import plot_study
-
-        return plot_study(self, axes, confidence=confidence, **how)
 
     def _repr_html_(self) -> str:
         """Return the first rows as a table, for a notebook."""

@@ -19,14 +19,11 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import lru_cache
 from multiprocessing.connection import Connection, wait
-from pathlib import Path
-from types import FrameType
 from typing import Any, NamedTuple, TypeVar
 
-from mars2d.core.errors import InputError, Passing, passes, shown
+from mars2d.core.errors import InputError, shown
 from mars2d.core.hints import described
 from mars2d.core.interrupt import interrupts_blocked
-from mars2d.core.lastresort import die_with_parent, kill_group
 from mars2d.study import ONE_THREAD
 
 T = TypeVar("T")
@@ -69,9 +66,7 @@ def attempt(function: Callable[[T], R], task: T) -> R | Failure:
     """Return the function's result for a task, or a Failure if it raises."""
     try:
         return function(task)
-    except BaseException as error:
-        if passes(error):
-            raise
+    except (Exception, SystemExit) as error:
         return Failure(reason(error))
 
 
@@ -207,8 +202,7 @@ class _Worker:
 
     def __init__(self) -> None:
         self.connection, theirs = SPAWN.Pipe()
-        by_main = threading.current_thread() is threading.main_thread()
-        self.process = SPAWN.Process(target=_serve, args=(theirs, by_main))
+        self.process = SPAWN.Process(target=_serve, args=(theirs,))
         try:
             with interrupts_blocked(), _one_thread():
                 self.process.start()
@@ -224,13 +218,6 @@ class _Worker:
         with suppress(OSError):
             self.connection.send_bytes(function)
             self.connection.send_bytes(task)
-
-    def wake(self) -> None:
-        """Let it go on if somebody, such as a law, has stopped it and not this process."""
-        with suppress(OSError, ValueError):
-            stat = Path(f"/proc/{self.process.pid}/stat").read_text()
-            if stat.rpartition(")")[2].split()[0] == "T":
-                os.kill(self.process.pid or 0, signal.SIGCONT)
 
     def message(self) -> bytes | None:
         """Return the message that it has sent, or None if it has died."""
@@ -249,18 +236,12 @@ class _Worker:
         """Return whether it has ended, even if processes that it has started hold its pipes."""
         return self.process.exitcode is not None
 
-    def kill(self) -> None:
-        """Kill it, and the processes that its tasks have started."""
-        if self.process.pid is not None:
-            kill_group(self.process.pid)
-        self.process.kill()
-
     def how_ended(self, until: float) -> str:
         """Wait for its end until a time of the monotonic clock, then kill it; say how it ended."""
         try:
             self.process.join(max(0.0, until - time.monotonic()))
         finally:
-            self.kill()
+            self.process.kill()
         self.process.join()
         code = self.process.exitcode or 0
         if code >= 0:
@@ -297,7 +278,7 @@ class _Crew:
                 worker.how_ended(until)
         finally:
             for worker in self._workers:
-                worker.kill()
+                worker.process.kill()
 
     def idle(self) -> list[_Worker]:
         """Return the workers that wait for a task."""
@@ -316,9 +297,6 @@ class _Crew:
         start = time.monotonic()
         heard = set(wait(ends, LOOK))
         heard |= {each.process.sentinel for each in self._workers if each.has_ended()}
-        if not heard:
-            for worker in self._workers:
-                worker.wake()
         found = [] if limit is None else self._late(limit, time.monotonic() - start)
         for place, worker in enumerate(self._workers):
             if worker.connection not in heard and worker.process.sentinel not in heard:
@@ -345,7 +323,7 @@ class _Crew:
             if worker.spent > limit + BREAKING_OFF and not worker.connection.poll():
                 said = f"took longer than {limit:g} s, in code that nothing interrupts"
                 found.append((worker.task, _TooLong(said)))
-                worker.kill()
+                worker.process.kill()
                 self._replace(place)
         return found
 
@@ -390,33 +368,16 @@ def _one_thread() -> Iterator[None]:
 # -- inside a worker -------------------------------------------------------------------------------
 
 
-class _EndedError(Passing):
-    """Raised in a worker that is told to end, so that its task can clean up."""
-
-
-def _serve(connection: Connection, by_main: bool = False) -> None:
-    """Do tasks, in a process of its own, until the connection closes.
-
-    by_main: whether the parent's main thread has started it: the system watches that thread.
-    """
+def _serve(connection: Connection) -> None:
+    """Do tasks, in a process of its own, until the connection closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if hasattr(os, "setpgid"):
-        os.setpgid(0, 0)  # so that what its tasks start can be ended with it
-    if by_main:
-        die_with_parent()
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    with suppress(_EndedError, EOFError, BrokenPipeError, ConnectionResetError):
-        signal.signal(signal.SIGTERM, _end)
+    with suppress(EOFError, BrokenPipeError, ConnectionResetError):
         connection.send_bytes(b"")
         while True:
             returned = attempt_packed(connection.recv_bytes(), connection.recv_bytes())
             sys.stdout.flush()
             connection.send_bytes(returned)
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # what is left to do may end at once
-
-
-def _end(_number: int, _frame: FrameType | None) -> None:
-    raise _EndedError
 
 
 def _end_with_parent() -> None:

@@ -16,8 +16,8 @@ import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.bodies.props.box import Box
-from mars2d.core.deadline import Deadline, Late
-from mars2d.core.errors import InputError
+from mars2d.core.deadline import Deadline
+from mars2d.core.errors import InputError, Late
 from mars2d.core.hints import described
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene

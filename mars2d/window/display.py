@@ -74,10 +74,8 @@ def open_display() -> None:
     """Start pygame's display. Raises InputError without a real screen."""
     import pygame
 
-    from mars2d.window import display_loss
     from mars2d.window.desktop import be_sharp
 
-    display_loss.check()
     if pygame.display.get_init():
         if pygame.display.get_driver() in NOT_REAL:
             raise InputError(NO_DISPLAY)
@@ -107,8 +105,6 @@ def started_display() -> Iterator[None]:
     """
     import pygame
 
-    from mars2d.window import display_loss
-
     ours = not pygame.display.get_init() or bool(_tried)
     _tried.clear()
     open_display()
@@ -116,7 +112,7 @@ def started_display() -> Iterator[None]:
         yield
     finally:
         if ours:
-            display_loss.close()
+            pygame.display.quit()
 
 
 def open_window(size: tuple[int, int], painter: Painter) -> pygame.Surface:
@@ -126,9 +122,6 @@ def open_window(size: tuple[int, int], painter: Painter) -> pygame.Surface:
     """
     import pygame
 
-    from mars2d.window import display_loss
-
-    display_loss.check()
     pygame.display.set_icon(_icon(painter))
     try:
         with warnings.catch_warnings():
@@ -136,7 +129,6 @@ def open_window(size: tuple[int, int], painter: Painter) -> pygame.Surface:
             surface = pygame.display.set_mode(size, pygame.RESIZABLE)
     except pygame.error as error:
         raise InputError(f"the window can't be opened ({error}): {NO_DISPLAY}") from None
-    display_loss.watch()
     pygame.key.set_repeat(REPEAT_DELAY, REPEAT_INTERVAL)
     return surface
 
@@ -153,16 +145,6 @@ def _icon(painter: Painter) -> pygame.Surface:
     surface = pygame.Surface((64, 64), pygame.SRCALPHA, 32)
     painter.paint(surface, scene.shapes, Camera(29.0, 32.0, 32.0), shaded=False)
     return surface
-
-
-def show_drawn() -> None:
-    """Put the drawn picture on the screen. Raises DisplayError if the display is lost."""
-    import pygame
-
-    from mars2d.window import display_loss
-
-    pygame.display.flip()
-    display_loss.check()
 
 
 def be_quick() -> None:

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.bodies.colors import prop_colors
 from mars2d.core.scene import Anchor, Line, Scene, faded
-from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_colors
+from mars2d.output.layers.bodies import draw_prop, draw_robot
 from mars2d.output.layers.forces import bounding_circle
 from mars2d.record.frame import Frame
 from mars2d.world.timeline import Timeline

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import time
-import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from math import dist
-from typing import Any
 
 import pygame
 
@@ -239,10 +237,3 @@ def _draw_hover(
     beside = _world(camera, (pixel[0] + (12 if left else -12), pixel[1]))
     side: Anchor = "left" if left else "right"
     scene.text(beside, hover.name, color=LIGHT.ink, size=LABEL, anchor=side, halo=HALO)
-
-
-def __getattr__(name: str) -> Any:
-    if name != "Hand":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    warnings.warn("Hand is mars2d.window.grab.Grab now", FutureWarning, stacklevel=2)
-    return Grab

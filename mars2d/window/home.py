@@ -10,7 +10,7 @@ from mars2d.output.raster.layout import interface_scale
 from mars2d.scenario.examples import courses, examples_folder, games, title_of
 from mars2d.window.buttons import Buttons
 from mars2d.window.cards import Card, Page, Shelf
-from mars2d.window.display import PICTURES_A_SECOND, show_drawn, started_display
+from mars2d.window.display import PICTURES_A_SECOND, started_display
 from mars2d.window.looks import Looks
 from mars2d.window.memory import Memory
 from mars2d.window.notes import Notes
@@ -18,7 +18,7 @@ from mars2d.window.rest import Rest
 
 HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
-OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mat": "replay", ".mcap": "replay"}
+OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mcap": "replay"}
 """The command that opens a file, by its suffix."""
 HINT = "Type to search"
 
@@ -46,7 +46,7 @@ class Home:
     def run(self) -> tuple[str, ...] | None:
         """Return the arguments of the command that opens what was chosen; None to leave.
 
-        Raises InputError without a display, DisplayError if it is lost.
+        Raises InputError without a display.
         """
         with started_display():
             pygame.display.set_caption("MARS2D")
@@ -55,7 +55,7 @@ class Home:
             clock = pygame.time.Clock()
             while self._open:
                 self.draw(pygame.display.get_surface() or screen)
-                show_drawn()
+                pygame.display.flip()
                 clock.tick(PICTURES_A_SECOND)
                 for event in self._rest.events():
                     self.handle(event)

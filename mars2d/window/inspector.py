@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 import pygame
 
+from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
-from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.layers.forces import SLIP, SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame

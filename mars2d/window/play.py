@@ -12,7 +12,6 @@ import numpy as np
 from mars2d.addons.contest import Contest
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Steer
-from mars2d.record.record import Record
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.law_reference import Reference
@@ -21,6 +20,7 @@ from mars2d.window.director import Director
 from mars2d.window.memory import Memory
 from mars2d.window.player import Player
 from mars2d.window.scores import Scores, Tally
+from mars2d.world.record import Record
 
 COUNTDOWN = 3.0
 """The time to find one's keys, seconds of the clock."""

@@ -10,13 +10,14 @@ from math import inf
 
 import pygame
 
-from mars2d.core.watchdog import Watchdog
+from mars2d.core.deadline import Deadline, patience
+from mars2d.core.interrupt import give_up
 from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
 from mars2d.window import keys
 from mars2d.window.controls import Controls
-from mars2d.window.display import PICTURES_A_SECOND, Preferences, show_drawn, started_display
+from mars2d.window.display import PICTURES_A_SECOND, Preferences, started_display
 from mars2d.window.help import Help
 from mars2d.window.looks import Looks
 from mars2d.window.menu import Entry
@@ -99,7 +100,7 @@ class PlayerWindow(ABC):
         """Open the window and play until it is closed; then raise the error of a failed law.
 
         Ctrl+C in the terminal closes the window and raises KeyboardInterrupt. Raises InputError
-        without a display, DisplayError if the display is lost.
+        without a display.
         """
         with started_display():
             try:
@@ -107,8 +108,8 @@ class PlayerWindow(ABC):
                 screen = self.looks.open(self.size)
                 self._open = True
                 self.draw(screen)  # before the first law is asked: it may take long
-                show_drawn()
-                with Watchdog(self._calls, self._answer):
+                pygame.display.flip()
+                with Deadline(patience(), give_up, self._calls, self._answer):
                     self._loop(screen)
             finally:
                 self.saver.close()
@@ -157,7 +158,7 @@ class PlayerWindow(ABC):
         """Draw the window and put it on the screen."""
         start = time.perf_counter()
         self._paint(screen)
-        show_drawn()
+        pygame.display.flip()
         self.player.drawing = time.perf_counter() - start
 
     def _paint(self, screen: pygame.Surface) -> None:
@@ -178,7 +179,7 @@ class PlayerWindow(ABC):
         surface = pygame.display.get_surface()
         if surface is not None:
             self.draw(surface)
-            show_drawn()
+            pygame.display.flip()
         pygame.event.pump()
         closed = pygame.event.peek(pygame.QUIT)
         keys_moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))

@@ -6,8 +6,6 @@ import time
 
 import pygame
 
-from mars2d.window import display_loss
-
 QUIET = 0.5
 """How long nothing has to move before a window rests, seconds; late events have come by then."""
 LOOK = 0.25
@@ -36,13 +34,9 @@ class Rest:
         self._moved = time.monotonic()
 
     def events(self) -> list[pygame.Event]:
-        """Return the events that have come; at rest, wait for some, and wake up by them.
-
-        Raises DisplayError if the display is lost meanwhile.
-        """
+        """Return the events that have come; at rest, wait for some, and wake up by them."""
         until = time.monotonic() + LOOK
         while not (events := pygame.event.get()) and self.resting and time.monotonic() < until:
-            display_loss.check()
             quiet = time.monotonic() - self._moved
             time.sleep(NAP if quiet < AWHILE else LONG_NAP)
         if events:

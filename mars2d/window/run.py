@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 from mars2d.core.checks import items_of
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, Mars2dError, shown
-from mars2d.core.interrupt import held_back
+from mars2d.core.interrupt import interrupts
 from mars2d.core.streams import check_seed
-from mars2d.record.record import Record
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import robots_named
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import Interrupted, simulate
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def run(
     watchers = _called(watchers)
     driven = robots_named(opened.scenario, human, "human =")
     target, log = (None, None) if record is None else _output(record)
-    with held_back():  # Ctrl-C ends a run, and not that it is saved
+    with interrupts(held=""):  # Ctrl-C ends a run, and not that it is saved
         try:
             if driven or _wants_window(speed, show):
                 from mars2d.window.show import show_experiment

@@ -17,10 +17,10 @@ from mars2d.output.formats import save_branches
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import save_png
-from mars2d.record.record import Record
 from mars2d.scenario.python_file import as_python
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.notes import Notes
+from mars2d.world.record import Record
 
 if TYPE_CHECKING:
     from mars2d.output.films.filming import Filming

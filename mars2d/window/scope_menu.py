@@ -11,12 +11,12 @@ import numpy as np
 
 from mars2d.core.usercode import name_of
 from mars2d.record.frame import Frame
-from mars2d.record.record import Record
 from mars2d.sensors.base import Sensor
 from mars2d.window.menu import Entry
 from mars2d.window.scopes import Scopes
 from mars2d.window.toolbar import Toolbar
 from mars2d.window.trace import FEW, What
+from mars2d.world.record import Record
 
 MOTION = {"Speed": "speed", "x": "x", "y": "y", "Heading": "theta"}
 CONTACT = {"Contact force": "force", "Contact impulse": "impulse"}

@@ -11,15 +11,14 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from mars2d.bodies.colors import prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.scene import PALETTE
 from mars2d.core.usercode import name_of
 from mars2d.output.controls import CONTROLS
-from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.raster.painter import Painter
 from mars2d.output.signals import Signal, as_csv, without_nothing
 from mars2d.record.frame import Frame
-from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.buttons import Buttons, draw_icon
 from mars2d.window.dock import Panel
@@ -36,6 +35,7 @@ from mars2d.window.plot import (
 from mars2d.window.saving import Saver
 from mars2d.window.trace import Trace, What
 from mars2d.window.viewpoint import wheel_notches
+from mars2d.world.record import Record
 
 Float = NDArray[np.float64]
 

@@ -7,9 +7,8 @@ from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.interrupt import noted_interrupts
+from mars2d.core.interrupt import interrupts
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.scenario.controllers import ByHand
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment
@@ -17,6 +16,7 @@ from mars2d.scenario.roles import MOST_PEOPLE
 from mars2d.window.display import Preferences
 from mars2d.window.source import Playback
 from mars2d.world.loop import Interrupted
+from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import Watcher
 
@@ -57,7 +57,7 @@ def show_experiment(
     from mars2d.window.window import Window
 
     source: Timeline | None = None
-    kept = noted_interrupts(lambda: None if source is None else source.record)
+    kept = interrupts(kept=lambda: None if source is None else source.record)
     with kept, log or nullcontext():
         source = Timeline(experiment, seed, watchers, log)
         memory = Memory()

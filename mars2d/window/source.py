@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.record.frame import Frame
-from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.record import Record
 
 
 class Source(Protocol):

@@ -15,7 +15,8 @@ from mars2d.core.usercode import called, name_of
 from mars2d.output.signals import Signal, signals_of_bodies
 from mars2d.record.columns import Column
 from mars2d.record.frame import Frame
-from mars2d.record.record import COLUMNS, Record
+from mars2d.record.rows import COLUMNS
+from mars2d.world.record import Record
 
 Float = NDArray[np.float64]
 

@@ -12,9 +12,9 @@ from mars2d.output.figures.comparison import MODES
 from mars2d.record.columns import Column
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame, between
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline
 
 Float = NDArray[np.float64]

@@ -30,7 +30,6 @@ from mars2d.window.countdown import Countdown
 from mars2d.window.director import RECORDING, Director
 from mars2d.window.display import (
     Preferences,
-    show_drawn,
 )
 from mars2d.window.dock import Dock
 from mars2d.window.ghosts import ghosts
@@ -619,7 +618,7 @@ class Window(PlayerWindow):
         surface = pygame.display.get_surface()
         if surface is not None:
             self.draw(surface)
-            show_drawn()
+            pygame.display.flip()
         self._way_back = None
         leaving = pygame.event.get(pygame.QUIT)
         self._open = self._open and not leaving

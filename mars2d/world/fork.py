@@ -31,6 +31,7 @@ def forked(simulation: Simulation, *, laws: bool) -> Simulation:
                 f"__deepcopy__{hint}"
             ) from error
     copied = deepcopy(simulation, memo)
+    copied.endless = True
     copied.resume(simulation.work)
     return copied
 

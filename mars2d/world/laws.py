@@ -66,10 +66,6 @@ class Law:
             self._calling.blame(error)
             raise
 
-    def blame(self, error: BaseException) -> None:
-        """Raise LawError for an exception of the law's returned value, unless it passes through."""
-        self._calling.blame(error)
-
     def refuse(self, message: str) -> NoReturn:
         """Raise the error that the law's command can't be used; it points at the law."""
         error = LawError(f"{self.name} {message}")
@@ -134,7 +130,7 @@ def _numbers(value: Any, refuse: Callable[[str], NoReturn]) -> Float | None:
         refuse("returned an array with masked numbers: fill them, as by command.filled(0)")
     try:
         found = np.asarray(value)
-    except (TypeError, ValueError, IndexError):  # such as rows of different lengths
+    except Exception:  # such as for rows of different lengths, or a tensor that is being learned
         return None
     return found.astype(float) if found.dtype.kind in "iuf" else None
 
@@ -202,21 +198,10 @@ class Laws:
         if central is None:
             command = self._still.copy()
         else:
-            asked = central.command()
-            try:
-                command = team_command(asked, robots, central.refuse)
-            except BaseException as error:  # of what it returned, which may be anything
-                central.blame(error)
-                raise
+            command = team_command(central.command(), robots, central.refuse)
         for i, law in self._own:
-            if i in given:
-                continue
-            asked = law.command()
-            try:
-                command[0, i], command[1, i] = robot_command(asked, law.refuse)
-            except BaseException as error:
-                law.blame(error)
-                raise
+            if i not in given:
+                command[0, i], command[1, i] = robot_command(law.command(), law.refuse)
         for i, pair in given.items():
             command[:, i] = pair
         return command

@@ -7,13 +7,12 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
-from mars2d.core.errors import InputError, LawError
-from mars2d.core.interrupt import noted_interrupts
-from mars2d.core.usercode import Hangs
-from mars2d.core.watchdog import Watchdog
+from mars2d.core.deadline import Deadline, patience
+from mars2d.core.errors import InputError, Late, LawError
+from mars2d.core.interrupt import give_up, interrupts
 from mars2d.record.columns import Column, DiskError, Storage
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:
@@ -65,10 +64,11 @@ def simulate(
     if speed != "max":
         every.append(RealTime(float(speed)))
     world: World | None = None
-    watchdog = Watchdog(lambda: None if world is None else world.simulation.calls)
+    calls = lambda: (world is None) or world.simulation.calls  # noqa: E731
+    deadline = Deadline(patience(), give_up, calls)
     try:
-        noted = noted_interrupts(lambda: None if world is None else world.record)
-        with noted as check, log or nullcontext(), watchdog:
+        noted = interrupts(kept=lambda: None if world is None else world.record)
+        with noted as check, log or nullcontext(), deadline:
             world = open_world(experiment, seed, every, Column if log is None else log.storage)
             try:
                 while not world.over:
@@ -83,7 +83,7 @@ def simulate(
                 world.break_off(f"Error: {error}")
                 error.record = world.record
                 raise
-            except Hangs as error:  # between two calls of the user's code
+            except Late as error:  # between two calls of the user's code
                 late = LawError(f"the user's code {error.why}")
                 late.time, late.record = world.time, world.record
                 raise late from None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import ceil, dist, sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,7 +20,9 @@ from mars2d.physics.kinematics import Kinematics
 from mars2d.record.interventions import Change, Intervention, Place, Pull, Steer
 from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario
-from mars2d.world.interfaces import Operated
+
+if TYPE_CHECKING:
+    from mars2d.world.simulation import Simulation
 
 Float = NDArray[np.float64]
 
@@ -46,7 +48,7 @@ class Operator:
     log: all of it but the commands, in order, as data; see `mars2d.record.interventions`.
     """
 
-    def __init__(self, world: Operated) -> None:
+    def __init__(self, world: Simulation) -> None:
         """Take the world; nothing is done to it yet."""
         self._world = world
         self._driven: dict[int, tuple[float, float]] = {}

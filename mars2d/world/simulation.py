@@ -21,12 +21,12 @@ from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene
 from mars2d.physics.motion import Start
 from mars2d.record.columns import DiskError, Storage
-from mars2d.record.record import Record
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
 from mars2d.world.channel import Channel
 from mars2d.world.laws import Laws, robot_command, team_command
 from mars2d.world.operator import Operator
+from mars2d.world.record import Record
 from mars2d.world.room import Room
 from mars2d.world.state import Addons, Hooks, State
 from mars2d.world.surroundings import Around
@@ -62,6 +62,7 @@ class Simulation(State):
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
         self.engine_seconds = 0.0
+        self.endless = False  # a fork has no stop time
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
         self._observed = -1  # the iteration that add-ons and sensors were last called for
@@ -159,13 +160,15 @@ class Simulation(State):
     @property
     def record(self) -> Record:
         """The record so far."""
-        return self.recorder.record(
-            self.seed,
-            self.over_message if self.over else "not over",
-            self.finished,
-            self.filename,
-            Scene([*self._drawn.shapes]),
-            self.operator.log,
+        return Record.of(
+            self.recorder.record(
+                self.seed,
+                self.over_message if self.over else "not over",
+                self.finished,
+                self.filename,
+                Scene([*self._drawn.shapes]),
+                self.operator.log,
+            )
         )
 
     @property
@@ -271,7 +274,7 @@ class Simulation(State):
         self.command = locked(self._saturate(self.operator.command(wanted)))
         self._write_row()
         self._check_workspace()
-        if self.iteration >= self.scenario.last_iteration:
+        if self.iteration >= self.scenario.last_iteration and not self.endless:
             self.stop(f"Time is over: {self.time:g} s")
         if self.over:
             self._hooks.call("on_stop", self._world)

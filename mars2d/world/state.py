@@ -140,7 +140,8 @@ class State(Uncopied):
     def resume(self, worked: Float) -> None:
         """Go on with an engine that was put here; worked: the work before it (6,), J."""
         self._worked = worked
-        self.command = locked(self.command)
+        for array in (self.command, self.effort, self.contacts):  # copies can be written
+            locked(array)
         self._take_engine()
 
     def _take_engine(self) -> None:
@@ -158,6 +159,11 @@ class State(Uncopied):
     def time(self) -> float:
         """The simulated time, seconds."""
         return self.iteration * self.scenario.sampling_time
+
+    @property
+    def position(self) -> Float:
+        """The positions (2, n): x, y [m]."""
+        return self.pose[:2]
 
     @property
     def sampling_time(self) -> float:

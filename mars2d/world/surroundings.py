@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon, Color
+from mars2d.bodies.colors import OBSTACLE, prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.core.usercode import called
 from mars2d.geometry.ray_casting import Fans
-from mars2d.output.layers.bodies import OBSTACLE, prop_colors
 from mars2d.sensors.base import NOTHING
 from mars2d.world.state import Addons, State
 

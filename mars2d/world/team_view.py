@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from operator import attrgetter
 from typing import Any, NoReturn, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arithmetic import cosines_sines
-from mars2d.core.arrays import sealed
 from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
-from mars2d.record.record import Record
 from mars2d.record.recorder import History
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.fork import forked
+from mars2d.world.record import Record
 from mars2d.world.simulation import Simulation
 from mars2d.world.state import Addons
 from mars2d.world.surroundings import Around
@@ -26,6 +26,11 @@ from mars2d.world.uncopied import Uncopied
 from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknown, unseen
 
 Float = NDArray[np.float64]
+
+
+def shown(name: str) -> Any:
+    """Return a property: what the simulation behind a view has by this name, with dots in it."""
+    return property(attrgetter(f"_simulation.{name}"))
 
 
 class WorldView(Uncopied):
@@ -43,100 +48,52 @@ class WorldView(Uncopied):
 
     # -- the experiment ------------------------------------------------------------------------
 
-    @property
-    def scenario(self) -> Scenario:
-        """What is simulated now."""
-        return self._simulation.scenario
-
-    @property
-    def seed(self) -> int:
-        """The seed of all random streams."""
-        return self._simulation.seed
-
-    @property
-    def filename(self) -> str:
-        """The experiment's file, or ""."""
-        return self._simulation.filename
-
-    @property
-    def sampling_time(self) -> float:
-        """The time from one command to the next, seconds."""
-        return self._simulation.sampling_time
-
-    @property
-    def workspace(self) -> Outline | None:
-        """The polygon in which the robots move, or None."""
-        return self._simulation.scenario.workspace
-
-    @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-        return self._simulation.scenario.bounds
-
-    @property
-    def obstacles(self) -> tuple[Outline, ...]:
-        """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
-        return self._simulation.engine.space.obstacles
+    scenario: Scenario = shown("scenario")
+    """What is simulated now."""
+    seed: int = shown("seed")
+    """The seed of all random streams."""
+    filename: str = shown("filename")
+    """The experiment's file, or ""."""
+    sampling_time: float = shown("sampling_time")
+    """The time from one command to the next, seconds."""
+    workspace: Outline | None = shown("scenario.workspace")
+    """The polygon in which the robots move, or None."""
+    bounds: tuple[float, float, float, float] = shown("scenario.bounds")
+    """(xmin, xmax, ymin, ymax) of the workspace, metres."""
+    obstacles: tuple[Outline, ...] = shown("engine.space.obstacles")
+    """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
 
     # -- this instant --------------------------------------------------------------------------
 
-    @property
-    def iteration(self) -> int:
-        """The number of control steps done."""
-        return self._simulation.iteration
+    iteration: int = shown("iteration")
+    """The number of control steps done."""
+    time: float = shown("time")
+    """The simulated time, seconds: iteration x sampling time."""
+    over: bool = shown("over")
+    """Whether the experiment is over."""
+    over_message: str = shown("over_message")
+    """Why the experiment is over."""
+    finished: bool = shown("finished")
+    """Whether the experiment is over, and was not broken off."""
+    pose: Float = shown("pose")
+    """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; new at each step."""
+    position: Float = shown("position")
+    """The positions (2, n): x, y [m]. Read only; new at each step."""
+    velocity: Float = shown("velocity")
+    """The robots' velocities (3, n) at this instant: x', y' [m/s], theta' [rad/s]."""
+    prop_pose: Float = shown("prop_pose")
+    """The poses of the props' centres of mass (3, p): x, y [m], theta [rad]. Read only."""
+    prop_velocity: Float = shown("prop_velocity")
+    """The velocities of the props (3, p): x', y' [m/s], theta' [rad/s]."""
+    effort: Float = shown("effort")
+    """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1.
 
-    @property
-    def time(self) -> float:
-        """The simulated time, seconds: iteration x sampling time."""
-        return self._simulation.time
-
-    @property
-    def over(self) -> bool:
-        """Whether the experiment is over."""
-        return self._simulation.over
-
-    @property
-    def over_message(self) -> str:
-        """Why the experiment is over."""
-        return self._simulation.over_message
-
-    @property
-    def finished(self) -> bool:
-        """Whether the experiment is over, and was not broken off."""
-        return self._simulation.finished
-
-    @property
-    def pose(self) -> Float:
-        """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; new at each step."""
-        return self._simulation.pose
-
-    @property
-    def position(self) -> Float:
-        """The positions (2, n): x, y [m]. Read only; new at each step."""
-        return self._simulation.pose[:2]
-
-    @property
-    def velocity(self) -> Float:
-        """The robots' velocities (3, n) at this instant: x', y' [m/s], theta' [rad/s]."""
-        return self._simulation.velocity
-
-    @property
-    def prop_pose(self) -> Float:
-        """The poses of the props' centres of mass (3, p): x, y [m], theta [rad]. Read only."""
-        return self._simulation.prop_pose
-
-    @property
-    def prop_velocity(self) -> Float:
-        """The velocities of the props (3, p): x', y' [m/s], theta' [rad/s]."""
-        return self._simulation.prop_velocity
-
-    @property
-    def effort(self) -> Float:
-        """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1.
-
-        It is 0 for a robot that nothing holds or pushes. At 1 the wheels slip.
-        """
-        return sealed(self._simulation.effort)
+    It is 0 for a robot that nothing holds or pushes. At 1 the wheels slip.
+    """
+    command: Float = shown("command")
+    """The last command (2, n) that was issued, after saturation; zeros at first. Read only."""
+    contacts: NDArray[np.void] = shown("contacts")
+    """The contacts since the last step, rows of dtype `mars2d.record.CONTACT`."""
 
     @property
     def geometric_center(self) -> Float:
@@ -146,46 +103,22 @@ class WorldView(Uncopied):
         c, s = cosines_sines(theta)
         return np.array([x - offset * c, y - offset * s])
 
-    @property
-    def command(self) -> Float:
-        """The last command (2, n) that was issued, after saturation; zeros at first. Read only."""
-        return sealed(self._simulation.command)
-
-    @property
-    def contacts(self) -> NDArray[np.void]:
-        """The contacts since the last step, rows of dtype `mars2d.record.CONTACT`."""
-        return sealed(self._simulation.contacts)
-
     def neighbour_indices(self, robot: int) -> Sequence[int]:
         """Return the robots that ``Scenario.neighbours`` makes a robot's neighbours now."""
         return self._simulation.neighbour_indices(robot)
 
     # -- its parts -----------------------------------------------------------------------------
 
-    @property
-    def robots(self) -> list[RobotView]:
-        """The robots, with everything known of them."""
-        return self._simulation.robots
-
-    @property
-    def props(self) -> tuple[PropView, ...]:
-        """The props."""
-        return self._simulation.props
-
-    @property
-    def addons(self) -> Addons:
-        """The add-ons by name: ``world.addons.map``."""
-        return self._simulation.addons
-
-    @property
-    def surroundings(self) -> Around:
-        """Answers sensors and add-ons: rays, distances, lines of sight, beacons."""
-        return self._simulation.surroundings
-
-    @property
-    def rng(self) -> np.random.Generator:
-        """The random stream of the team's law."""
-        return self._simulation.rng
+    robots: list[RobotView] = shown("robots")
+    """The robots, with everything known of them."""
+    props: tuple[PropView, ...] = shown("props")
+    """The props."""
+    addons: Addons = shown("addons")
+    """The add-ons by name: ``world.addons.map``."""
+    surroundings: Around = shown("surroundings")
+    """Answers sensors and add-ons: rays, distances, lines of sight, beacons."""
+    rng: np.random.Generator = shown("rng")
+    """The random stream of the team's law."""
 
     def stream(self, name: str) -> np.random.Generator:
         """Return a new random stream that depends on the seed and `name` alone."""
@@ -193,15 +126,10 @@ class WorldView(Uncopied):
 
     # -- the run so far ------------------------------------------------------------------------
 
-    @property
-    def history(self) -> History:
-        """The rows so far."""
-        return self._simulation.history
-
-    @property
-    def record(self) -> Record:
-        """The record so far."""
-        return self._simulation.record
+    history: History = shown("history")
+    """The rows so far."""
+    record: Record = shown("record")
+    """The record so far."""
 
     @property
     def frame(self) -> Frame:
@@ -260,7 +188,8 @@ class WorldView(Uncopied):
     def fork(self, *, laws: bool = True) -> WorldView:
         """Return an independent world that goes on from this instant, to try out what would happen.
 
-        It records nothing and calls no watcher; whatever is done there changes nothing here. All
+        It has no stop time, so that a plan may look beyond the end of the run. It records nothing
+        and calls no watcher; whatever is done there changes nothing here. All
         that remembers is copied: laws that are objects, the robots' memories, add-ons, sensors,
         random streams. Functions are shared, with the variables around them. laws: False leaves the
         laws out, so robots stand still but for what `step` commands. The engine starts again from
@@ -292,78 +221,27 @@ class RobotPositionView(PositionsView):
 class TeamPositionsView:
     """A running world, as a team's law sees it that sees positions only."""
 
-    def __init__(self, world: WorldView) -> None:
-        """Take the world, of which only this is shown."""
-        self._world = world
-        simulation = world._simulation
+    def __init__(self, simulation: Simulation) -> None:
+        """Take what is behind the world, of which only this is shown."""
+        self._simulation = simulation
         self.robots = tuple(
             RobotPositionView(simulation, i, mind) for i, mind in enumerate(simulation.minds)
         )
 
     def __getattr__(self, name: str) -> NoReturn:
-        whole = type(vars(self).get("_world"))  # NoneType in a copy that is not yet filled
-        if hasattr(whole, name) and not name.startswith("__"):
+        if hasattr(WorldView, name) and not name.startswith("__"):
             raise LawError(
                 f"this law sees positions only: world.{name} is not available; "
                 "there is world.position"
             )
         unknown(self, "a world", name, "robots")
 
-    @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
-        return self._world.time
-
-    @property
-    def sampling_time(self) -> float:
-        """The time from one command to the next, seconds."""
-        return self._world.sampling_time
-
-    @property
-    def iteration(self) -> int:
-        """The number of control steps done."""
-        return self._world.iteration
+    time, sampling_time, iteration = WorldView.time, WorldView.sampling_time, WorldView.iteration
+    workspace, bounds, obstacles = WorldView.workspace, WorldView.bounds, WorldView.obstacles
+    command, effort = WorldView.command, WorldView.effort
+    addons, rng, stop = WorldView.addons, WorldView.rng, WorldView.stop
 
     @property
     def position(self) -> Float:
         """The positions (2, n): x, y [m]."""
-        return alone(self._world.position)
-
-    @property
-    def command(self) -> Float:
-        """The last command (2, n) that was issued, after saturation; zeros at first."""
-        return alone(self._world.command)
-
-    @property
-    def effort(self) -> Float:
-        """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1."""
-        return alone(self._world.effort)
-
-    @property
-    def workspace(self) -> Outline | None:
-        """The polygon in which the robots move, or None."""
-        return self._world.workspace
-
-    @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-        return self._world.bounds
-
-    @property
-    def obstacles(self) -> tuple[Outline, ...]:
-        """The outlines of all obstacles."""
-        return self._world.obstacles
-
-    @property
-    def addons(self) -> Addons:
-        """The add-ons by name: the law may ask those that the experiment has put there."""
-        return self._world.addons
-
-    @property
-    def rng(self) -> np.random.Generator:
-        """The random stream of the team's law."""
-        return self._world.rng
-
-    def stop(self, why: str) -> None:
-        """End the experiment, with the present control step, and say why."""
-        self._world.stop(why)
+        return alone(self._simulation.position)

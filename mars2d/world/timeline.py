@@ -15,12 +15,12 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.record.columns import DiskError
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Change, Intervention, of_one_hand
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.hot_reload import check_alike, merged
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import open_world, watch_by
 from mars2d.world.past import Past, Progress, Track
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:

@@ -12,15 +12,15 @@ from numpy.typing import NDArray
 
 from mars2d.addons.map import Map
 from mars2d.core.arithmetic import norms
+from mars2d.core.deadline import Deadline, patience
 from mars2d.core.errors import InputError, counted
-from mars2d.core.watchdog import Watchdog
 from mars2d.physics.settings import versions
 from mars2d.record.contact import CONTACT, rows_of
 from mars2d.record.interventions import Change, Intervention, Steer
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import MOVING
+from mars2d.world.record import Record
 from mars2d.world.world import World
 
 
@@ -110,7 +110,7 @@ def ask_again(
         if not _same(asked[:, laws], command[:, laws]):
             found.append(_decides(row, record, asked, laws))
 
-    with Watchdog(lambda: world.simulation.calls):
+    with Deadline(patience(), calls=lambda: world.simulation.calls):
         _, departure = _follow(record, world, record.interventions, step, progress)
     return found if departure is None else [*found, departure]
 

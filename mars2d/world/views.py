@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any, ClassVar, NoReturn
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,9 @@ from mars2d.core.errors import CERTAIN, LawError, UnknownNameError, likely, near
 from mars2d.core.words import instead
 from mars2d.record.message import Message
 from mars2d.sensors.sensing import Sense
-from mars2d.world.interfaces import Seen
+
+if TYPE_CHECKING:
+    from mars2d.world.simulation import Simulation
 
 Float = NDArray[np.float64]
 
@@ -104,7 +106,7 @@ class _Body:
     _more: ClassVar[tuple[str, ...]] = ()
     """The attributes that it has besides the properties of its class."""
 
-    def __init__(self, world: Seen, index: int) -> None:
+    def __init__(self, world: Simulation, index: int) -> None:
         self._world, self._index = world, index
 
     def __getattr__(self, name: str) -> NoReturn:
@@ -133,7 +135,7 @@ class Neighbour(_Body):
 
     _kind = "a neighbour"
 
-    def __init__(self, world: Seen, index: int, whose: int) -> None:
+    def __init__(self, world: Simulation, index: int, whose: int) -> None:
         """Take the world, its index, and that of the robot whose neighbour it is."""
         super().__init__(world, index)
         self._whose = whose
@@ -201,7 +203,7 @@ class RobotView(_Body):
     _more = ("sense", "memory")
     _neighbour: type[Neighbour] = Neighbour
 
-    def __init__(self, world: Seen, index: int, mind: Mind) -> None:
+    def __init__(self, world: Simulation, index: int, mind: Mind) -> None:
         super().__init__(world, index)
         self._mind = mind
         self.sense = mind.sense

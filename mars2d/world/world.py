@@ -13,7 +13,7 @@ from mars2d.record.recorder import Recorder
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.operator import Operator
 from mars2d.world.simulation import Simulation
-from mars2d.world.team_view import TeamPositionsView, WorldView
+from mars2d.world.team_view import TeamPositionsView, WorldView, shown
 
 Watcher = Callable[["World"], None]
 """A function that is called with the world at each control step."""
@@ -63,7 +63,7 @@ class World(WorldView):
         simulation = self._simulation
         view = WorldView(simulation)
         positions = simulation.scenario.sees == "positions"
-        team_view = TeamPositionsView(self) if positions else view
+        team_view = TeamPositionsView(simulation) if positions else view
         simulation.begin(self, view, team_view, control)
 
     def reset(self, seed: int | None = None, scenario: Scenario | None = None) -> None:
@@ -99,30 +99,16 @@ class World(WorldView):
     def watch(self, watch: Watcher | None) -> None:
         self._simulation.watch = watch
 
-    @property
-    def control(self) -> Callable[[World], Any] | None:
-        """The law of the team."""
-        return self._simulation.control
-
-    @property
-    def energy(self) -> Energy:
-        """The kinetic energies of robots and props, and the work since the start, J."""
-        return self._simulation.energy
-
-    @property
-    def momentum(self) -> Momentum:
-        """The momenta of robots and props, N s, and the angular one of all, N m s."""
-        return self._simulation.momentum
-
-    @property
-    def recorder(self) -> Recorder:
-        """Writes the rows of the record."""
-        return self._simulation.recorder
-
-    @property
-    def operator(self) -> Operator:
-        """Drives robots, puts bodies elsewhere, pulls and holds them."""
-        return self._simulation.operator
+    control: Callable[[World], Any] | None = shown("control")
+    """The law of the team."""
+    energy: Energy = shown("energy")
+    """The kinetic energies of robots and props, and the work since the start, J."""
+    momentum: Momentum = shown("momentum")
+    """The momenta of robots and props, N s, and the angular one of all, N m s."""
+    recorder: Recorder = shown("recorder")
+    """Writes the rows of the record."""
+    operator: Operator = shown("operator")
+    """Drives robots, puts bodies elsewhere, pulls and holds them."""
 
     def change(
         self,

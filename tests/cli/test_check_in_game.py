@@ -3,6 +3,7 @@
 import pytest
 
 from mars2d.cli.command_line import BAD_INPUT, main
+from tests.cases import each_case
 
 GAME = ["--for", "corner_game", "--role", "pursuer", "--set", "stop_time=3.0"]
 
@@ -31,8 +32,8 @@ def test_a_law_that_plays_is_sound_and_its_matches_are_told(check):
     assert last == "sound: won 0 of 3 matches as pursuer of corner_game, and forfeited none"
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
+@each_case(
+    "text, words",
     [
         ("def control(robot):\n    return robot.pse\n", "law.py, line 2: a robot has no 'pse'"),
         ("def control(robot):\n    return 1\n", "law"),

@@ -12,6 +12,7 @@ import pytest
 import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli import verbs
+from tests.cases import each_case
 from tests.processes import PATIENCE, mars, wait_until, x_server
 
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
@@ -94,8 +95,8 @@ def test_a_run_without_a_display_says_so_and_runs(tmp_path):
     assert "Random movements" in done.stdout
 
 
-@pytest.mark.parametrize(
-    ("arguments", "expected"),
+@each_case(
+    "arguments, expected",
     [
         (["replay", "{npz}"], "no display"),
         (["run", "random_walk", "--headless", "--speed", "0"], "needs a window"),
@@ -224,7 +225,7 @@ FILES = {
 }
 
 
-@pytest.mark.parametrize("case", FILES)
+@each_case("case", FILES)
 def test_a_mistake_in_the_file_is_one_line_that_names_it(tmp_path, case, capsys):
     text, words = FILES[case]
     (tmp_path / "bad.py").write_text(text)
@@ -236,8 +237,8 @@ def test_a_mistake_in_the_file_is_one_line_that_names_it(tmp_path, case, capsys)
         assert word in message
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
+@each_case(
+    "arguments, words",
     [
         (["run", "missing.py", "--headless"], ["missing.py", "no such file"]),
         (["run", "random_wlk", "--headless"], ["did you mean 'random_walk'?"]),
@@ -537,7 +538,7 @@ def test_the_json_of_an_experiment_without_checks_has_none(capsys):
     assert json.loads(capsys.readouterr().out)["checks"] == []
 
 
-@pytest.mark.parametrize("options", [[], ["--json"]])
+@each_case("options", [[], ["--json"]])
 def test_checks_that_fail_lose_no_data(roll, tmp_path, capsys, options):
     roll.write_text(ROLL.replace('1, float("nan")', "1, record.contacts['time'][0]"))
     paths = [tmp_path / name for name in ("a.npz", "a.png", "a.gif")]
@@ -598,7 +599,7 @@ def display():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("closes", "made"), [("on_stop", 3), ("on_step", 0)])
+@each_case("closes, made", [("on_stop", 3), ("on_step", 0)])
 def test_checks_are_made_once_a_window_closes_if_the_run_came_to_its_end(
     roll, tmp_path, display, closes, made
 ):

@@ -11,6 +11,7 @@ from PIL import Image
 
 import mars2d
 from mars2d.cli import command_line as cli
+from tests.cases import each_case
 
 HEAD_ON = """
 from math import pi
@@ -171,8 +172,8 @@ def test_a_film_can_be_an_mp4(compare):
     assert not Path("mars2d_compare").exists()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "expected"),
+@each_case(
+    "arguments, expected",
     [
         (["no_such_thing"], "no_such_thing: there is no such file or example"),
         (["random_walk", "--figure", "a.jpg"], "--figure a.jpg: expected a name that ends in"),

@@ -10,6 +10,7 @@ from mars2d.cli import command_line as cli
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import contest_of
+from tests.cases import each_case
 
 
 @pytest.fixture
@@ -28,14 +29,14 @@ def test_a_new_experiment_runs_and_is_kept(here, capsys):
     assert (here / "my_walk.py").read_text() == "mine"
 
 
-@pytest.mark.parametrize("name", ["3d", "a-b", "walk.toml", "mars2d", "", "a b.py"])
+@each_case("name", ["3d", "a-b", "walk.toml", "mars2d", "", "a b.py"])
 def test_a_name_that_python_can_not_import_is_refused(here, capsys, name):
     assert cli.main(["new", name]) == cli.BAD_INPUT
     assert "expected a name of letters, digits and underscores" in capsys.readouterr().err
     assert not [*here.iterdir()]
 
 
-@pytest.mark.parametrize("name", examples())
+@each_case("name", examples())
 def test_an_example_is_copied_with_all_that_it_needs(here, name):
     assert cli.main(["copy", name, "mine"]) == 0
     copied = here / "mine" / f"{name}.py"
@@ -56,8 +57,8 @@ def test_a_copy_replaces_nothing_and_a_wrong_name_is_answered(here, capsys):
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="no bash here")
-@pytest.mark.parametrize(
-    ("words", "wanted"),
+@each_case(
+    "words, wanted",
     [
         (["mars2d", "swe"], {"sweep"}),
         (["mars2d", "run", "corner_g"], {"corner_game"}),

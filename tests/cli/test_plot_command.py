@@ -10,6 +10,7 @@ import mars2d
 from mars2d import Robot, Scenario
 from mars2d.cli.command_line import main
 from mars2d.cli.verbs.plot import KINDS
+from tests.cases import each_case
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +35,7 @@ def plot(folder, tmp_path, monkeypatch, capsys):
     return run
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each_case("kind", KINDS)
 def test_each_kind_of_figure_is_drawn_and_its_file_named(plot, tmp_path, kind):
     extra = ["--at", "0,2"] if kind == "snapshots" else []
     assert plot(kind, *extra) == (0, f"duel_{kind}.png")
@@ -63,8 +64,8 @@ def test_columns_and_robots_are_chosen_by_name_before_index(plot, tmp_path):
     assert "<!-- ann -->" not in text
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+@each_case(
+    "arguments, message",
     [
         (["signls"], "mars2d: there is no figure of 'signls'; did you mean 'signals'?"),
         (["--columns", "x"], "mars2d: --columns is for signals: mars2d plot "),

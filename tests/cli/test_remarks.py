@@ -3,7 +3,6 @@
 from math import pi
 
 import numpy as np
-import pytest
 
 from mars2d import Car, Holonomic, Robot, Scenario, Unicycle
 from mars2d.cli.command_line import main
@@ -11,21 +10,22 @@ from mars2d.cli.remarks import Bounds, before
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
+from tests.cases import each_case
 
 
-@pytest.mark.parametrize("theta", [90, -180, 45, 360, 30])
+@each_case("theta", [90, -180, 45, 360, 30])
 def test_a_pose_in_degrees_is_remarked(theta):
     (told,) = before(Experiment(Scenario(robots=[Robot(name="red", pose=(0, 0, theta))])))
     assert told.startswith(f"red starts at theta = {theta} rad, ")
     assert told.endswith(f"write np.radians({theta})")
 
 
-@pytest.mark.parametrize("theta", [0, pi, -3 * pi, 7, 14.0, np.radians(90), 20 * pi, 44.9])
+@each_case("theta", [0, pi, -3 * pi, 7, 14.0, np.radians(90), 20 * pi, 44.9])
 def test_a_pose_in_radians_is_not(theta):
     assert [*before(Experiment(Scenario(robots=[Robot(pose=(0, 0, theta))])))] == []
 
 
-@pytest.mark.parametrize("name", sorted(examples()))
+@each_case("name", sorted(examples()))
 def test_no_example_looks_like_degrees(name):
     assert [*before(open_experiment(name))] == []
 
@@ -45,8 +45,8 @@ def test_most_commands_cut_are_told_with_the_bounds():
     )
 
 
-@pytest.mark.parametrize(
-    ("drive", "command"),
+@each_case(
+    "drive, command",
     [
         (Unicycle(max_linear_speed=0.5), lambda t: (0.5, 0.0)),  # the bound itself
         (Unicycle(max_linear_speed=0.5), lambda t: (2.0 if t < 0.85 else 0.2, 0.0)),  # 9 of 21

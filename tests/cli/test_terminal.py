@@ -20,6 +20,7 @@ from mars2d.core.terminal import legible, tell, warn
 from mars2d.output.formats.header import as_text
 from mars2d.study.table import Result, Table, save_table
 from mars2d.study.tournament import league
+from tests.cases import each_case
 
 EVIL = "\x1b]0;owned\x07\x9b31m\u202egnp\u2066\r\nmars2d: all is well\ud800"
 """Codes of a terminal, text that is turned round, a line that is forged, half a character."""
@@ -65,7 +66,7 @@ def sound(output: bytes, encoding: str = "utf-8") -> str:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", TERMINALS)
+@each_case("name", TERMINALS)
 def test_on_any_terminal_nothing_breaks(tmp_path, name) -> None:
     encoding = {"cp1252": "cp1252", "utf-8": "utf-8"}.get(name, "ascii")
     (tmp_path / "team.py").write_text(EXPERIMENT, encoding="utf-8")
@@ -90,7 +91,7 @@ def test_on_any_terminal_nothing_breaks(tmp_path, name) -> None:
     assert r"raised ValueError: \x1b]0;owned" in told
 
 
-@pytest.mark.parametrize("words", [["--help"], ["run", "--help"], ["list"], ["nonsense é"]])
+@each_case("words", [["--help"], ["run", "--help"], ["list"], ["nonsense é"]])
 @pytest.mark.slow
 def test_help_and_lists_are_printed_in_ascii(tmp_path, words) -> None:
     done = mars(*words, cwd=tmp_path, **TERMINALS["strict"])
@@ -143,7 +144,7 @@ def test_json_stays_json(capsys) -> None:
 
 def test_half_a_character_in_a_message_breaks_no_record(tmp_path) -> None:
     record = mars2d.run(Scenario(stop_time=1), control=lambda world: world.stop(EVIL) or (0, 0))
-    for name in ("run.npz", "run.csv", "run.mat"):
+    for name in ("run.npz", "run.csv"):
         assert mars2d.load(record.save(tmp_path / name)).digest == record.digest
     record.save_html(tmp_path / "run.html")
     assert record.over_message.endswith("well?")

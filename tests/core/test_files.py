@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import os
-import signal
-import subprocess
 import sys
-from contextlib import contextmanager
 from multiprocessing.pool import ThreadPool
 from pathlib import Path
 
@@ -15,7 +12,7 @@ import pytest
 import mars2d
 from mars2d import InputError, Scenario
 from mars2d.core.files import atomic_write, growing
-from tests.processes import mars, wait_until
+from tests.processes import mars
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="files of POSIX")
 
@@ -29,14 +26,6 @@ def names(folder: Path) -> list[str]:
     return [path.name for path in folder.iterdir()]
 
 
-@pytest.fixture(params=["no name", "a name"])
-def parts(request, monkeypatch) -> None:
-    """With files that have no name until they are complete, and on systems without such files."""
-    if request.param == "a name":
-        monkeypatch.delattr("os.O_TMPFILE", raising=False)
-
-
-@pytest.mark.usefixtures("parts")
 def test_a_file_is_replaced_whole_and_nothing_else_is_left(tmp_path) -> None:
     target = tmp_path / "run.csv"
     write(target, b"older")
@@ -49,7 +38,6 @@ def test_a_file_is_replaced_whole_and_nothing_else_is_left(tmp_path) -> None:
     assert names(tmp_path) == ["run.csv"]
 
 
-@pytest.mark.usefixtures("parts")
 def test_writers_of_one_file_do_not_meet(tmp_path) -> None:
     target = tmp_path / "run.csv"
     texts = [bytes([letter]) * 100_000 for letter in b"abcdefgh"]
@@ -60,7 +48,6 @@ def test_writers_of_one_file_do_not_meet(tmp_path) -> None:
     assert names(tmp_path) == ["run.csv"]
 
 
-@pytest.mark.usefixtures("parts")
 def test_permissions_and_symbolic_links_stay(tmp_path) -> None:
     target, link = tmp_path / "there" / "run.csv", tmp_path / "link.csv"
     target.parent.mkdir()
@@ -85,14 +72,13 @@ def test_a_link_that_points_at_itself_is_refused(tmp_path) -> None:
         write(link)
 
 
-@pytest.mark.usefixtures("parts")
 def test_a_name_may_be_as_long_as_the_system_allows(tmp_path) -> None:
     target = tmp_path / ("n" * 251 + ".npz")
     mars2d.run(Scenario(stop_time=1)).save(target)
     assert len(mars2d.load(target)) == 11
 
 
-@pytest.mark.parametrize("suffix", [".npz", ".mat", ".csv", ".nc", ".mcap"])
+@pytest.mark.parametrize("suffix", [".npz", ".mcap"])
 def test_a_pipe_is_refused_before_the_run(tmp_path, suffix) -> None:
     pipe = tmp_path / f"run{suffix}"
     os.mkfifo(pipe)
@@ -127,27 +113,6 @@ def test_a_file_that_grows_has_one_writer(tmp_path) -> None:
     assert path.read_bytes() == b""
 
 
-def test_a_file_that_was_replaced_before_it_was_locked_is_opened_again(
-    tmp_path, monkeypatch
-) -> None:
-    path = tmp_path / "rows"
-    path.write_bytes(b"older")
-    locked = []
-
-    def late(file, where, *, shared=False) -> None:
-        if not (shared or locked):
-            locked.append(file)
-            write(path)
-        elif not shared:
-            locked.append(file)
-
-    monkeypatch.setattr("mars2d.core.files.lock", late)
-    with growing(path) as file:
-        file.write(b" rows")
-    assert path.read_bytes() == b"new rows"
-    assert len(locked) == 2
-
-
 def test_a_log_is_written_by_one_run_at_a_time(tmp_path) -> None:
     pytest.importorskip("mcap")
     path = tmp_path / "run.mcap"
@@ -172,17 +137,6 @@ def test_a_file_that_grows_is_not_replaced_by_others(tmp_path) -> None:
         with atomic_write(path, file) as whole:
             whole.write(b"by its writer")
     assert path.read_bytes() == b"by its writer"
-    with atomic_write(path) as one:
-        one.write(b"one")
-        write(path)  # who saves at the same time is not refused
-    assert path.read_bytes() == b"one"
-    with (
-        pytest.raises(InputError, match="rows: another process is writing to it"),
-        atomic_write(path),
-    ):
-        file = growing(path)  # begun since
-    file.close()
-    assert path.read_bytes() == b"one"
 
 
 def test_no_record_is_saved_over_a_log_that_a_run_writes(tmp_path) -> None:
@@ -198,40 +152,3 @@ def test_no_record_is_saved_over_a_log_that_a_run_writes(tmp_path) -> None:
 
     record = mars2d.run(Scenario(stop_time=1), control=control, record=path)
     assert mars2d.load(path).digest == record.digest
-
-
-def test_without_locks_files_grow_all_the_same(tmp_path, monkeypatch) -> None:
-    monkeypatch.setitem(sys.modules, "fcntl", None)
-    with growing(tmp_path / "rows") as one, growing(tmp_path / "rows") as two:
-        one.write(b"one")
-        two.write(b"two")
-    assert (tmp_path / "rows").read_bytes() in (b"onetwo", b"twoone")
-
-
-@contextmanager
-def half_written(target: Path):
-    """A process that has written half a file, and goes on with it."""
-    code = (
-        "import sys, time; from pathlib import Path; from mars2d.core.files import atomic_write\n"
-        "with atomic_write(Path(sys.argv[1])) as file:\n"
-        "    file.write(bytes(100_000)); file.flush(); print('half', flush=True); sys.stdin.read()"
-    )
-    process = subprocess.Popen(
-        [sys.executable, "-c", code, target],
-        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    with process:
-        assert wait_until(process.stdout.readline) == "half\n"
-        yield process
-
-
-@pytest.mark.skipif(not hasattr(os, "O_TMPFILE"), reason="files without names")
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-def test_a_process_that_is_ended_leaves_no_part(tmp_path, number) -> None:
-    target = tmp_path / "run.csv"
-    target.write_text("older")
-    with half_written(target) as process:
-        process.send_signal(number)
-        assert process.wait() == -number
-    assert names(tmp_path) == ["run.csv"]
-    assert target.read_text() == "older"

@@ -22,9 +22,8 @@ MARK = "MARS2D_TEST_MARK"
 FORKING = """
 import json, os, signal, sys, time
 import mars2d.cli.command_line, mars2d.core.interrupt
-import matplotlib.backends.backend_agg, pygame, scipy.io, mars2d.output.formats.mcap
-import mars2d.output.formats.table, mars2d.output.formats.netcdf
-import mars2d.output.formats.mat, mars2d.output.pages.replay
+import matplotlib.backends.backend_agg, pygame, mars2d.output.formats.mcap
+import mars2d.output.formats.table, mars2d.output.pages.replay
 import mars2d.study.tournament.tournament, mars2d.study.run, mars2d.output.films.film, av
 for line in sys.stdin:
     told = json.loads(line)

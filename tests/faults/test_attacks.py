@@ -145,7 +145,7 @@ def test_a_backend_that_is_none_is_named_before_the_run(line, tmp_path):
 def test_they_are_many():
     variables = sum(map(len, VARIABLES.values()))
     settings = len([*itertools.product(FIELDS, VALUES)])
-    assert (len(NAMES) * len(SUFFIXES), settings, variables) == (215, 432, 52)
+    assert (len(NAMES) * len(SUFFIXES), settings, variables) == (129, 432, 52)
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes of POSIX")

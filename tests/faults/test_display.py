@@ -1,23 +1,21 @@
-"""A display or a terminal that is not there, or goes away while a window is open."""
+"""A display that is not there, a terminal that is closed, a reader that stops reading."""
 
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
-from mars2d.record.record import load
 from mars2d.scenario import save_scenario
 from mars2d.scenario.experiment import open_experiment
-from tests.processes import PATIENCE, bare_environment, wait_until, x_server
-from tests.window.person import ROOM, needs_screen
+from mars2d.world.record import load
+from tests.processes import PATIENCE, bare_environment
+from tests.window.person import ROOM
 
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
-GONE = "mars2d: the display has gone away that the window was on\n"
 
 
 def mars(folder, *arguments, **environment):
@@ -32,77 +30,16 @@ def mars(folder, *arguments, **environment):
     )
 
 
-def windows_on(display):
-    """Return how many windows are seen."""
-    search = ["xdotool", "search", "--onlyvisible", "--class", "."]
-    environment = bare_environment(DISPLAY=display)
-    told = subprocess.run(search, env=environment, capture_output=True, check=False)
-    return len(told.stdout.split())
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("gone")
     (folder / "room.py").write_text(ROOM)
-    scenario = open_experiment(folder / "room.py").scenario
-    save_scenario(scenario.replace(robots=scenario.robots[1:]), folder / "drawn.toml")
+    save_scenario(open_experiment(folder / "room.py").scenario, folder / "drawn.toml")
     short = ["run", "room.py", "--headless", "--stop-time", "5", "--record", "past.npz"]
     process = mars(folder, *short)
     process.communicate(timeout=PATIENCE)
     assert process.returncode == 0
     return folder
-
-
-@pytest.fixture(scope="module")
-def left(folder):
-    """Kill the X server under windows of all kinds; return how each ended, and what it said."""
-    commands = {
-        "npz": ["run", "room.py", "--record", "live.npz", "--speed", "1"],
-        "mcap": ["run", "room.py", "--record", "live.mcap", "--speed", "1"],
-        "replay": ["replay", "past.npz"],
-        "editor": ["edit", "drawn.toml", "--set", "title=Another room"],
-    }
-    with x_server() as (display, server):
-        processes = {
-            name: mars(folder, *command, DISPLAY=display) for name, command in commands.items()
-        }
-        try:
-            wait_until(lambda: windows_on(display) == len(commands))
-            wait_until((folder / "live.mcap").exists)
-            time.sleep(1.0)  # there is something to lose by then
-            server.kill()
-            said = {name: each.communicate(timeout=PATIENCE) for name, each in processes.items()}
-        finally:
-            for process in processes.values():
-                process.kill()
-                process.wait(PATIENCE)
-    return {name: (processes[name].returncode, *said[name]) for name in commands}
-
-
-@needs_screen
-@pytest.mark.parametrize("suffix", ["npz", "mcap"])
-def test_a_run_whose_display_goes_away_keeps_what_was_recorded(folder, left, suffix):
-    code, out, said = left[suffix]
-    record = load(folder / f"live.{suffix}")
-    assert (code, out) == (2, "")
-    kept = f"what was recorded until {record.time[-1]:g} s is in live.{suffix}"
-    assert said == f"mars2d: {kept}\n{GONE}"
-    assert len(record) > 1
-
-
-@needs_screen
-def test_a_replay_whose_display_goes_away_ends_in_one_line(left):
-    assert left["replay"] == (2, "", GONE)
-
-
-@needs_screen
-def test_what_was_drawn_is_kept_when_the_display_goes_away(folder, left):
-    path = folder / "drawn_unsaved_1.toml"
-    kept = f"mars2d: what was drawn and not saved is in {path}\n"
-    assert left["editor"] == (2, "", kept + GONE)
-    scenario = open_experiment(path).scenario
-    assert scenario.title == "Another room"
-    assert open_experiment(folder / "drawn.toml").scenario.title == "A room"
 
 
 WAYLAND = "error: XDG_RUNTIME_DIR is invalid or not set in the environment.\n"

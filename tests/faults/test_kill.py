@@ -8,7 +8,6 @@ import pytest
 
 import mars2d
 
-pytest.importorskip("xarray")
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX"),
@@ -16,7 +15,7 @@ pytestmark = [
 
 DYING = """
 import os, signal, sys
-import mars2d, scipy.io, xarray
+import mars2d
 from pathlib import Path
 
 record = mars2d.load("run.npz")
@@ -57,11 +56,10 @@ for most in (1, 1000, 3000):
 """
 
 
-@pytest.mark.parametrize("suffix", [".npz", ".mat", ".nc"])
-def test_a_file_that_is_being_replaced_stays_as_it_was(tmp_path, child, suffix) -> None:
+def test_a_file_that_is_being_replaced_stays_as_it_was(tmp_path, child) -> None:
     record = mars2d.run("random_walk", stop_time=200)
     record.save(tmp_path / "run.npz")
-    target = tmp_path / f"kept{suffix}"
+    target = tmp_path / "kept.npz"
     target.write_text("older")
     begin = f"import os, sys; os.chdir({str(tmp_path)!r}); sys.argv[1:] = [{target.name!r}]\n"
     done = child(begin + DYING)

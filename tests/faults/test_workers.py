@@ -7,7 +7,6 @@ import sys
 import pytest
 
 import mars2d
-from tests.processes import running, wait_until
 
 pytestmark = [
     pytest.mark.slow,
@@ -42,40 +41,6 @@ def scenario(pursuer="one.py", evader="two.py"):
     game = Game({"pursuer": ["red"], "evader": ["blue"]})
     return Scenario(robots=[red, blue], stop_time=1, addons=[game, Deadly()])
 """
-
-
-FAMILY = """
-import multiprocessing, os, signal, subprocess
-from mars2d import Scenario
-
-scenario = Scenario(stop_time=1)
-
-def note(pid):
-    open(f"{pid}.pid", "w").close()
-
-def control(world):
-    if world.iteration == 3:
-        note(subprocess.Popen(["sleep", "100000"]).pid)
-        child = multiprocessing.get_context("fork").Process(target=signal.pause)
-        child.start()
-        note(child.pid)
-    if world.iteration == 6 and world.seed == 1:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return 0, 0
-"""
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
-def test_processes_that_a_law_has_started_end_with_the_sweep(tmp_path, monkeypatch) -> None:
-    (tmp_path / "study.py").write_text(FAMILY)
-    monkeypatch.chdir(tmp_path)
-    table = mars2d.sweep("study.py", seeds=3, workers=2)
-    errors = [result.error for result in table.results]
-    assert [bool(error) for error in errors] == [False, True, False]
-    assert "was killed by SIGKILL" in errors[1]
-    pids = [int(each.stem) for each in tmp_path.glob("*.pid")]
-    assert len(pids) == 8  # what killed its process was tried twice
-    wait_until(lambda: not any(map(running, pids)))
 
 
 def test_a_worker_that_dies_costs_a_study_one_row(tmp_path, monkeypatch) -> None:

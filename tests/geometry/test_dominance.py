@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mars2d.geometry import dominance
+from tests.cases import each_case
 
 EVADER, PURSUER = np.array([1.0, 2.0]), np.array([-1.0, 0.5])
 APART = np.hypot(*(EVADER - PURSUER))
@@ -26,8 +27,8 @@ def test_of_equals_it_is_the_bisector_where_there_is_one():
     assert to_evader[~near] == pytest.approx(1000.0)  # on straight ways it is never caught
 
 
-@pytest.mark.parametrize("ratio", [0.4, 0.8, 1.0])
-@pytest.mark.parametrize("capture", [0.0, 0.5, 1.5])
+@each_case("ratio", [0.4, 0.8, 1.0])
+@each_case("capture", [0.0, 0.5, 1.5])
 def test_a_race_to_a_point_is_won_just_inside_and_lost_just_outside(ratio, capture):
     """Both run straight to the point, in small steps."""
     edge = dominance(EVADER, PURSUER, ratio, capture, count=16)

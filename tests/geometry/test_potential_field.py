@@ -12,6 +12,7 @@ from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Map, PotentialField, Waypoints
 from mars2d.core.scene import Arrow, Line, Scene
 from mars2d.geometry.potential_field import Potential
+from tests.cases import each_case
 
 BOX = [(1.0, -0.5), (1.6, -0.5), (1.6, 0.9), (1.0, 0.9)]
 WALL = [(-1.0, 1.5), (2.0, 1.5)]
@@ -109,7 +110,7 @@ def test_arrows_point_where_the_force_does_and_leave_out_obstacles():
         assert (ux * fy - uy * fx, hypot(ux, uy)) == pytest.approx((0, 1), abs=1e-9)
 
 
-@pytest.mark.parametrize("bad", [{"reach": 0.0}, {"far": -1}, {"repulsion": -0.1}, {"radius": -1}])
+@each_case("bad", [{"reach": 0.0}, {"far": -1}, {"repulsion": -0.1}, {"radius": -1}])
 def test_gains_out_of_range_are_refused(bad):
     with pytest.raises(InputError, match=f"Potential.{next(iter(bad))} = "):
         Potential([], **bad)

@@ -18,6 +18,7 @@ from mars2d.geometry.ray_casting import Fans
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.physics.rays import BODY, Rays, end_bars
 from mars2d.sensors import LineCamera, RangeFinder, SonarRing
+from tests.cases import each_case
 
 EXACT = 1e-9  # m
 NOTHING = -99
@@ -82,7 +83,7 @@ def engines(bodies, poses, outlines):
 # -- what rays meet -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(8))
+@each_case("seed", range(8))
 def test_fans_are_the_engines_rays(seed):
     rng = np.random.default_rng(seed)
     hits = starts_within = 0
@@ -192,7 +193,7 @@ def test_there_may_be_nothing_to_see_and_no_ray_to_see_it():
     assert Fans([], [[(1, -1), (1, 1)]]).distances(look[:, :0], [0.0], 5.0, []).shape == (0, 1)
 
 
-@pytest.mark.parametrize("far", [1e3, 1e5])
+@each_case("far", [1e3, 1e5])
 def test_far_from_the_origin_no_ray_slips_through_a_corner(far):
     rng = np.random.default_rng(0)
     room = [(far + x, far + y) for x, y in [(0, 0), (9.1, 0.3), (8.7, 7.9), (4.0, 3.0), (0.2, 8)]]
@@ -215,7 +216,7 @@ def team(rng, size):
     return fans_of(bodies, poses, outlines), looks, rng.integers(-1, len(bodies), size)
 
 
-@pytest.mark.parametrize("bearings", [np.linspace(-pi, pi, 180, endpoint=False), [0.3], [2, 1, 1]])
+@each_case("bearings", [np.linspace(-pi, pi, 180, endpoint=False), [0.3], [2, 1, 1]])
 def test_a_fan_reads_the_same_bits_alone_and_in_any_order(bearings):
     rng = np.random.default_rng(5)
     for _ in range(30):
@@ -260,7 +261,7 @@ def test_a_fan_reads_the_same_bits_where_a_big_team_is_looked_at_in_strips():
     assert np.isfinite(together).mean() > 0.3
 
 
-@pytest.mark.parametrize(
+@each_case(
     "sensor",
     [
         RangeFinder(beams=90, range=3.0),

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from mars2d.core.errors import InputError
 from mars2d.geometry.shapes import MAX_VERTICES, Compound, Disc, Piece, Polygon, Rim, Shape
+from tests.cases import each_case
 
 NAN = float("nan")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -97,8 +98,8 @@ def _assert_pieces_fit(shape):
     assert together.symmetric_difference(whole).area <= 1e-12 * whole.area
 
 
-@pytest.mark.parametrize("name", KNOWN)
-@pytest.mark.parametrize("way", [1, -1])
+@each_case("name", KNOWN)
+@each_case("way", [1, -1])
 def test_an_outline_is_cut_into_few_convex_pieces(name, way):
     outline, fewest = KNOWN[name]
     shape = Polygon(outline[::way])
@@ -129,7 +130,7 @@ def test_the_pieces_of_any_star_shaped_outline_fit(steps, radii, offset, way):
     _assert_pieces_fit(shape)
 
 
-@pytest.mark.parametrize("noise", [0, 1e-16, 1e-14, 1e-13, 1e-10, 1e-6, 1e-3])
+@each_case("noise", [0, 1e-16, 1e-14, 1e-13, 1e-10, 1e-6, 1e-3])
 def test_corners_that_nearly_line_up_make_no_slivers(noise):
     rng = np.random.default_rng(3)
     for angle in np.linspace(0, pi, 12):
@@ -154,7 +155,7 @@ def test_the_same_outline_is_always_cut_the_same_way():
     assert pickle.loads(pickle.dumps(Polygon(outline))).pieces == Polygon(outline).pieces
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("outline", "problem"),
     [
         ([(0, 0), (1, 1), (1, 0), (0, 1)], "crosses or touches itself"),
@@ -174,13 +175,13 @@ def test_an_outline_that_the_engine_can_not_hold_is_refused(outline, problem):
     assert "Polygon.outline" in str(error.value)
 
 
-@pytest.mark.parametrize("diameter", [0, -1, NAN, 1e-4, 1e4, "0.3", None, True])
+@each_case("diameter", [0, -1, NAN, 1e-4, 1e4, "0.3", None, True])
 def test_a_diameter_is_a_length_the_engine_can_hold(diameter):
     with pytest.raises(InputError, match=r"^Disc.diameter = "):
         Disc(diameter)
 
 
-@pytest.mark.parametrize("parts", [[], Disc(0.2), [SQUARE], None, [Disc], [Disc(0.2)] * 65])
+@each_case("parts", [[], Disc(0.2), [SQUARE], None, [Disc], [Disc(0.2)] * 65])
 def test_a_compound_is_made_of_shapes(parts):
     with pytest.raises(InputError, match=r"^Compound.parts"):
         Compound(parts)
@@ -204,7 +205,7 @@ def test_a_disc_has_the_textbooks_moment_and_two_thirds_of_its_radius_as_lever()
     assert shape.moved(3, 4).moment_per_mass == pytest.approx(0.3**2 / 2 + 25)
 
 
-@pytest.mark.parametrize(("a", "b"), [(1, 1), (2, 1), (0.06, 1), (1000, 0.001)])
+@each_case(("a", "b"), [(1, 1), (2, 1), (0.06, 1), (1000, 0.001)])
 def test_a_rectangle_has_the_textbooks_moment_and_lever(a, b):
     shape = Polygon(_rectangle(a, b))
     d = hypot(a, b)
@@ -220,7 +221,7 @@ def test_a_square_has_the_lever_that_is_known_for_it():
     assert Polygon(SQUARE).lever == pytest.approx((sqrt(2) + log(1 + sqrt(2))) / 6, rel=1e-14)
 
 
-@pytest.mark.parametrize("name", KNOWN)
+@each_case("name", KNOWN)
 def test_the_moments_of_the_pieces_make_that_of_the_whole(name):
     shape = Polygon(KNOWN[name][0]).moved(0.7, -0.3)
     masses = [_area(piece.vertices) for piece in shape.pieces]
@@ -263,7 +264,7 @@ ANY = {
 }
 
 
-@pytest.mark.parametrize("name", ANY)
+@each_case("name", ANY)
 def test_mass_properties_agree_with_a_count_of_grid_points(name):
     shape = ANY[name]
     x, y, cell = _grid(shape, 700)
@@ -275,7 +276,7 @@ def test_mass_properties_agree_with_a_count_of_grid_points(name):
     assert shape.lever == pytest.approx(np.hypot(x - cx, y - cy).mean(), rel=3e-3)
 
 
-@pytest.mark.parametrize("name", ANY)
+@each_case("name", ANY)
 def test_the_bound_holds_the_shape_and_is_not_loose(name):
     shape = ANY[name]
     (x, y), radius = shape.bound
@@ -294,7 +295,7 @@ def test_the_bound_holds_the_shape_and_is_not_loose(name):
     assert radius <= shapely.minimum_bounding_radius(region) * (1 + 2e-3)
 
 
-@pytest.mark.parametrize("name", ANY)
+@each_case("name", ANY)
 def test_a_moved_shape_is_the_same_shape_elsewhere(name):
     shape = ANY[name]
     moved = shape.moved(3.0, -4.0)

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from mars2d import InputError
 from mars2d.geometry.voronoi import Tessellation, Weight
+from tests.cases import each_case
 
 SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
 DISC = tuple((2 + 2 * cos(k * pi / 20), 2 + 2 * sin(k * pi / 20)) for k in range(40))
@@ -53,8 +54,8 @@ def sampled(points, region, phi=None):
     return mass, np.array(first) / np.maximum(mass, 1e-12), float(weight @ squares.min(axis=1))
 
 
-@pytest.mark.parametrize("phi", [None, bump], ids=["plain", "weighted"])
-@pytest.mark.parametrize("region", REGIONS)
+@each_case("phi", [None, bump])
+@each_case("region", REGIONS)
 def test_cells_hold_what_is_nearest_to_their_points(region, phi):
     points = np.random.default_rng(3).uniform(0.1, 3.9, (2, 9))  # some outside of disc and hook
     found = Tessellation(points, REGIONS[region], phi)
@@ -217,8 +218,8 @@ def difference(points, i, axis, region, phi, step):
     return (costs[0] - costs[1]) / (2 * step)
 
 
-@pytest.mark.parametrize("phi", [None, bump], ids=["plain", "weighted"])
-@pytest.mark.parametrize("region", REGIONS)
+@each_case("phi", [None, bump])
+@each_case("region", REGIONS)
 def test_the_gradient_of_the_cost_is_twice_mass_times_way_from_the_centroid(region, phi):
     points = np.random.default_rng(11).uniform(0.3, 3.7, (2, 6))
     found = Tessellation(points, REGIONS[region], phi, resolution=0.1)
@@ -230,8 +231,8 @@ def test_the_gradient_of_the_cost_is_twice_mass_times_way_from_the_centroid(regi
             assert measured == pytest.approx(wanted[axis, i], abs=2e-5)
 
 
-@pytest.mark.parametrize("phi", [None, bump], ids=["plain", "weighted"])
-@pytest.mark.parametrize("region", REGIONS)
+@each_case("phi", [None, bump])
+@each_case("region", REGIONS)
 def test_the_cost_never_rises_when_points_walk_to_their_centroids(region, phi):
     points = np.random.default_rng(7).uniform(0.1, 1.2, (2, 8))
     costs = []
@@ -321,7 +322,7 @@ def test_where_the_region_lies_makes_no_difference():
     assert there.cost == pytest.approx(here.cost, rel=1e-7)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("points", "message"),
     [
         ([], r"Tessellation.points = \[\]: expected points \(2, n\) in metres"),
@@ -337,13 +338,13 @@ def test_points_that_can_not_be_are_an_error(points, message):
         Tessellation(points, SQUARE)
 
 
-@pytest.mark.parametrize("region", [[(0, 0), (1, 1)], [(0, 0), (1, 1), (0, 1), (1, 0)], 3, None])
+@each_case("region", [[(0, 0), (1, 1)], [(0, 0), (1, 1), (0, 1), (1, 0)], 3, None])
 def test_a_region_that_can_not_be_is_an_error(region):
     with pytest.raises(InputError, match=r"^Tessellation\.region"):
         Tessellation([[1], [1]], region)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("phi", "message"),
     [
         (lambda x, y: -x, r"expected of phi\(x, y\) .* >= 0, .*; it is -[\d.]+ at \("),

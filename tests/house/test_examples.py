@@ -11,6 +11,7 @@ import pytest
 
 import mars2d
 from mars2d.scenario.examples import examples
+from tests.cases import each_case
 from tests.house.make_golden import SETTINGS, Golden
 
 # Another platform or engine may round the last digit differently: it is held to the golden paths.
@@ -116,7 +117,7 @@ def test_older_processors_give_the_same_digests():
     assert digests(NPY_DISABLE_CPU_FEATURES=" ".join(newer)) == here
 
 
-@pytest.mark.parametrize("name", DIGESTS)
+@each_case("name", DIGESTS)
 def test_an_example_is_short_enough_to_project(name):
     lines = examples()[name].read_text().splitlines()
     assert len(lines) <= 70

@@ -12,6 +12,7 @@ import pytest
 import mars2d
 from mars2d.core.description import snake_case
 from mars2d.scenario.registry import FAMILIES, members
+from tests.cases import each_case
 
 PACKAGE = Path(mars2d.__file__).parent
 
@@ -30,7 +31,6 @@ LAYERS = [
 """The rooms of the house, low to high: each imports from below only, for types as well."""
 
 LAZY_UPWARDS = {
-    ("record", "output"): "figures, films, pages, files: Record.plot, Record.save, ...",
     ("scenario", "output"): "the picture of a scenario in a notebook",
 }
 """The conveniences that import from above, when they are called."""
@@ -90,7 +90,7 @@ def test_the_top_of_the_package_shows_its_rooms_and_nothing_else() -> None:
     assert len(there) <= 16
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
+@each_case("path", FILES)
 def test_a_module_imports_only_from_rooms_below(path: Path) -> None:
     room = _room(path)
     if room in ("__init__", "__main__"):
@@ -117,7 +117,7 @@ def test_each_lazy_import_upwards_that_is_listed_is_used() -> None:
     assert set(LAZY_UPWARDS) <= used
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@each_case("family", FAMILIES)
 def test_parts_of_one_family_do_not_import_each_other(family: str) -> None:
     parts = {f"{FAMILIES[family]}.{snake_case(name)}" for name in members(family)}
     for part in parts:
@@ -125,7 +125,7 @@ def test_parts_of_one_family_do_not_import_each_other(family: str) -> None:
         assert not _at_run_time(path) & parts, path
 
 
-@pytest.mark.parametrize("room", ["core", "geometry", "sensors", "addons", "record", "output"])
+@each_case("room", ["core", "geometry", "sensors", "addons", "record", "output"])
 def test_who_draws_senses_or_reports_never_touches_the_engine(room: str) -> None:
     for path in (path for path in FILES if _room(path) == room):
         modules = {module for module, _ in _own_imports(path)}

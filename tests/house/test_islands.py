@@ -8,10 +8,9 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
-
 from mars2d.physics import islands
 from mars2d.physics.islands import build, chipmunk
+from tests.cases import each_case
 
 FOLDER = Path(islands.__file__).parent
 IMPORTS = "mars2d.physics.islands."
@@ -92,7 +91,7 @@ def test_each_method_of_arbiters_is_there_in_both():
     assert methods - {"__dealloc__"} == {n for n in vars(chipmunk.Arbiters) if n[0] != "_"}
 
 
-@pytest.mark.parametrize("name", build.MODULES)
+@each_case("name", build.MODULES)
 def test_a_module_imports_only_what_is_there_when_they_are_joined(name):
     """Of those before it in the list, by their own names; of C's mathematics; of typing."""
     before = build.MODULES[: build.MODULES.index(name)]

@@ -15,6 +15,7 @@ import pytest
 
 import mars2d
 from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle, World
+from tests.cases import each_case
 
 PAGE = Path(__file__).parents[2] / "docs" / "from_mars.md"
 
@@ -87,7 +88,7 @@ def test_the_table_has_every_field_of_the_paper_once():
     assert [row[0] for row in rows()] == TABLE_1
 
 
-@pytest.mark.parametrize("row", rows(), ids=lambda row: row[0])
+@each_case("row", rows())
 def test_each_home_exists(row):
     assert homes(row)
     scenario = Scenario()
@@ -102,7 +103,7 @@ def test_each_home_exists(row):
             value = getattr(value, name)
 
 
-@pytest.mark.parametrize("row", rows(), ids=lambda row: row[0])
+@each_case("row", rows())
 def test_each_default_is_the_one_stated(row):
     stated = []
     for home in homes(row):

@@ -1,11 +1,11 @@
 """Mistakes that newcomers make, each really made, and the words that the answer must have."""
 
 import re
-import warnings
 
 import pytest
 
 from mars2d.cli.command_line import main
+from tests.cases import each_case
 
 HEAD = """\
 import numpy as np
@@ -207,9 +207,7 @@ def answer(tmp_path, monkeypatch, capsys):
 
     def run(text, *words):
         (tmp_path / "walk.py").write_text(text)
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", FutureWarning)
-            main([*words] or ["run", "walk.py", "--headless"])
+        main([*words] or ["run", "walk.py", "--headless"])
         out, err = capsys.readouterr()
         return err + "".join(f"{line}\n" for line in out.splitlines() if line.startswith("note: "))
 
@@ -230,27 +228,27 @@ def helps(told, words):
     assert line is None or int(line[1]) > 0
 
 
-@pytest.mark.parametrize(("fields", "words"), ROBOTS)
+@each_case("fields, words", ROBOTS)
 def test_a_robots_field(answer, fields, words):
     told = answer(f"{HEAD}scenario = Scenario(robots=[Robot({fields})], stop_time=0.3)\n")
     helps(told, words)
     assert "walk.py, line 7" in told
 
 
-@pytest.mark.parametrize(("fields", "words"), SCENARIOS)
+@each_case("fields, words", SCENARIOS)
 def test_a_scenarios_field(answer, fields, words):
     told = answer(f"{HEAD}scenario = Scenario({fields}, stop_time=0.3)\n")
     helps(told, words)
     assert "walk.py, line 7" in told
 
 
-@pytest.mark.parametrize(("lines", "words"), FILES)
+@each_case("lines, words", FILES)
 def test_a_line_of_a_file(answer, lines, words):
     end = "" if "scenario" in lines else "\nscenario = Scenario(stop_time=0.3)\n"
     helps(answer(HEAD + lines + end), words)
 
 
-@pytest.mark.parametrize(("body", "words"), LAWS)
+@each_case("body, words", LAWS)
 def test_a_law_of_a_robot(answer, body, words):
     made = "Robot(name='red', controller=go, sensors=[Proximity(range=1)])"
     told = answer(
@@ -261,7 +259,7 @@ def test_a_law_of_a_robot(answer, body, words):
     assert "red" in told or "walk.py, line " in told
 
 
-@pytest.mark.parametrize(("body", "words"), TEAMS)
+@each_case("body, words", TEAMS)
 def test_a_law_of_a_team(answer, body, words):
     told = answer(
         f"{HEAD}integral = 0\ndef control(world):\n{indented(body)}\n"
@@ -272,7 +270,7 @@ def test_a_law_of_a_team(answer, body, words):
     assert "(at 0 s)" in told
 
 
-@pytest.mark.parametrize(("line", "words"), COMMANDS)
+@each_case("line, words", COMMANDS)
 def test_a_command_line(answer, line, words):
     text = f"{HEAD}scenario = Scenario(robots=[Robot(name='red')], stop_time=0.3)\n"
     told = answer(text, *line.split())

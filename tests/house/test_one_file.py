@@ -19,6 +19,7 @@ from mars2d.core.description import number
 from mars2d.geometry import Disc
 from mars2d.scenario import save_scenario
 from mars2d.sensors import DISTANCE
+from tests.cases import each_case
 
 PACKAGE = Path(mars2d.__file__).parent
 ROOT = Path(__file__).parents[2]
@@ -221,7 +222,7 @@ def drive_off(world: World):
     return 0.5, 0.0
 
 
-@pytest.mark.parametrize("ending", ["npz", "csv"])
+@each_case("ending", ["npz", "csv"])
 def test_a_record_says_which_parts_of_ones_own_it_could_not_keep(towed, ending, tmp_path):
     loaded = mars2d.load(towed.save(tmp_path / f"run.{ending}"))
     assert loaded.digest == towed.digest
@@ -235,8 +236,8 @@ def test_parts_of_ones_own_are_drawn_and_replayed(towed, tmp_path):
     assert towed.save_html(tmp_path / "run.html").stat().st_size > 10_000
 
 
-@pytest.mark.parametrize(
-    ("made", "message"),
+@each_case(
+    "made, message",
     [
         (lambda apart: None, r"Cord.constraints\(\) = None: expected a list, such as"),
         (lambda apart: (1.0,), r"Cord.constraints\(\)\[0\] = 1.0: expected a Constraint"),

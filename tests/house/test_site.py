@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from mars2d.scenario.examples import examples
+from tests.cases import each_case
 from tests.processes import served
 
 ROOT = Path(__file__).parents[2]
@@ -30,7 +31,7 @@ def way(door):
     return [page, *((page.parent / each).resolve() for each in numbered)]
 
 
-@pytest.mark.parametrize(("door", "most"), DOORS.items())
+@each_case("door, most", DOORS.items())
 def test_the_way_through_a_door_is_short(door, most):
     pages = way(door)
     assert 3 <= len(pages) - 1 <= most

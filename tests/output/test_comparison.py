@@ -21,7 +21,7 @@ from mars2d.output.figures.comparison import (
 )
 from mars2d.output.films.footage import Footage
 from mars2d.output.films.triptych import Triptych, save_triptych
-from mars2d.record.record import COLUMNS
+from mars2d.record.rows import COLUMNS
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
 

@@ -20,12 +20,12 @@ from matplotlib.patches import Circle, Polygon
 import mars2d
 from mars2d import Animation, InputError, Record, Robot, Scenario
 from mars2d.addons import Map
+from mars2d.bodies.colors import NEUTRAL
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box, Puck
 from mars2d.core.scene import Scene
 from mars2d.output.figures.artists import paint
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_figure
-from mars2d.output.layers.bodies import NEUTRAL
 from mars2d.output.layers.forces import FORCE
 from mars2d.output.layers.table import Layers
 from mars2d.output.pages.replay import page

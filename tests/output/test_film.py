@@ -23,7 +23,7 @@ from mars2d.output.films.film import (
     size_of,
 )
 from mars2d.output.films.footage import Cut, Footage, shots
-from mars2d.record.record import COLUMNS
+from mars2d.record.rows import COLUMNS
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
 from tests.window.circling import Circling

@@ -15,7 +15,7 @@ from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.scene import Scene
 from mars2d.output.pages.replay import page, save_html
-from mars2d.record.record import COLUMNS
+from mars2d.record.rows import COLUMNS
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.sensors.base import Sensor
 

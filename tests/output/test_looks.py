@@ -8,22 +8,14 @@ import numpy as np
 import pytest
 
 from mars2d import Robot, Scenario, World
+from mars2d.bodies.colors import MATERIAL_COLORS, prop_colors
 from mars2d.bodies.joints import Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Box, Gate, Puck, Solid
 from mars2d.core.materials import MATERIALS
 from mars2d.core.scene import Circle, Line, Polygon, Scene
 from mars2d.geometry.shapes import Compound, Disc
 from mars2d.geometry.shapes import Polygon as Outline
-from mars2d.output.layers.bodies import (
-    MATERIAL_COLORS,
-    draw_prop,
-    draw_robot,
-    initial_poses,
-    joints,
-    prop_colors,
-    props,
-    robots,
-)
+from mars2d.output.layers.bodies import draw_prop, draw_robot, initial_poses, joints, props, robots
 from mars2d.output.layers.trails import trails
 
 ARROWHEAD = [(-0.2, -0.2), (0.3, 0.0), (-0.2, 0.2), (-0.1, 0.0)]

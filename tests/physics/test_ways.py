@@ -158,3 +158,40 @@ def test_on_ramps_works_are_the_kinetic_energy(drive, command):
     while not world.over:
         world.step(np.array([command]).T)
         assert world.energy.work.sum() == pytest.approx(world.energy.total, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.02, 0.005])
+@pytest.mark.parametrize("many", [1, 2, 3])  # one at a wall, two and three at each other
+def test_robots_whose_drivers_let_go_press_each_other_no_longer(many, sampling_time):
+    drives = [(0.5, 5.0), (0.0, 5.0), (-0.5, 5.0)]
+    pushing = np.zeros((2, many))
+    pushing[0, 0], pushing[0, -1] = 0.5, -0.5 if many > 1 else 0.5
+    robots = [
+        Robot(pose=(0.31 * k, 0, 0), drive=Unicycle(max_force=drives[k][1])) for k in range(many)
+    ]
+    wall = [(0.3, -1), (0.3, 1)] if many == 1 else [(-9, -1), (-9, 1)]
+    world = world_of(robots, addons=[Map(walls=[wall])], sampling_time=sampling_time, stop_time=9)
+    while world.time < 3:
+        world.step(pushing)
+    pressed = [row["impulse"] / sampling_time for row in world.contacts]
+    assert pressed == pytest.approx([5.0] * max(many - 1, 1), rel=1e-6)
+    places = world.pose.copy()
+    while world.time < 3.5:
+        world.step(0 * pushing)
+    world.step(0 * pushing)
+    assert [row["impulse"] for row in world.contacts if row["impulse"] > 1e-12] == []
+    assert np.abs(world.pose - places).max() < 1e-6
+
+
+def test_a_robot_that_is_still_pushed_when_its_driver_lets_go_holds_its_place():
+    robots = [Robot(), Robot(pose=(0.3, 0, 0), drive=Unicycle(max_force=4.0))]
+    world = world_of(robots, stop_time=10)
+    for _ in range(3):
+        world.step([[0.5, -0.5], [0, 0]])
+    for _ in range(20):
+        world.step([[0, -0.2], [0, 0]])
+    place = world.pose.copy()
+    while not world.over:
+        world.step([[0, -0.2], [0, 0]])
+    assert world.contacts[0]["impulse"] / 0.1 == pytest.approx(4, rel=1e-6)
+    assert np.abs(world.pose - place).max() < 1e-6

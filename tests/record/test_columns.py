@@ -11,6 +11,7 @@ import pytest
 from mars2d import Robot, Scenario, World
 from mars2d.record.columns import BLOCK, STEP, Column, DiskError, Scratch, Texts, blocks
 from mars2d.record.message import MESSAGE
+from tests.cases import each_case
 
 
 @pytest.fixture(params=["memory", "files"])
@@ -18,7 +19,7 @@ def storage(request, tmp_path):
     return Column if request.param == "memory" else Scratch(tmp_path)
 
 
-@pytest.mark.parametrize("shape", [(), (3, 7), (2, 0)])
+@each_case("shape", [(), (3, 7), (2, 0)])
 def test_a_column_holds_what_was_written(storage, shape) -> None:
     column = storage(shape, float, 10)
     values = np.random.default_rng(1).random((60_000, *shape))

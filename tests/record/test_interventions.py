@@ -12,6 +12,7 @@ from mars2d.record import interventions
 from mars2d.record.interventions import Change, Place, Pull, Steer
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 SCENARIO = Scenario(robots=[Robot(), Robot(pose=(2, 0, 0))])
 BLOCK = Map([[(1.0, 1.0), (1.5, 1.0), (1.5, 1.5)]], name="block")
@@ -25,7 +26,7 @@ EACH = [
 ]
 
 
-@pytest.mark.parametrize("intervention", EACH)
+@each_case("intervention", EACH)
 def test_each_is_the_same_after_a_way_through_json(intervention):
     text = json.dumps(interventions.to_plain(intervention), allow_nan=False)
     assert interventions.of_plain(json.loads(text)) == intervention

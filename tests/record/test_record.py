@@ -17,10 +17,11 @@ from mars2d.bodies.rigid import Inertia
 from mars2d.cli.command_line import main
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.record.contact import CONTACT
-from mars2d.record.record import COLUMNS
+from mars2d.record.rows import COLUMNS
 from mars2d.scenario import serialize
 from mars2d.sensors import Proximity
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.worlds import ELL, without_laws
 
 
@@ -99,7 +100,7 @@ def test_contacts_belong_to_the_interval_before_their_row(record):
     assert record.collisions == int(record.contacts["began"].sum()) >= 1
 
 
-@pytest.mark.parametrize(("stop_time", "rows"), [(0, 1), (0.05, 1), (0.1, 2), (0.3, 4), (5, 51)])
+@each_case(("stop_time", "rows"), [(0, 1), (0.05, 1), (0.1, 2), (0.3, 4), (5, 51)])
 def test_a_record_has_a_row_for_every_sampling_time_up_to_the_stop_time(stop_time, rows):
     assert len(mars2d.run(Scenario(stop_time=stop_time))) == rows
 
@@ -156,7 +157,7 @@ def _with(record: Record, **changes) -> Record:
 # -- frames ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("row", "same"), [(0, 0), (7, 7), (-1, 20), (-21, 0)])
+@each_case(("row", "same"), [(0, 0), (7, 7), (-1, 20), (-21, 0)])
 def test_a_frame_is_what_was_seen_at_a_row(record, row, same):
     frame = record.frame(row)
     assert frame.iteration == same
@@ -169,7 +170,7 @@ def test_a_frame_is_what_was_seen_at_a_row(record, row, same):
     assert bool(frame.over_message) is (same == 20)
 
 
-@pytest.mark.parametrize("row", [21, -22, 10**6])
+@each_case("row", [21, -22, 10**6])
 def test_there_is_no_frame_beyond_the_end(record, row):
     with pytest.raises(IndexError):
         record.frame(row)
@@ -200,7 +201,7 @@ def test_a_frame_has_the_contacts_of_the_control_step_that_led_to_its_row():
         assert len(frame.contact_log()) == sum(map(len, live[: row + 1]))
 
 
-@pytest.mark.parametrize("sampling_time", [0.01, 0.1, 0.3, 1 / 3, 1e-6])
+@each_case("sampling_time", [0.01, 0.1, 0.3, 1 / 3, 1e-6])
 def test_a_contact_at_the_very_end_of_a_control_step_belongs_to_it(sampling_time):
     robots = [Robot(), Robot(pose=(0.2999, 0, np.pi))]  # in touch from the start
     stop_time = 100 * sampling_time
@@ -258,9 +259,9 @@ def test_the_record_so_far_of_a_world_can_be_saved(tmp_path):
     assert len(mars2d.load(world.record.save(tmp_path / "one.npz"))) == 1
 
 
-@pytest.mark.parametrize("name", ["run", "run.npy", "run.mat.txt", "run.pkl"])
+@each_case("name", ["run", "run.npy", "run.mat.txt", "run.pkl"])
 def test_a_records_name_says_its_format(record, tmp_path, name):
-    with pytest.raises(InputError, match=r"a name that ends in .npz, .mat, .csv, .nc or .mcap"):
+    with pytest.raises(InputError, match=r"a name that ends in .npz, .csv, .mcap, .mat or .nc"):
         record.save(tmp_path / name)
     assert not (tmp_path / name).exists()
 
@@ -312,7 +313,7 @@ def in_json(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
     return serialize.to_scenario(json.loads(json.dumps(serialize.from_description(scenario))))
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@each_case("physics", ["contact", "stop", "ideal"])
 def test_props_joints_shapes_and_materials_come_back_from_a_file(physics):
     scenario = workshop(physics=physics)
     again, missing = in_json(scenario)
@@ -324,7 +325,7 @@ def test_props_joints_shapes_and_materials_come_back_from_a_file(physics):
     ]
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@each_case("physics", ["contact", "stop", "ideal"])
 def test_a_record_with_props_and_joints_runs_again_to_the_last_bit(physics, tmp_path):
     record = mars2d.run(workshop(physics=physics), seed=3)
     assert not np.array_equal(record.prop_pose[0], record.prop_pose[-1])
@@ -340,7 +341,7 @@ def test_check_says_that_a_record_with_props_and_joints_is_bit_identical(tmp_pat
     assert "run again   from its recorded commands: bit-identical" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("column", ["prop_pose", "effort"])
+@each_case("column", ["prop_pose", "effort"])
 def test_a_record_whose_props_or_efforts_were_others_departs(column):
     record = mars2d.run(workshop())
     values = getattr(record, column).copy()
@@ -405,7 +406,7 @@ def test_for_a_prop_of_the_users_own_a_solid_stands_in_that_moves_alike(tmp_path
     assert rerun(again) is None
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "missing"),
     [
         ({"props": [Trap(pose=(1, 0))]}, ("prop Trap", "joint Rope of Trap")),

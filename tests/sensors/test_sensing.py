@@ -21,6 +21,7 @@ from mars2d.sensors import (
     Sensor,
     SonarRing,
 )
+from tests.cases import each_case
 
 MANY = 40_000
 
@@ -82,7 +83,7 @@ def test_without_imperfections_a_reading_is_what_was_read():
     assert np.array_equal(measured(RangeBearings(count=2)), [(1, 0.5)] * 2)
 
 
-@pytest.mark.parametrize("kind", [Constant, Distances, Angles, Colors])
+@each_case("kind", [Constant, Distances, Angles, Colors])
 def test_noise_is_normal_with_the_given_deviation(kind):
     values = measured(kind(noise=0.05, value=0.5)) - 0.5
     assert abs(values.mean()) < 4 * 0.05 / np.sqrt(MANY)
@@ -225,9 +226,7 @@ def test_a_slower_sensor_holds_its_reading():
     assert record.sensors["clock"][:, 0] == pytest.approx([0, 0, 0.2, 0.2, 0.4, 0.4])
 
 
-@pytest.mark.parametrize(
-    ("latency", "steps"), [(0.1, 1), (0.2, 2), (0.3, 3), (0.05, 1), (0.15, 2), (0.201, 3)]
-)
+@each_case(("latency", "steps"), [(0.1, 1), (0.2, 2), (0.3, 3), (0.05, 1), (0.15, 2), (0.201, 3)])
 def test_a_reading_arrives_at_the_first_control_step_after_its_latency(latency, steps):
     seen = times(Clock(latency=latency))
     assert np.isnan(seen[:steps]).all()
@@ -326,7 +325,7 @@ def test_a_sensor_measures_from_its_mount():
 # -- bad input -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("make", "message"),
     [
         (lambda: RangeFinder(beams=0), r"RangeFinder.beams = 0: expected a whole number from 1"),
@@ -367,14 +366,14 @@ def test_outliers_of_a_distance_need_a_range():
         Tape(outliers=0.1)
 
 
-@pytest.mark.parametrize("rate", [3, 7, 20, 10.5])
+@each_case("rate", [3, 7, 20, 10.5])
 def test_a_rate_divides_the_sampling_rate(rate):
     robot = Robot(sensors=[RangeFinder(rate=rate)], name="scout")
     with pytest.raises(InputError, match=rf"RangeFinder of scout: rate = {rate:g} Hz: .*10 Hz"):
         Scenario(robots=[robot], sampling_time=0.1)
 
 
-@pytest.mark.parametrize("rate", [10, 5, 2.5, 10 / 3, 1, 0.1])
+@each_case("rate", [10, 5, 2.5, 10 / 3, 1, 0.1])
 def test_a_rate_that_divides_the_sampling_rate_is_accepted(rate):
     sensor = RangeFinder(rate=rate)
     Scenario(robots=[Robot(sensors=[sensor])], sampling_time=0.1)
@@ -387,7 +386,7 @@ def test_a_latency_of_very_many_steps_is_refused():
         Scenario(robots=[robot], sampling_time=1e-3, stop_time=1)
 
 
-@pytest.mark.parametrize("kind", ["ditsance", "Distance", "", None, ["angle"]])
+@each_case("kind", ["ditsance", "Distance", "", None, ["angle"]])
 def test_a_quantity_of_a_misspelt_kind_is_refused(kind):
     with pytest.raises(InputError, match=r"^Quantity.kind of gap = .*: expected one of 'distance'"):
         Quantity("gap", "m", kind)
@@ -406,7 +405,7 @@ def test_a_reading_without_its_quantities_is_refused():
         measured(Flat(noise=0.1))
 
 
-@pytest.mark.parametrize("given", [(), DISTANCE, [DISTANCE], ("m",), (DISTANCE, "rad"), None])
+@each_case("given", [(), DISTANCE, [DISTANCE], ("m",), (DISTANCE, "rad"), None])
 def test_quantities_that_are_no_tuple_of_quantities_are_refused(given):
     class Vague(Sensor):
         quantities: ClassVar = given
@@ -434,16 +433,16 @@ class Three(Sensor):
         return 3
 
 
-@pytest.mark.parametrize("kind", [Pairs, Three])
-@pytest.mark.parametrize("faults", [{"latency": 0.2}, {"dropouts": 1.0}])
+@each_case("kind", [Pairs, Three])
+@each_case("faults", [{"latency": 0.2}, {"dropouts": 1.0}])
 def test_whole_numbers_that_are_lost_or_late_read_nan(kind, faults):
     sensor = kind(**faults)
     record = mars2d.run(Scenario(robots=[Robot(sensors=[sensor])], stop_time=0.1))
     assert np.isnan(record.sensors[sensor.key]).all()
 
 
-@pytest.mark.parametrize("faults", [{}, {"latency": 0.2}, {"dropouts": 0.5}, {"noise": 0.1}])
-@pytest.mark.parametrize("reading", [[[1], [2, 3]], "near", None])
+@each_case("faults", [{}, {"latency": 0.2}, {"dropouts": 0.5}, {"noise": 0.1}])
+@each_case("reading", [[[1], [2, 3]], "near", None])
 def test_what_is_no_reading_is_a_named_error_whatever_is_done_to_it(faults, reading):
     class Odd(Sensor):
         def read(self, robot, world, rng):
@@ -498,7 +497,7 @@ def test_a_pixel_is_lost_and_struck_as_a_whole():
     assert struck.any(axis=1).mean() == pytest.approx(0.3, abs=0.02)
 
 
-@pytest.mark.parametrize("rate", [1e-310, 5e-324, 1e-5])
+@each_case("rate", [1e-310, 5e-324, 1e-5])
 def test_a_rate_of_next_to_nothing_is_refused(rate):
     with pytest.raises(
         InputError, match=r"Proximity of robot0: rate = .*one measurement in at most"
@@ -506,14 +505,14 @@ def test_a_rate_of_next_to_nothing_is_refused(rate):
         Scenario(robots=[Robot(sensors=[Proximity(range=1, rate=rate)])])
 
 
-@pytest.mark.parametrize("field", ["noise", "resolution"])
-@pytest.mark.parametrize("value", [1e308, 1e-320, (0.1, 1e300)])
+@each_case("field", ["noise", "resolution"])
+@each_case("value", [1e308, 1e-320, (0.1, 1e300)])
 def test_noise_and_resolution_are_numbers_that_can_be_reckoned_with(field, value):
     with pytest.raises(InputError, match=rf"{field}.* = .*expected a .*: 0, or from 1e-12 to 1e6"):
         RangeFinder(**{field: value})
 
 
-@pytest.mark.parametrize("name", ["_due", "__class__", "class", "_expect", "two words"])
+@each_case("name", ["_due", "__class__", "class", "_expect", "two words"])
 def test_a_sensor_can_not_have_a_name_that_no_law_could_write(name):
     with pytest.raises(InputError, match=r"Proximity\.name = "):
         Proximity(range=1, name=name)
@@ -680,7 +679,7 @@ def test_sensors_that_differ_are_recorded_in_the_order_of_their_robots():
     assert (row[[1, 3]] > 1.5).any()
 
 
-@pytest.mark.parametrize(
+@each_case(
     "fields",
     [
         {},
@@ -767,7 +766,7 @@ def test_who_reads_in_another_way_is_asked_one_by_one():
         assert np.array_equal(robot.sense.nodding, plain + 0.1 * robot.index)
 
 
-@pytest.mark.parametrize(
+@each_case(
     "faults",
     [
         {},
@@ -779,7 +778,7 @@ def test_who_reads_in_another_way_is_asked_one_by_one():
         {"rate": 5, "recorded": False, "noise": 0.02},
     ],
 )
-@pytest.mark.parametrize("kind", [RangeFinder, SonarRing, LineCamera])
+@each_case("kind", [RangeFinder, SonarRing, LineCamera])
 def test_a_robot_reads_the_same_bits_whatever_others_carry(kind, faults):
     """Also noise: each has a random stream of its own."""
     sensor = kind(**{"range": 2.5} | faults)
@@ -813,7 +812,7 @@ def test_the_readings_of_a_team_can_not_be_written():
     assert not np.array_equal(world.robots[1].sense.range_finder, kept)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("kind", "fields"),
     [
         (RangeBearing, {"range": 2.5, "mount": (0.1, 0.0, 0.5), "noise": (0.1, 0.02)}),
@@ -825,7 +824,7 @@ def test_the_readings_of_a_team_can_not_be_written():
         (LineCamera, {"pixels": 5, "noise": 0.1}),
     ],
 )
-@pytest.mark.parametrize("errors", [{}, {"outliers": 0.2, "dropouts": 0.2, "resolution": 0.01}])
+@each_case("errors", [{}, {"outliers": 0.2, "dropouts": 0.2, "resolution": 0.01}])
 def test_with_a_team_a_sensor_reads_what_it_reads_alone_to_the_last_bit(kind, fields, errors):
     class Alone(kind):
         """It does not say itself how many are read at once."""

@@ -14,6 +14,7 @@ import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.sensors import Ground, Proximity, Sensor
+from tests.cases import each_case
 
 
 def reading(sensor: Sensor, robots: list[Robot], outlines=(), pose=(0, 0, 0)):
@@ -70,7 +71,7 @@ def test_proximity_says_whether_a_surface_lies_in_the_sector(discs, walls, headi
     assert found is expected
 
 
-@pytest.mark.parametrize("angle", [2 * np.pi, np.pi, 0.5])
+@each_case("angle", [2 * np.pi, np.pi, 0.5])
 def test_proximity_never_sees_its_own_robot(angle):
     for offset in (0.0, 0.4):
         sensor = Proximity(range=5, field_of_view=angle)
@@ -98,8 +99,8 @@ def test_what_stands_behind_is_not_seen_but_by_an_all_round_view():
     assert reading(Proximity(range=1), behind) is True
 
 
-@pytest.mark.parametrize("angle", [0.3, 1.5, np.pi, 4.5, 6.1])
-@pytest.mark.parametrize("side", [-1, 1])
+@each_case("angle", [0.3, 1.5, np.pi, 4.5, 6.1])
+@each_case("side", [-1, 1])
 def test_the_field_of_view_ends_half_its_angle_to_either_side(angle, side):
     def sees(bearing: float) -> bool:
         pose = (0.9 * np.cos(0.7 + bearing), 0.9 * np.sin(0.7 + bearing), 0)
@@ -110,7 +111,7 @@ def test_the_field_of_view_ends_half_its_angle_to_either_side(angle, side):
     assert not sees(side * (angle / 2 + 0.005))
 
 
-@pytest.mark.parametrize("side", [1, -1])
+@each_case("side", [1, -1])
 def test_a_long_wall_whose_nearest_point_is_out_of_view_is_seen_where_it_enters(side):
     wall = [[(-0.2, 0.3 * side), (5, 0.3 * side)]]  # its nearest point is straight to one side
     assert reading(Proximity(range=1, field_of_view=1.0), [], wall) is True
@@ -171,7 +172,7 @@ def test_noise_comes_from_the_sensors_own_stream():
     assert not np.isin(heard([], seed=1)["compass"][:, 0], alone).any()
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("value", "shape"),
     [(1.5, (3, 1)), (True, (3, 1)), (np.float32(2), (3, 1)), ([1, 2], (3, 1, 2)),
      (np.zeros((4, 2)), (3, 1, 4, 2)), (np.bool_(True), (3, 1)), (float("nan"), (3, 1))],
@@ -188,7 +189,7 @@ def test_a_reading_is_a_number_a_truth_value_or_an_array(value, shape):
     assert np.array_equal(column[-1, 0], np.asarray(value), equal_nan=True)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("first", "second"),
     [
         (np.zeros(3), np.zeros(4)),
@@ -215,7 +216,7 @@ def test_the_shape_and_kind_of_a_reading_cannot_change(first, second):
     assert len(raised.value.record) == 2
 
 
-@pytest.mark.parametrize("value", ["near", None, 1j, object(), [[1, 2], [3]], {"a": 1}, ["x"]])
+@each_case("value", ["near", None, 1j, object(), [[1, 2], [3]], {"a": 1}, ["x"]])
 def test_anything_else_is_no_reading(value):
     class Probe(Sensor):
         def read(self, robot, world, rng):
@@ -267,7 +268,7 @@ def test_a_sensor_without_read_says_what_is_missing():
         mars2d.run(Scenario(robots=[Robot(sensors=[Empty()])]))
 
 
-@pytest.mark.parametrize("name", ["a b", "1st", "x-y", "x."])
+@each_case("name", ["a b", "1st", "x-y", "x."])
 def test_a_sensors_name_can_follow_a_dot(name):
     with pytest.raises(InputError, match=r"Compass.name"):
         Compass(name=name)
@@ -307,7 +308,7 @@ class Carpet(mars2d.Addon):
         return self.color
 
 
-@pytest.mark.parametrize("color", [(0, 0, 0), (1, 1, 1), (0, 0.5, 1)])
+@each_case("color", [(0, 0, 0), (1, 1, 1), (0, 0.5, 1)])
 def test_a_floor_may_be_black_and_white_and_all_between(color):
     scenario = Scenario(robots=[Robot(sensors=[Ground()])], addons=[Carpet(color=color)])
     world = World(scenario)
@@ -315,7 +316,7 @@ def test_a_floor_may_be_black_and_white_and_all_between(color):
     assert world.robots[0].sense.ground.tolist() == list(color)
 
 
-@pytest.mark.parametrize("color", [(0, 0, 1.01), (-0.01, 0, 0), (0.5,), 0.5, "red"])
+@each_case("color", [(0, 0, 1.01), (-0.01, 0, 0), (0.5,), 0.5, "red"])
 def test_what_is_no_colour_of_a_floor_is_said_with_its_place(color):
     robot = Robot(pose=(1, 2, 0), sensors=[Ground()])
     world = World(Scenario(robots=[robot], addons=[Carpet(color=color)]))

@@ -20,6 +20,7 @@ from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.geometry.bearings import hold_missing, sighted
 from mars2d.output.layers.addons import addons as drawn_by_addons
 from mars2d.sensors import RangeBearing
+from tests.cases import each_case
 
 
 def world_of(sensor, others=(), outlines=(), pose=(0, 0, 0), extra=(), props=(), seed=0):
@@ -61,8 +62,8 @@ def all_sighted(pose, points, reach, field_of_view):
     return found
 
 
-@pytest.mark.parametrize("field_of_view", [2 * pi, 2.0])
-@pytest.mark.parametrize("reach", [0.3, 2.0, 1e6])
+@each_case("field_of_view", [2 * pi, 2.0])
+@each_case("reach", [0.3, 2.0, 1e6])
 def test_what_is_sighted_is_the_same_to_the_last_bit_however_many_are_far_off(reach, field_of_view):
     rng = np.random.default_rng(4)
     points = np.vstack([rng.uniform(-5, 5, (200, 2)), np.round(rng.uniform(-3, 3, (100, 2)), 1)])
@@ -121,8 +122,8 @@ def test_who_is_further_than_the_range_is_not_seen():
     assert seen(RangeBearing(range=1.999), [(2, 0, 0)]) == ()
 
 
-@pytest.mark.parametrize("side", [-1, 1])
-@pytest.mark.parametrize("angle", [0.2, 2.0, pi, 6.0])
+@each_case("side", [-1, 1])
+@each_case("angle", [0.2, 2.0, pi, 6.0])
 def test_the_field_of_view_ends_half_its_angle_to_either_side(angle, side):
     def sees(bearing):
         there = (2 * np.cos(1.1 + bearing), 2 * np.sin(1.1 + bearing), 0)
@@ -140,7 +141,7 @@ def test_the_mount_is_where_it_looks_from():
     assert bearing == pytest.approx(atan2(1.5, 0.1) - pi)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("what", "hides"),
     [
         ({"outlines": [[(1, -1), (1, 1)]]}, True),
@@ -300,7 +301,7 @@ def test_a_beacon_asked_for_as_an_attribute_is_told_to_be_asked_for_by_name():
     assert copy.deepcopy(found) == found
 
 
-@pytest.mark.parametrize("names", [[3], ["sun", 3], [None, "sun"]])
+@each_case("names", [[3], ["sun", 3], [None, "sun"]])
 def test_beacons_of_an_own_addon_must_have_texts_as_names(names):
     class Stars(mars2d.Addon):
         def beacons(self):
@@ -310,7 +311,7 @@ def test_beacons_of_an_own_addon_must_have_texts_as_names(names):
         seen(sensors.Beacon(), extra=[Stars()])
 
 
-@pytest.mark.parametrize("place", [3, (1, 2, 3), ("a", "b"), None, "12", (nan, 0), (0, inf)])
+@each_case("place", [3, (1, 2, 3), ("a", "b"), None, "12", (nan, 0), (0, inf)])
 def test_beacons_of_an_own_addon_must_be_points(place):
     class Stars(mars2d.Addon):
         def beacons(self):
@@ -347,7 +348,7 @@ def test_a_beacon_that_goes_out_is_not_seen_any_more():
     assert record.sensors["beacon"][:, 0, 0, 0].tolist() == [1, 1, 1, inf, inf]
 
 
-@pytest.mark.parametrize("names", ["lamp", [], [3], ["a", "a"]])
+@each_case("names", ["lamp", [], [3], ["a", "a"]])
 def test_names_are_a_list_of_different_texts(names):
     words = r"stands there twice|expected a list of beacons' names, such as \['lamp'\], or None"
     with pytest.raises(InputError, match=rf"Beacon\.names.*: .*({words})$"):
@@ -480,7 +481,7 @@ def test_beacons_are_in_nobodys_way():
     assert world.pose[0, 0] == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "message"),
     [
         ({}, "expected where it stands"),

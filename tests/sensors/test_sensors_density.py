@@ -13,6 +13,7 @@ import pytest
 import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.sensors import NUMBER, Imu, Odometry, Pose, Quantity, RangeFinder, Sensor
+from tests.cases import each_case
 
 N = 150
 SECONDS = 10.0
@@ -63,7 +64,7 @@ def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every
     assert largest < 4 / sqrt(N)
 
 
-@pytest.mark.parametrize("every", [1, 4])
+@each_case("every", [1, 4])
 def test_one_reading_is_the_noisier_the_shorter_its_time(every):
     robot = Robot(sensors=[Imu(noise=0.02, rate=25 / every)])
     found = mars2d.run(Scenario(robots=[robot], sampling_time=0.04, stop_time=160)).sensors["imu"]
@@ -78,7 +79,7 @@ def test_the_bias_walks_alike_at_any_sampling_time(sampling_time):
         spread(world.record.sensors["imu"][-1, :, k], density * sqrt(world.time))
 
 
-@pytest.mark.parametrize("every", [1, 3, 7])
+@each_case("every", [1, 3, 7])
 def test_at_a_low_rate_a_gyroscope_misses_no_turn(every):
     """A reading is the mean over the time since the one before; so they sum up to the heading."""
     robot = Robot(pose=(0, 0, 0.4), sensors=[Imu(rate=10 / every)])
@@ -169,12 +170,11 @@ def test_odometry_follows_a_noisy_drive_at_any_sampling_time(sampling_time):
 # -- one draw for each reading -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("sampling_time", [0.4, 0.1, 0.013])
-@pytest.mark.parametrize(
+@each_case("sampling_time", [0.4, 0.013])
+@each_case(
     ("sensor", "noise"),
     [(RangeFinder(beams=3, range=9, noise=0.03), 0.03), (Pose(noise=0.2), 0.2),
      (Odometry(noise=0.1), 0.1)],
-    ids=lambda value: getattr(value, "key", ""),
 )  # fmt: skip
 def test_the_noise_of_a_reading_is_the_same_at_any_sampling_time(sensor, noise, sampling_time):
     walls = [(-2, -2), (-2, 2), (2, 2), (2, -2)]

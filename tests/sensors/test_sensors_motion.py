@@ -11,8 +11,9 @@ import mars2d
 from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.core.scene import Arrow, Line, Scene
+from mars2d.geometry.dead_reckoning import odometry_covariance
 from mars2d.sensors import Imu, Odometry, Pose
-from mars2d.sensors.odometry import odometry_covariance
+from tests.cases import each_case
 
 
 def followed(robot, commands, **scenario):
@@ -65,9 +66,9 @@ DRIVES = {
 }
 
 
-@pytest.mark.parametrize("delay", [0.0, 0.03, 0.25])
-@pytest.mark.parametrize("sampling_time", [0.02, 0.1, 1.0])
-@pytest.mark.parametrize("drive", list(DRIVES))
+@each_case("delay", [0.0, 0.03, 0.25])
+@each_case("sampling_time", [0.02, 0.1, 1.0])
+@each_case("drive", list(DRIVES))
 def test_perfect_odometry_is_the_truth_in_free_motion(drive, sampling_time, delay):
     kind, most = DRIVES[drive]
     commands = np.random.default_rng(3).uniform(-0.3, 1, (60, 2)) * most
@@ -238,7 +239,7 @@ def test_the_predicted_covariance_is_the_first_order_of_the_model():
         assert agree(moved, odometry_covariance(before, theta, left, right, b, drift))
 
 
-@pytest.mark.parametrize("drive", [Car(), Holonomic()])
+@each_case("drive", [Car(), Holonomic()])
 def test_other_drives_drift_by_three_wheels_that_only_measure(drive):
     command = (0.4, 0.3) if isinstance(drive, Car) else (0.3, 0.2)
     found, truth = estimates([command] * 30, 0.01, drive)
@@ -271,7 +272,7 @@ def test_each_robot_and_each_seed_drifts_in_its_own_way():
     assert not np.array_equal(run(0)[0], run(0)[1])
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "message"),
     [
         ({"wheel_scale": 1.01}, r"Odometry.wheel_scale = 1.01: expected two scales"),
@@ -293,7 +294,7 @@ def test_odometry_that_can_not_be_is_an_error(fields, message):
 # -- inertial measurements ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("scales", [(0, 1), (1, 0), (10.1, 1), (1, 10.1), (-1, 1)])
+@each_case("scales", [(0, 1), (1, 0), (10.1, 1), (1, 10.1), (-1, 1)])
 def test_a_wheel_has_a_size(scales):
     assert Odometry(wheel_scale=(10, 1e-3)).wheel_scale == (10, 1e-3)
     with pytest.raises(InputError, match=r"Odometry.wheel_scale = .*: expected two scales"):
@@ -307,7 +308,7 @@ def test_on_a_circle_it_feels_the_centripetal_acceleration():
         assert world.robots[0].sense.imu == pytest.approx([0, 0.32, 0.8], abs=1e-9)
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_without_forces_it_measures_the_same(physics):
     sensors = [Imu(mount=(0.1, 0, 0)), Odometry(origin="world")]
     world = followed(Robot(sensors=sensors), [(0.4, 0.8)] * 5, physics=physics)
@@ -340,7 +341,7 @@ def test_a_collision_is_felt_as_a_blow():
     assert (felt < -0.4).sum() <= 2
 
 
-@pytest.mark.parametrize("mount", [(0.2, 0, 0), (0, 0.3, 0), (-0.1, 0.2, 0.7)])
+@each_case("mount", [(0.2, 0, 0), (0, 0.3, 0), (-0.1, 0.2, 0.7)])
 def test_off_the_centre_it_feels_the_turning(mount):
     spin, before = 1.5, 0.5
     world = followed(Robot(sensors=[Imu(mount=mount)]), [(0, before), (0, spin), (0, spin)])
@@ -387,7 +388,7 @@ def test_the_bias_is_constant_and_its_walk_grows_with_the_root_of_time():
     assert found[-1].mean(axis=0) == pytest.approx([0.1, -0.2, 0.3], abs=0.02)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("fields", "message"),
     [
         ({"bias": 0.1}, r"Imu.bias = 0.1: expected three numbers"),

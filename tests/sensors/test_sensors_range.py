@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from math import cos, isfinite, sin
 
 import numpy as np
-import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Beacon, Map
 from mars2d.scenario.neighbours import Within
 from mars2d.sensors import Beacon as Lookout
 from mars2d.sensors import LineCamera, Proximity, RangeBearing, RangeFinder, SonarRing
+from tests.cases import each_case
 
 BEYOND = 1 + 1e-6
 TURNS = (0.0, 0.3, 1.1, 2.0, -2.7)
@@ -32,8 +32,8 @@ def readings(turn: float, sensors: list, addon, others=()) -> Iterator[tuple[str
         yield name, float(values.ravel()[-2 if name == "range_bearing" else 0])
 
 
-@pytest.mark.parametrize("reach", [0.3, 0.5, 1.0, 2.0, 3.0])
-@pytest.mark.parametrize("turn", TURNS)
+@each_case("reach", [0.3, 0.5, 1.0, 2.0, 3.0])
+@each_case("turn", TURNS)
 def test_all_sensors_see_what_is_exactly_at_their_range_and_nothing_beyond(reach, turn):
     rays = RangeFinder(beams=1, range=reach), LineCamera(pixels=1, range=reach)
     whole, part = Proximity(range=reach, name="whole"), Proximity(range=reach, field_of_view=1.0)
@@ -53,9 +53,9 @@ def test_all_sensors_see_what_is_exactly_at_their_range_and_nothing_beyond(reach
         assert len(pairs[0]) == (not far)
 
 
-@pytest.mark.parametrize("view", [0.2, 1.0, 2.5])
-@pytest.mark.parametrize("turn", TURNS)
-@pytest.mark.parametrize("side", [-1, 1])
+@each_case("view", [0.2, 1.0, 2.5])
+@each_case("turn", TURNS)
+@each_case("side", [-1, 1])
 def test_all_sensors_see_what_is_exactly_at_the_edge_of_their_view_and_nothing_beyond(
     view, turn, side
 ):

@@ -17,6 +17,7 @@ from mars2d.bodies.props import Box
 from mars2d.core.scene import Line, Polygon, Scene
 from mars2d.geometry.shapes import Polygon as PolygonShape
 from mars2d.sensors import Bumper, LineCamera, Proximity, RangeFinder, Sensor, SonarRing
+from tests.cases import each_case
 
 
 def world_with(sensor: Sensor, robots=(), outlines=(), pose=(0, 0, 0), **fields) -> World:
@@ -41,7 +42,7 @@ def drawn(sensor: Sensor, value, pose=(0.0, 0.0, 0.0)) -> list:
 # -- how beams lie --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("make", "count"),
     [
         (lambda n, view: RangeFinder(beams=n, field_of_view=view), 5),
@@ -159,7 +160,7 @@ def test_a_sonar_measures_obliquely_to_a_wall_at_the_edge_of_its_cone():
     assert found[1] == inf
 
 
-@pytest.mark.parametrize("where", [(1.0, 0.0), (1.1, 0.05), (0.85, 0.0)])
+@each_case("where", [(1.0, 0.0), (1.1, 0.05), (0.85, 0.0)])
 def test_a_sonar_inside_or_at_the_edge_of_another_body_reads_zero(where):
     box = PolygonShape([(-0.15, -0.15), (0.15, -0.15), (0.15, 0.15), (-0.15, 0.15)])
     sensor = SonarRing(sonars=3, mount=(*where, 0))
@@ -192,8 +193,8 @@ def bumps(direction: float, heading: float = 0.0, steps: int = 30, **fields):
     return world
 
 
-@pytest.mark.parametrize("heading", [0.0, 0.7, -2.0, 40.0])
-@pytest.mark.parametrize(
+@each_case("heading", [0.0, 0.7, -2.0, 40.0])
+@each_case(
     ("bearing", "sector"), [(pi, 0), (-2.5, 0), (2.5, 0), (-1.5, 1), (0.0, 2), (0.7, 2), (1.2, 3)]
 )
 def test_a_bumper_tells_on_which_side_the_robot_is_touched(heading, bearing, sector):
@@ -236,7 +237,7 @@ class Touched:
         return bumper.read(self, Now, None).tolist()
 
 
-@pytest.mark.parametrize(("bearing", "sector"), [(1.0, 1), (-1.0, 0)])
+@each_case(("bearing", "sector"), [(1.0, 1), (-1.0, 0)])
 def test_a_bumper_feels_a_touch_at_the_very_end_of_its_field_of_view(bearing, sector):
     for factor, felt in ((1, True), (1 + 5e-10, True), (1 + 1e-6, False)):  # the second: rounding
         touched = Touched([cos(factor * bearing + 0.5), sin(factor * bearing + 0.5)])
@@ -244,7 +245,7 @@ def test_a_bumper_feels_a_touch_at_the_very_end_of_its_field_of_view(bearing, se
         assert touched.felt(sectors=2, field_of_view=2.0) == expected
 
 
-@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+@each_case("share", [0.1, 0.5, 0.9])
 def test_a_bumper_feels_a_touch_where_the_robot_was_then(share):
     for bearing, sector in ((0.01, 1), (-0.01, 0)):
         angle = 0.5 * share + bearing
@@ -343,7 +344,7 @@ def test_no_reading_breaks_the_picture_of_a_camera():
 EVERY = [Proximity(range=1), RangeFinder(), SonarRing(), Bumper(), LineCamera()]
 
 
-@pytest.mark.parametrize("sensor", EVERY, ids=lambda sensor: sensor.key)
+@each_case("sensor", EVERY)
 def test_drawing_is_light_and_follows_the_mount(sensor):
     value = reading(sensor, [Robot(pose=(0.8, 0, 0))])
     assert len(drawn(sensor, value)) < 20
@@ -354,7 +355,7 @@ def test_drawing_is_light_and_follows_the_mount(sensor):
         assert np.allclose(*points)
 
 
-@pytest.mark.parametrize("sensor", EVERY, ids=lambda sensor: sensor.key)
+@each_case("sensor", EVERY)
 def test_what_was_lost_can_be_drawn(sensor):
     value = reading(sensor.replace(dropouts=1.0))
     assert len(drawn(sensor, value)) < 20

@@ -21,7 +21,9 @@ from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.core.extras import pip_line
 from mars2d.scenario.examples import examples
 from mars2d.study import cluster as clusters
-from mars2d.study.work import Failure, cluster, each_done
+from mars2d.study.cluster import cluster
+from mars2d.study.work import each_done
+from mars2d.study.workers import Failure
 
 pytest.importorskip("distributed")
 

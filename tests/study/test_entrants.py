@@ -8,6 +8,7 @@ import pytest
 
 from mars2d.core.errors import InputError
 from mars2d.study.tournament.schedule import entrants, law_code, law_files, names_of
+from tests.cases import each_case
 
 ROLES = ("pursuer", "evader")
 
@@ -22,7 +23,7 @@ def laws(tmp_path, monkeypatch) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize("named", ["hunters", "hunters/", "hunters/*.py", "hunters/[ab].py"])
+@each_case("named", ["hunters", "hunters/", "hunters/*.py", "hunters/[ab].py"])
 def test_a_folder_and_a_pattern_stand_for_their_laws_in_order(laws, named):
     assert law_files(named) == (laws / "hunters/a.py", laws / "hunters/b.py")
 
@@ -44,8 +45,8 @@ def test_laws_beside_the_experiment_come_first_then_those_in_the_current_folder(
     assert law_files("hunters/a.py", elsewhere) == (laws / "hunters/a.py",)
 
 
-@pytest.mark.parametrize(
-    ("named", "message"),
+@each_case(
+    "named, message",
     [
         ("hunter", "hunter: no such file; .* did you mean 'hunters'?"),
         ("hunters/c.py", "hunters/c.py: no such file; .*"),

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import os
-import signal
-import socket
 import subprocess
 import sys
 import threading
@@ -26,6 +24,7 @@ from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
 from mars2d.study.isolation import Guard, Limits, Verdict, fork_server
 from mars2d.world.loop import simulate
 from mars2d.world.world import World
+from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
 from tests.worlds import untimed
 
@@ -173,7 +172,7 @@ MATCHES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("match", MATCHES)
+@each_case("match", MATCHES)
 def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path) -> None:
     make, roles, *texts = MATCHES[match]
     files = [law(tmp_path, text, f"law{k}.py") for k, text in enumerate(texts)]
@@ -225,8 +224,8 @@ def control(robot):
 # -- what a law may see --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("sees", "expression", "words"),
+@each_case(
+    "sees, expression, words",
     [
         ("positions", "robot.neighbours[0].pose", "sees positions only: a neighbour's pose"),
         ("positions", "robot.world", "sees itself and its neighbours' positions only"),
@@ -285,16 +284,7 @@ def control(robot):
 
 FOREVER = "import time\ndef control(robot):\n    robot.memory.x = 1\n    {}\n    return 0, 0\n"
 
-FORGING = """import gc, threading
-        from mars2d.study.isolation.protocol import *
-        def forge(kind, body):
-            host = next(each for each in gc.get_objects() if type(each).__name__ == "Host")
-            host._channel.sendall(framed(kind, body))
-            threading.Event().wait()
-        def control(robot):"""
-"""A law that speaks to the match in place of its process, and then no more."""
-
-NASTY = {
+MISTAKES = {
     "an endless loop": ("slow", "line 4: no command after 0.5 s", FOREVER.format("while 1: pass")),
     "a long sleep": ("slow", "line 4: no command after 0.5 s", FOREVER.format("time.sleep(1e9)")),
     "it swallows all exceptions": ("slow", "no command after", """
@@ -303,18 +293,6 @@ NASTY = {
                 try:
                     while True: pass
                 except BaseException: pass"""),
-    "it ignores signals": ("slow", "line 5: no command", """
-        import signal
-        def control(robot):
-            for s in (signal.SIGTERM, signal.SIGINT): signal.signal(s, signal.SIG_IGN)
-            while True: pass"""),
-    "it stops its own process": ("slow", "no command after", """
-        import os, signal
-        def control(robot):
-            os.kill(os.getpid(), signal.SIGSTOP)"""),
-    "it waits for its own thread": ("slow", "line 3: no command", """
-        import threading
-        def control(robot): threading.Event().wait()"""),
     "a loop in C": ("slow", "law.py: no command after", """
         def control(robot): return sum(range(10**12)), 0"""),
     "many quick steps": ("clock", "its commands took more than 0.3 s in all", """
@@ -324,36 +302,16 @@ NASTY = {
         kept = []
         def control(robot):
             while True: kept.append("x" * 10_000_000 + str(len(kept)))"""),
-    "a huge array": ("memory", "line 3: took too much", """
-        import numpy as np
-        def control(robot): return np.ones(10**9)"""),
-    "a memory bomb while it is loaded": ("memory", "line 2: took too much memory; it may", """
-        kept = [0] * 2 * 10**9"""),
     "an exception": ("error", "line 2: control raised ZeroDivisionError: division by zero", """
         def control(robot): return 1 / 0, 0"""),
-    "a misspelt name": ("error", "line 3: control raised NameError: name 'speeed' is not", """
-        speed = 1
-        def control(robot): return speeed, 0"""),
     "SystemExit": ("error", "line 2: control raised SystemExit: 3", """
         def control(robot): raise SystemExit(3)"""),
-    "KeyboardInterrupt": ("error", "line 2: raised KeyboardInterrupt", """
-        def control(robot): raise KeyboardInterrupt"""),
-    "an exception of its own": ("error", "line 3: control raised Bad: no", """
-        class Bad(BaseException): pass
-        def control(robot): raise Bad("no")"""),
-    "an exception that raises": ("error", "raised Bad, whose text raises ValueError", """
-        class Bad(BaseException):
-            def __str__(self): raise ValueError
-        def control(robot): raise Bad"""),
     "deep recursion": ("error", "line 2: control raised RecursionError", """
         def control(robot): return control(robot)"""),
     "reading the keyboard": ("error", "line 2: control raised EOFError", """
         def control(robot): return input(), 0"""),
     "a huge message": ("error", "robot.send: content = 'xxx", """
         def control(robot): robot.send("x" * 10**6); return 0, 0"""),
-    "a flood of messages": ("error", "robot.send: more than 100000 bytes in one", """
-        def control(robot):
-            for k in range(10**6): robot.send(k)"""),
     "NaN": ("command", "line 2: control returned (nan, 0.0): a command must be finite", """
         def control(robot): return float("nan"), 0"""),
     "a wrong shape": ("command", "line 2: control returned (1, 2, 3): expected two numbers", """
@@ -368,162 +326,14 @@ NASTY = {
     "a null pointer": ("exit", "line 3: its process was ended by the signal SIGSEGV, a segm", """
         import ctypes
         def control(robot): ctypes.string_at(0)"""),
-    "endless recursion in C": ("exit", "SIGSEGV", """
-        import sys
-        sys.setrecursionlimit(10**9)
-        class A:
-            def __getattr__(self, name): return getattr(self, name + "x"[:0])
-        def control(robot): return A().x"""),
-    "it kills itself": ("exit", "by the signal SIGKILL", """
-        import os
-        def control(robot): os.kill(0, 9)"""),
-    "it kills who has started it": ("slow", "line 5: no command after", """
-        import os
-        def control(robot):
-            os.kill(os.getppid(), 9)
-            while True: pass"""),
-    "it closes all its files": ("exit", "law.py: its process has closed the connection", """
-        import os
-        def control(robot): os.closerange(0, 200); return 0, 0"""),
-    "it closes all and goes on": ("exit", "law.py: its process has closed the connection", """
-        import os, time
-        def control(robot): os.closerange(0, 200); time.sleep(1e9)"""),
-    "it writes to all its files": ("exit", "what it says to the match is no answer", """
-        import os
-        def control(robot):
-            for k in range(3, 50):
-                try: os.write(k, b"hello, this is no answer" * 10)
-                except OSError: pass
-            return 0, 0"""),
     "a flood of prints": ("output", "line 3: printed more than 100000 bytes", """
         def control(robot):
             while True: print("Hello, world! " * 10)"""),
-    "a flood that C writes": ("output", "printed more than 100000 bytes", """
-        import os
-        def control(robot):
-            while True: os.write(1, b"x" * 10_000)"""),
-    "a flood of errors": ("output", "line 3: printed more than 100000 bytes", """
-        import sys
-        def control(robot): sys.stderr.write("x" * 200_000)"""),
     "an endless loop while it is loaded": ("start", "line 2: not loaded after 0.5 s", """
         while True: pass"""),
-    "an error while it is loaded": ("start", "law.py, line 2: ModuleNotFoundError: No module", """
-        import nowhere"""),
     "a syntax error": ("start", "law.py, line 2: invalid syntax: 1 +* 1", """
         1 +* 1"""),
-    "no control": ("start", "law.py: has no law 'control'; did you mean 'contrl'?", """
-        def contrl(robot): return 0, 0"""),
-    "a control of two": ("start", "law.py: control = control(a, b): expected a function of", """
-        def control(a, b): return 0, 0"""),
-    "os._exit while it is loaded": ("exit", "its process has ended itself, with code 0", """
-        import os; os._exit(0)"""),
-    "an alarm that nobody hears": ("exit", "its process was ended by the signal SIGALRM", """
-        import signal, time
-        def control(robot): signal.setitimer(signal.ITIMER_REAL, 0.01); time.sleep(1)"""),
-    "it forges an answer with what is no message": ("exit", "what it says to the match is no", f"""
-        {FORGING}
-            forge(COMMANDS, ANSWER.pack(0) + bytes(16) + b'[[0, "[[[", null]]')"""),
-    "it forges a message to nobody": ("exit", "what it says to the match is no answer", f"""
-        {FORGING}
-            forge(COMMANDS, ANSWER.pack(0) + bytes(16) + b'[[0, "1", "nobody"]]')"""),
-    "it forges a verdict of its own": ("exit", "what it says to the match is no answer", f"""
-        {FORGING}
-            forge(FAULT, b'{{"kind": "<b>won</b>", "where": null, "text": "a"}}')"""),
 }  # fmt: skip
-
-
-BEYOND = {
-    "writes files": ("20 MB are written beside it, as large as the disk lets it", """
-        from pathlib import Path
-        def control(robot):
-            if not robot.time:
-                (Path(__file__).parent / "filled").write_bytes(bytes(20_000_000))
-                print("done")
-            return 0, 0"""),
-    "reads the other law's file": ("it knows the other's law", """
-        from pathlib import Path
-        def control(robot):
-            if not robot.time:
-                other = Path(__file__).with_name("good.py")
-                assert "return 0.1, 0.2" in other.read_text()
-                print("done")
-            return 0, 0"""),
-    "reads the environment of the match": ("it is read, including any secrets in it", """
-        import os
-        def control(robot):
-            if not robot.time:
-                server = open(f"/proc/{os.getppid()}/stat").read()
-                match = int(server.rpartition(")")[2].split()[1])
-                assert "PATH=" in open(f"/proc/{match}/environ").read()
-                print("done")
-            return 0, 0"""),
-    "uses the network": ("it is connected", """
-        import socket
-        from pathlib import Path
-        def control(robot):
-            if not robot.time:
-                port = int(Path(__file__).with_name("port").read_text())
-                socket.create_connection(("localhost", port)).close()
-                print("done")
-            return 0, 0"""),
-    "starts a program in a session of its own": ("the program goes on after the match", """
-        import subprocess, sys
-        def control(robot):
-            if not robot.time:
-                code = "import time; time.sleep(100)"
-                print(subprocess.Popen([sys.executable, "-c", code], start_new_session=True).pid)
-                print("done")
-            return 0, 0"""),
-    "forks thirty processes": ("their number is not limited; they end with the match", """
-        import os, time
-        def control(robot):
-            if not robot.time:
-                if not all(os.fork() for _ in range(30)): time.sleep(100)
-                print("done")
-            return 0, 0"""),
-    "lets a program take memory": ("the program's 230 MB do not count", """
-        import subprocess, sys
-        def control(robot):
-            if not robot.time:
-                code = "import time; kept = bytes(230_000_000); time.sleep(100)"
-                subprocess.Popen([sys.executable, "-c", code])
-                print("done")
-            return 0, 0"""),
-    "reserves memory that it does not use": ("nothing: only memory in use counts", """
-        import mmap
-        def control(robot):
-            if not robot.time:
-                robot.memory.kept = mmap.mmap(-1, 14_000_000_000)
-                print("done")
-            return 0, 0"""),
-    "deletes its file and changes its folder": ("the match goes on; it can't be played again", """
-        import os
-        def control(robot):
-            if not robot.time:
-                os.remove(__file__); os.chdir("/")
-                print("done")
-            return 0, 0"""),
-    "changes the simulator in its process": ("nothing: the match has its own", """
-        import mars2d
-        def control(robot):
-            if not robot.time:
-                mars2d.World.step = mars2d.Robot.pose = None
-                print("done")
-            return 0, 0"""),
-    "sleeps as its process ends": ("nothing: it is not waited for", """
-        import atexit, time
-        atexit.register(time.sleep, 1000)
-        class Sleepy:
-            def __del__(self): time.sleep(1000)
-        sleepy = Sleepy()
-        def control(robot):
-            if not robot.time: print("done")
-            return 0, 0"""),
-}  # fmt: skip
-"""What isolation does not stop, or need not: the match goes on, and nobody has failed."""
-
-DOC = Path(__file__).parents[2] / "docs" / "isolation.md"
-ATTACKS = DOC.read_text(encoding="utf-8").partition("## Attacked by")[2].partition("\n## ")[0]
 
 
 def undented(text: str) -> str:
@@ -531,9 +341,9 @@ def undented(text: str) -> str:
     return "\n".join(line.removeprefix("        ") for line in lines) + "\n"
 
 
-@pytest.mark.parametrize("fault", NASTY)
+@each_case("fault", MISTAKES)
 def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_path) -> None:
-    kind, words, text = NASTY[fault]
+    kind, words, text = MISTAKES[fault]
     limits = LIMITS
     if kind == "clock":
         limits = dataclasses.replace(LIMITS, match=0.3)
@@ -557,92 +367,6 @@ def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_p
     assert took < 60.0
     again, *_ = played(scenario.replace(stop_time=0.2), {"good": (good, [1])})
     assert again.finished
-    cells = fault, f"`{verdict.kind}`", "no verdict", "kept, says why", "played"
-    assert f"| {' | '.join(cells)} |" in ATTACKS
-
-
-@needs_proc
-@pytest.mark.parametrize("attack", BEYOND)
-def test_what_isolation_does_not_stop_is_told(attack, tmp_path) -> None:
-    happens, text = BEYOND[attack]
-    law(tmp_path, GOOD, "good.py")
-    nasty = law(tmp_path, undented(text))
-    laws = {"bad": (nasty, [0]), "good": (tmp_path / "good.py", [1])}
-    with socket.create_server(("localhost", 0)) as server:
-        (tmp_path / "port").write_text(str(server.getsockname()[1]))
-        record, guard, error = played(pair(), laws)
-    left = guard.output["bad"].splitlines()
-    assert error is None, error
-    assert record.finished
-    assert guard.verdicts == {}
-    assert left[-1] == "done"
-    assert f"| {attack} | {happens} |" in ATTACKS
-    for number in left[:-1]:  # of a process that is left over
-        os.kill(int(number), 9)
-
-
-@needs_proc
-def test_a_law_can_kill_the_match(tmp_path) -> None:
-    text = """
-import os
-from pathlib import Path
-def control(robot):
-    server = Path(f"/proc/{os.getppid()}/stat").read_text()
-    os.kill(int(server.rpartition(")")[2].split()[1]), 9)
-    while True: pass
-"""
-    code = f"""
-from pathlib import Path
-from mars2d import Robot, Scenario, World
-from mars2d.study.isolation import Guard
-laws = {{"a": (Path({str(law(tmp_path, text))!r}), [0])}}
-with Guard(Scenario(robots=[Robot()]), laws, 1) as guard:
-    World(guard.scenario).step()
-"""
-    done = subprocess.run([sys.executable, "-P", "-c", code], timeout=PATIENCE, check=False)
-    assert done.returncode == -9
-    assert "| kills the process of the match | it ends without a message |" in ATTACKS
-
-
-@needs_proc
-def test_a_match_that_is_stopped_for_a_while_forfeits_nobody(tmp_path) -> None:
-    code = f"""
-import sys, time
-from pathlib import Path
-from mars2d import Robot, Scenario
-from mars2d.scenario.experiment import Experiment
-from mars2d.study.isolation import Guard, Limits
-from mars2d.world.loop import simulate
-laws = {{"a": (Path({str(law(tmp_path, SLOW))!r}), [0])}}
-with Guard(Scenario(robots=[Robot()], stop_time=1.0), laws, 1, Limits(tick=1.5, match=20)) as guard:
-    record = simulate(Experiment(guard.scenario), 0).record
-print(len(record), guard.verdicts)
-"""
-    process = subprocess.Popen(
-        [sys.executable, "-P", "-c", code], cwd=tmp_path, stdout=subprocess.PIPE, text=True
-    )
-    wait_until((tmp_path / "thinks").exists, process)
-    process.send_signal(signal.SIGSTOP)
-    with pytest.raises(subprocess.TimeoutExpired):
-        process.wait(4)  # more than the limit of a step; its law goes on, and answers
-    process.send_signal(signal.SIGCONT)
-    assert process.communicate(timeout=PATIENCE)[0] == "11 {}\n"
-
-
-SLOW = """
-import time
-from pathlib import Path
-def control(robot):
-    Path("thinks").touch()
-    time.sleep(0.2)
-    return 0.1, 0
-"""
-
-
-def test_the_tables_of_attacks_have_no_other_rows() -> None:
-    rows = [line for line in ATTACKS.splitlines() if line.startswith("| ")]
-    assert len(rows) == len(NASTY) + len(BEYOND) + 1 + 2  # the last two are headings
-    assert len(NASTY) >= 25
 
 
 def test_a_law_that_fails_later_has_its_time_and_the_rows_until_then(tmp_path) -> None:
@@ -725,14 +449,13 @@ def gained(before: tuple[int, int]) -> list[int]:
 
 
 @needs_proc
-@pytest.mark.parametrize("matches", [10, pytest.param(50, marks=pytest.mark.soak)])
-def test_matches_leave_no_process_thread_or_file_behind(matches, tmp_path) -> None:
+def test_matches_leave_no_process_thread_or_file_behind(tmp_path) -> None:
     bad = "def control(robot):\n    return 0, 1 / (robot.index + robot.time - 0.1)\n"
     laws = {"a": (law(tmp_path, bad), [0]), "b": (law(tmp_path, GOOD, "good.py"), [1])}
     scenario = pair().replace(stop_time=0.2)
     played(scenario, laws)
     before, others = held(), descendants()
-    for k in range(matches):
+    for k in range(10):
         if k % 2:
             _, guard, _ = played(scenario, laws)
             assert guard.verdicts["a"].kind == "error"
@@ -899,7 +622,7 @@ class Seen(NamedTuple):
     bearing: float
 
 
-@pytest.mark.parametrize("what", [Seen(1.0), {"left": [Seen(1.0)]}, lambda: 1])
+@each_case("what", [Seen(1.0), {"left": [Seen(1.0)]}, lambda: 1])
 def test_a_reading_that_no_other_process_knows_is_no_fault_of_the_law(what, tmp_path) -> None:
     scenario = pair(sensors=[Eyes(what=what, recorded=False)])
     _, guard, error = played(scenario, {"a": (law(tmp_path, GOOD), [0])})

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-import pytest
-
 from mars2d.study.isolation import Verdict
 from mars2d.study.tournament.league import Tournament, head_to_head, league
 from mars2d.study.tournament.league_text import league_text
 from mars2d.study.tournament.match import Match, Played
+from mars2d.study.tournament.page import save_html
+from tests.cases import each_case
 
 ROLES = ("pursuer", "evader")
 
@@ -103,7 +103,7 @@ def test_equal_points_share_a_place_in_table_page_and_csv(tmp_path):
     ]  # fmt: skip
     csv = result.save_csv(tmp_path / "league.csv", "league").read_text().splitlines()
     assert [line.split(",")[1] for line in csv[1:5]] == ["1", "2", "2", "4"]
-    page = result.save_html(tmp_path / "league.html").read_text()
+    page = save_html(result, tmp_path / "league.html").read_text()
     assert page.count("<td>2</td><th") == 2
 
 
@@ -181,8 +181,8 @@ def test_matches_without_a_result_are_told_with_their_error():
     assert "1  a             0             -       0" in text
 
 
-@pytest.mark.parametrize(
-    ("digests", "said"),
+@each_case(
+    "digests, said",
     [
         ("aabb", "The 2 seeds gave the same match in each pairing: nothing in it is random."),
         ("aabc", "The 2 seeds gave the same match, since nothing in it is random: a against x."),

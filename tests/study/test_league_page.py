@@ -16,10 +16,11 @@ from mars2d.study.isolation import Verdict
 from mars2d.study.tournament import page as pages
 from mars2d.study.tournament.league import Tournament, league
 from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.page import league_page
+from mars2d.study.tournament.page import league_page, save_html
 from mars2d.study.tournament.page.tables import COLOR_STEPS, shades
 from mars2d.study.tournament.page.words import DASH
 from tests.browser import Tab
+from tests.cases import each_case
 
 EVIL = "</script><script>alert(1)</script>'\"&amp;<img src=x onerror=alert(1)>\u2028{{title}}"
 HUNTERS, RUNNERS = ("lead", "straight", f"hunt {EVIL}"), ("zigzag", f"run {EVIL}")
@@ -78,7 +79,7 @@ def tournament(records):
 
 @pytest.fixture(scope="module")
 def path(tournament, tmp_path_factory):
-    return tournament.save_html(tmp_path_factory.mktemp("league") / "league.html")
+    return save_html(tournament, tmp_path_factory.mktemp("league") / "league.html")
 
 
 @pytest.fixture
@@ -238,7 +239,7 @@ def test_who_plays_all_roles_stands_in_one_table_and_the_matrix_adds_both_ways_u
     )
     every = (*matches, broken)
     cup = Tournament("Cup", "x", ROLES, every, tuple(league(every, ROLES)))
-    tab = open_tab(cup.save_html(tmp_path / "cup.html"))
+    tab = open_tab(save_html(cup, tmp_path / "cup.html"))
     assert tab.text("table.league caption") == "All laws"
     cells = [row.split() for row in tab.page.locator("table.matrix tbody tr").all_inner_texts()]
     assert cells == [["a", DASH, "62"], ["b", "38", DASH]]
@@ -312,7 +313,7 @@ def test_a_cell_of_the_matrix_has_the_share_and_picks_its_matches(tab):
     assert tab.page.locator("#law").input_value() == last.get_attribute("data-law")
 
 
-@pytest.mark.parametrize("theme", [LIGHT, DARK])
+@each_case("theme", [LIGHT, DARK])
 def test_shares_can_be_read_on_their_colours(theme):
     root = ":root.dark" if theme.dark else ":root"
     colors = re.findall(rf"^{root} \.s\d+ {{ background: (#\w+)", shades(), flags=re.M)
@@ -403,7 +404,7 @@ def test_replays_that_are_too_many_are_left_out_from_the_end_and_it_says_so(
     sizes = [len(each.replay) for each in tournament.matches]
     monkeypatch.setattr(pages, "MAX_REPLAYS_SIZE", sum(sizes[:15]))
     left = sum(size > 0 for size in sizes[15:])
-    tab = open_tab(tournament.save_html(tmp_path / "few.html"))
+    tab = open_tab(save_html(tournament, tmp_path / "few.html"))
     assert f"{left} are left out, from match 16 on" in tab.text("#facts")
     tab.page.locator('tr[data-match="16"] .watch').click()
     tab.page.get_by_text("This replay is left out").wait_for()
@@ -438,7 +439,7 @@ def test_names_messages_and_output_are_text(tab, tournament):
     assert frame.locator("script").count() == 2
 
 
-@pytest.mark.parametrize("size", [(1920, 1080), (360, 640)])
+@each_case("size", [(1920, 1080), (360, 640)])
 def test_it_fits_screens_of_all_sizes(open_tab, path, size):
     tab = open_tab(path, size)
     assert tab.page.evaluate("document.documentElement.scrollWidth") <= size[0]

@@ -15,6 +15,7 @@ from mars2d.core.errors import LawError
 from mars2d.scenario.experiment import open_experiment
 from mars2d.study.measures import BUILT_IN, UNITS, measure_named, measured, measures
 from mars2d.world.loop import simulate
+from tests.cases import each_case
 from tests.worlds import ahead
 
 
@@ -110,8 +111,8 @@ def test_a_function_of_the_experiment_goes_before_one_built_in_if_it_is_of_one_t
         measure_named("two", {"two": lambda a, b: 0})
 
 
-@pytest.mark.parametrize(
-    ("given", "kept"),
+@each_case(
+    "given, kept",
     [
         (3, 3),
         (True, 1),
@@ -133,8 +134,8 @@ def test_what_a_measure_returns_becomes_a_plain_number_a_word_or_nothing(caught,
     assert type(value) in (int, float, str, type(None))
 
 
-@pytest.mark.parametrize(
-    ("given", "said"),
+@each_case(
+    "given, said",
     [
         ([1, 2], "expected a number, a word, or None"),
         (np.zeros(3), "expected a number, a word, or None"),

@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from mars2d import InputError
 from mars2d.study.plan import Plan, parse_values, seeds_of, settings_of
 from mars2d.study.table import cell, value_in
+from tests.cases import each_case
 
 
-@pytest.mark.parametrize(
-    ("text", "values"),
+@each_case(
+    "text, values",
     [
         ("0.1:1.0:10", [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]),
         ("1:10:4", [1, 4, 7, 10]),
@@ -39,8 +40,8 @@ def test_values_as_they_are_written(text, values):
     assert [type(value) for value in parsed] == [type(value) for value in values]
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
+@each_case(
+    "text, said",
     [
         ("gain", "expected NAME=VALUES"),
         ("gain=", "expected NAME=VALUES"),
@@ -74,8 +75,8 @@ def test_lists_ranges_and_arrays_are_several_values_and_all_else_is_one():
     assert type(settings["c"][0]) is float
 
 
-@pytest.mark.parametrize(
-    ("settings", "said"),
+@each_case(
+    "settings, said",
     [
         ({"gain": []}, "at least one value"),
         ({"gain": [1, 1.0]}, "1.0 is there twice"),
@@ -113,7 +114,7 @@ def test_seeds_are_counted_from_the_first_one_or_listed():
     assert seeds_of([7, np.int64(3)]) == (7, 3)
 
 
-@pytest.mark.parametrize("seeds", [0, -1, True, 1.5, "3", [], [1, 1], [-1], 2_000_000])
+@each_case("seeds", [0, -1, True, 1.5, "3", [], [1, 1], [-1], 2_000_000])
 def test_seeds_that_can_not_be_are_refused(seeds):
     with pytest.raises(InputError, match="seed"):
         seeds_of(seeds)

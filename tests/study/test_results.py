@@ -10,6 +10,7 @@ import pytest
 from mars2d import InputError, Table
 from mars2d.study.results import Results
 from mars2d.study.table import Result, load_table, save_table
+from tests.cases import each_case
 
 ROWS = (
     Result(1, {"n": 1, "red": "a, b.py"}, 0, {"time": 0.1 + 0.2, "won": "red"}, "", "ab", "12"),
@@ -77,7 +78,7 @@ def test_rows_are_in_the_file_as_soon_as_they_are_added(path):
         assert load_table(path) == of(*ROWS[:2])  # by their numbers
 
 
-@pytest.mark.parametrize("cut", [1, 5, 30])
+@each_case("cut", [1, 5, 30])
 def test_a_line_that_was_broken_off_is_left_out_and_the_next_begins_anew(path, cut):
     save_table(of(*ROWS[:2]), path)
     path.write_bytes(path.read_bytes()[:-cut])
@@ -105,8 +106,8 @@ def test_a_file_is_written_by_one_at_a_time(path):
         pass  # and then by the next
 
 
-@pytest.mark.parametrize(
-    ("blank", "said"),
+@each_case(
+    "blank, said",
     [
         (Table("other.py", ("n", "red"), ("time", "won"), ()), "experiment: duel.py; now: other"),
         (Table("duel.py", ("n",), ("time", "won"), ()), "settings: n, red; now: n. Give"),
@@ -122,8 +123,8 @@ def test_a_file_of_another_study_is_refused_and_stays_as_it_was(path, blank, sai
         assert file.known == ROWS
 
 
-@pytest.mark.parametrize(
-    ("data", "said"),
+@each_case(
+    "data, said",
     [
         (b"", "it is empty"),
         (b"a,b\r\n1,2\r\n", "is no table of a study"),

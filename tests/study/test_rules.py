@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 
-import pytest
-
 from mars2d import Robot, Scenario
 from mars2d.addons import Game, Ring
 from mars2d.cli.command_line import main
@@ -12,6 +10,7 @@ from mars2d.scenario.roles import contest_of
 from mars2d.study.tournament.page.rules import rules_page
 from mars2d.study.tournament.rules import Rules
 from tests.browser import Tab
+from tests.cases import each_case
 
 EVIL = "<script>alert(1)</script> & \"quoted\" 'too'"
 
@@ -43,8 +42,8 @@ def test_without_forces_the_rules_say_so():
     assert "1.5 m from the middle" in rules_of("sumo").counts
 
 
-@pytest.mark.parametrize(
-    ("fields", "hunter", "evader", "counted"),
+@each_case(
+    "fields, hunter, evader, counted",
     [
         ({}, "catch b and c", "stay free for 100 s", "touches one of 2. Who is caught stands"),
         ({"capture": 0.4}, "catch b and c", "stay free for 100 s", "comes within 0.4 m of one of"),
@@ -82,8 +81,8 @@ def test_tables_of_a_docstring_keep_their_columns():
     assert "<pre>            away            corners" in page
 
 
-@pytest.mark.parametrize("size", [(1280, 900), (390, 800)])
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@each_case("size", [(1280, 900), (390, 800)])
+@each_case("scheme", ["light", "dark"])
 def test_the_page_needs_nothing_else_and_fits_at_any_width(browser, tmp_path, size, scheme):
     path = tmp_path / "rules.html"
     rules = rules_of("sumo")

@@ -20,6 +20,7 @@ from mars2d.study.statistics import (
     unpaired,
     unpaired_shares,
 )
+from tests.cases import each_case
 
 STUDIES = 2000
 
@@ -30,8 +31,8 @@ def within_chance(covered, confidence=0.95, studies=STUDIES):
     return low <= covered <= high
 
 
-@pytest.mark.parametrize(
-    ("n", "confidence", "t"),
+@each_case(
+    "n, confidence, t",
     [(2, 0.95, 12.706), (5, 0.95, 2.776), (10, 0.99, 3.250), (31, 0.90, 1.697), (121, 0.95, 1.980)],
 )
 def test_the_interval_of_a_mean_has_the_quantiles_of_the_printed_tables(n, confidence, t):
@@ -176,7 +177,7 @@ def test_the_seeds_for_a_share_are_the_fewest_too():
         assert half(n) <= 0.05 < half(n - 1)
 
 
-@pytest.mark.parametrize("confidence", [0, 1, 95, -0.5, math.nan, "0.95", True])
+@each_case("confidence", [0, 1, 95, -0.5, math.nan, "0.95", True])
 def test_a_confidence_is_a_share(confidence):
     with pytest.raises(InputError, match=r"confidence = .*expected a share between 0 and 1"):
         interval([1.0, 2.0], confidence)

@@ -16,6 +16,7 @@ from mars2d.study.figure import plot_study, save_study_figure
 from mars2d.study.layout import layout_of
 from mars2d.study.statistics import interval, proportion, shared
 from mars2d.study.table import Result, Table
+from tests.cases import each_case
 
 
 def study(settings, value, seeds=6, measures=("error",)):
@@ -201,8 +202,8 @@ def overlaps(texts):
     return [gap for gap in gaps if gap * np.sin(angle) < height]
 
 
-@pytest.mark.parametrize("style", ["screen", "print", "projector"])
-@pytest.mark.parametrize(
+@each_case("style", ["screen", "print", "projector"])
+@each_case(
     "settings",
     [
         {"law": LAWS},

@@ -20,6 +20,7 @@ from mars2d.study.code import code_of_run
 from mars2d.study.results import Results
 from mars2d.study.run import TRIALS, StudyFailedError
 from mars2d.study.table import load_table
+from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
 
 DRIFT = '''
@@ -183,7 +184,7 @@ def test_units_are_stated_with_the_sweep_or_with_its_table(here, capsys):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("workers", [["--workers", "1"], ["--workers", "2"]])
+@each_case("workers", [["--workers", "1"], ["--workers", "2"]])
 def test_a_sweep_whose_every_run_fails_stops_with_the_reason_and_exit_code_1(here, workers, capsys):
     (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
     grid = ["--set", "gain=0.1:1:20", "--measure", "far", "--out", "r.csv"]
@@ -267,8 +268,8 @@ def test_a_measure_that_failed_is_corrected_without_a_run(here):
     assert runs(here) <= max(2, made)
 
 
-@pytest.mark.parametrize(
-    ("change", "again"),
+@each_case(
+    "change, again",
     [
         (("robot.rng.uniform()", "robot.rng.uniform() / 2"), True),  # a law
         (("Robots drift", "Robots dream"), True),
@@ -316,15 +317,22 @@ def test_rows_without_kept_records_are_never_lost(here):
     assert load_table("r.csv").measures == ("far",)
 
 
-@pytest.mark.parametrize(
-    ("how", "said"),
+@each_case(
+    "how, said",
     [
         ({"keep": True}, "keep: expected out as well"),
         ({"keep": True, "out": "r.csv", "control": lambda w: (0, 0)}, "keep: expected an exp"),
-        ({"keep": True, "out": "r.csv", "measures": "collisions",
-          "experiment": Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=1)}, "keep: expected"),
+        (
+            {
+                "keep": True,
+                "out": "r.csv",
+                "measures": "collisions",
+                "experiment": Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=1),
+            },
+            "keep: expected",
+        ),
     ],
-)  # fmt: skip
+)
 def test_records_are_kept_beside_a_table_of_an_experiment_in_a_file(here, how, said):
     with pytest.raises(InputError, match=said):
         sweep(**how)
@@ -333,8 +341,8 @@ def test_records_are_kept_beside_a_table_of_an_experiment_in_a_file(here, how, s
 # -- what is refused before the first run ----------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("how", "said"),
+@each_case(
+    "how, said",
     [
         ({"measures": "farr"}, "there is no measure 'farr'; did you mean 'far'?"),
         ({"measures": "two"}, "two(record, other) is no measure"),
@@ -417,8 +425,8 @@ def test_rows_with_errors_are_run_again_only_if_asked(here):
     assert runs(here) == 3
 
 
-@pytest.mark.parametrize(
-    ("how", "said"),
+@each_case(
+    "how, said",
     [
         ({"seeds": 1}, "it has the seed 1, which this one has not"),
         ({"settings": {"gain": [0.5, 2.0]}}, "it has gain = 1.0, which this one has not"),
@@ -584,8 +592,8 @@ def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
     assert runs(here) == before
 
 
-@pytest.mark.parametrize(
-    ("arguments", "said"),
+@each_case(
+    "arguments, said",
     [
         ([], "an EXPERIMENT is needed"),
         (["--row", "1"], "there is no study in this folder"),

@@ -10,6 +10,7 @@ from mars2d import InputError
 from mars2d.study.summary import comparison, summary
 from mars2d.study.table import Result, Table, load_table
 from mars2d.study.units import checked_units, parse_units, unit_of_field
+from tests.cases import each_case
 
 
 def study(setting, units=None):
@@ -21,8 +22,8 @@ def study(setting, units=None):
     return Table("a.py", (setting,), ("end_time", "far"), tuple(results), units or {})
 
 
-@pytest.mark.parametrize(
-    ("setting", "unit"),
+@each_case(
+    "setting, unit",
     [
         ("stop_time", "s"),
         ("animation.speed", ""),
@@ -61,8 +62,8 @@ def test_a_unit_that_is_stated_is_kept_in_the_file_and_no_other(tmp_path):
     assert load_table(path) == table
 
 
-@pytest.mark.parametrize(
-    ("texts", "said"),
+@each_case(
+    "texts, said",
     [
         (["far"], "--unit far: expected NAME=UNIT, such as --unit spread=m"),
         (["far="], "expected NAME=UNIT"),

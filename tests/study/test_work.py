@@ -19,6 +19,7 @@ import pytest
 from mars2d.core.errors import InputError
 from mars2d.study import work, workers
 from mars2d.study.work import Failure, each_done, worker_count
+from tests.cases import each_case
 from tests.processes import PATIENCE, running, wait_until
 
 TASKS = '''
@@ -220,7 +221,7 @@ if __name__ == "__main__":
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL], ids=["Ctrl-C", "SIGKILL"])
+@each_case("number", [signal.SIGINT, signal.SIGKILL])
 def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):
     script, files = tmp_path / "study.py", [tmp_path / "a", tmp_path / "b"]
     script.write_text(SCRIPT)
@@ -239,8 +240,8 @@ def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):
     wait_until(lambda: not any(map(running, pids)))
 
 
-@pytest.mark.parametrize(
-    ("script", "said"),
+@each_case(
+    "script, said",
     [
         (
             "",
@@ -251,7 +252,6 @@ def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):
             "a worker process ended with exit code 5 before it had begun",
         ),
     ],
-    ids=["unguarded", "not to be imported"],
 )
 def test_a_script_that_its_workers_cannot_import_is_told_so_once(tmp_path, script, said):
     path = tmp_path / "study.py"
@@ -280,7 +280,7 @@ def test_a_function_that_workers_do_not_find_is_an_error_and_no_row_of_failures(
         list(each_done(module.new, [1, 2], workers=1))
 
 
-@pytest.mark.parametrize("workers", [0, -1, 1001, 2.0, "2", True])
+@each_case("workers", [0, -1, 1001, 2.0, "2", True])
 def test_a_number_of_workers_that_cannot_be_is_refused_at_once(workers):
     with pytest.raises(InputError, match=re.escape(f"workers={workers!r}: expected a whole num")):
         each_done(abs, [1], workers=workers)

@@ -10,7 +10,8 @@ from pathlib import Path
 from mars2d.scenario.controllers import Controller
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor import Editor, EditorWindow
+from mars2d.window.editor import Editor
+from mars2d.window.editor_window import EditorWindow
 from mars2d.window.looks import Looks
 from tests.window.telling import Teller, unseen
 

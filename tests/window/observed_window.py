@@ -13,13 +13,13 @@ import pygame
 
 from mars2d.core.errors import LawError
 from mars2d.output.layers.table import LAYERS
-from mars2d.record.record import load
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.display import Preferences
 from mars2d.window.memory import Memory
 from mars2d.window.source import Playback
 from mars2d.window.window import Window
+from mars2d.world.record import load
 from mars2d.world.timeline import Timeline
 from tests.window.circling import Circling, circling_scenario
 from tests.window.telling import Teller, unseen

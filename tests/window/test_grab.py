@@ -380,11 +380,3 @@ def test_points_that_an_addon_names_are_shown_under_the_pointer():
     person.move(2.0, 0.5)
     assert person.grab.over is None
     assert [text.text for text in person.marks(Text)] == ["door at 0 s"]
-
-
-def test_the_former_name_of_the_class_works_and_warns():
-    module = pytest.warns(FutureWarning, match="mars2d.window.hand is mars2d.window.grab now")
-    with module, pytest.warns(FutureWarning, match="Hand is mars2d.window.grab.Grab now"):
-        from mars2d.window.hand import Hand
-    assert Hand is Grab
-    assert not hasattr(grab, "Arm")

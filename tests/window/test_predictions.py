@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from mars2d.core.watchdog import VARIABLE, Watchdog
+from mars2d.core.deadline import Deadline
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.experiment import open_experiment
@@ -109,11 +109,10 @@ def test_an_error_while_the_run_goes_on_is_not_yet_and_at_the_end_an_error(tmp_p
     assert desk.timeline.over, "the run has come to its own end"
 
 
-def test_checks_that_never_return_are_broken_off_and_the_run_goes_on(tmp_path, monkeypatch):
-    monkeypatch.setenv(VARIABLE, "0.3")
+def test_checks_that_never_return_are_broken_off_and_the_run_goes_on(tmp_path):
     desk = Desk(tmp_path, "    while record.scenario is not None:\n        time.sleep(0)\n")
     desk.run(5)
-    with Watchdog(lambda: desk.timeline.world.simulation.calls):
+    with Deadline(0.3, calls=lambda: desk.timeline.world.simulation.calls):
         desk.look()
     assert "did not return within 0.3 s" in str(desk.panel.reading.error)
     desk.run(5)

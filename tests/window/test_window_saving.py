@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageGrab
 
-from mars2d.record.record import load
 from mars2d.scenario.experiment import open_experiment
+from mars2d.world.record import load
 from tests.processes import PATIENCE, bare_environment, wait_until
 from tests.window.person import ROOT, differing, needs_screen
 

@@ -10,6 +10,7 @@ import pytest
 import mars2d
 from mars2d import Holonomic, LawError, Robot, Scenario, World
 from mars2d.sensors import Proximity, Sensor
+from tests.cases import each_case
 
 
 def team(*laws, **fields) -> Scenario:
@@ -95,7 +96,7 @@ def test_without_a_law_robots_stand_still():
     assert not record.command.any()
 
 
-@pytest.mark.parametrize(
+@each_case(
     "value",
     [(0.2, 0.1), [0.2, 0.1], np.array([0.2, 0.1]), np.array([[0.2], [0.1]]),
      (np.float64(0.2), np.float64(0.1))],
@@ -116,7 +117,7 @@ def test_a_team_of_one_may_return_just_two_numbers():
 # -- messages -------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("value", "message"),
     [
         (None, "returned nothing: a law returns its command, such as `return v, omega`"),
@@ -141,7 +142,7 @@ def test_what_is_no_command_says_what_was_returned_and_by_which_law(value, messa
     assert "wander returned" in str(raised.value)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("value", "message"),
     [
         (None, "returned nothing: a law returns its command, an array"),
@@ -228,7 +229,7 @@ def test_a_law_with_full_information_sees_poses_and_neighbours():
     assert ask(lambda robot: len(robot.contacts)) == 0
 
 
-@pytest.mark.parametrize("what", ["pose", "neighbours", "contacts"])
+@each_case("what", ["pose", "neighbours", "contacts"])
 def test_a_law_that_sees_sensors_only_may_see_neither_pose_nor_neighbours(what):
     message = f"this law sees sensors only: robot.{what} is not available"
     with pytest.raises(LawError, match=message) as raised:
@@ -254,7 +255,7 @@ def test_a_sensor_knows_the_pose_even_if_the_law_does_not():
     assert ask(lambda robot: robot.sense.compass, sees="sensors", sensors=[Compass()]) == 3
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("question", "message"),
     [
         (lambda robot: robot.sense.proximty, "no sensor 'proximty'; did you mean 'proximity'?"),

@@ -16,6 +16,7 @@ from mars2d.bodies.joints import Hinge, Rope, Spring
 from mars2d.bodies.props import Box, Puck
 from mars2d.physics.islands import reason_without
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 WALL = Map([[(1.0, -3.0), (1.0, 3.0)]])
 ROBOT = Robot(pose=(0, 0, 0))
@@ -41,7 +42,7 @@ def pulled(scenario, body, target, grip=(0.0, 0.0), steps=40, **options):
 # -- pulling what is free --------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("drive", [Unicycle(), Holonomic()])
+@each_case("drive", [Unicycle(), Holonomic()])
 def test_a_robot_whose_law_stands_still_follows_the_pointer_and_never_swings_back(drive):
     _, path = pulled(Scenario(robots=[ROBOT.replace(drive=drive)]), 0, (2.0, 1.0))
     ways = np.hypot(*(path[:, :2] - (2.0, 1.0)).T)
@@ -122,8 +123,8 @@ def test_a_body_far_away_can_be_put_there_and_pulled_there():
 # -- against drives and floors -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize("drive", [Unicycle(), Holonomic()])
-@pytest.mark.parametrize("force", [0.5, 2.0, 4.9])
+@each_case("drive", [Unicycle(), Holonomic()])
+@each_case("force", [0.5, 2.0, 4.9])
 def test_a_pull_weaker_than_the_drive_leaves_a_robot_on_its_course(drive, force):
     robot = ROBOT.replace(drive=drive, controller=straight)
     world, path = pulled(Scenario(robots=[robot]), 0, (0.0, 4.5), force=force, steps=100)
@@ -163,7 +164,7 @@ def test_two_hands_that_pull_equally_at_two_robots_meet_nobody_half_way():
 # -- walls, crowds, joints ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("mass", "force"), [(1.0, 17.5), (1.0, 60.0), (9.0, 400.0)])
+@each_case(("mass", "force"), [(1.0, 17.5), (1.0, 60.0), (9.0, 400.0)])
 def test_a_robot_that_is_pulled_at_a_wall_stays_on_its_side(mass, force):
     scenario = Scenario(robots=[ROBOT.replace(mass=mass)], addons=[WALL])
     world, path = pulled(scenario, 0, (4.0, 0.5), force=force, speed=5.0)
@@ -190,7 +191,7 @@ def crowd(seed):
     return scenario, rng.uniform(-3, 3, (8, 2))
 
 
-@pytest.mark.parametrize("seeds", [range(k, k + 25) for k in range(0, 100, 25)])
+@each_case("seeds", [range(k, k + 25) for k in range(0, 100, 25)])
 def test_nobody_escapes_from_a_crowd_that_one_is_pulled_through(seeds):
     for seed in seeds:
         scenario, targets = crowd(seed)
@@ -294,7 +295,7 @@ def test_the_others_do_not_feel_it():
 ROOM = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("pose", "words"),
     [
         ((1.0, 0.1, 0), "it would overlap blue"),
@@ -399,7 +400,7 @@ def test_all_is_let_go_at_once():
 # -- what can't be done ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("act", "words"),
     [
         (
@@ -437,7 +438,7 @@ def test_what_makes_no_sense_is_refused_and_nothing_happens(act, words):
     world.step()
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_where_no_forces_act_nothing_can_be_pulled_but_put_elsewhere(physics):
     world = World(Scenario(robots=[ROBOT], physics=physics))
     with pytest.raises(InputError, match=f"can't be pulled: with physics = '{physics}' no forces"):

@@ -10,6 +10,7 @@ from mars2d.addons import Game
 from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError, LawError
 from mars2d.sensors import RangeFinder
+from tests.cases import each_case
 
 
 def wander(robot):
@@ -38,8 +39,8 @@ def ended(world):
     return world.record
 
 
-@pytest.mark.parametrize("steps", [0, 7, 1000])
-@pytest.mark.parametrize("seed", [None, 5])
+@each_case("steps", [0, 7, 1000])
+@each_case("seed", [None, 5])
 def test_the_run_after_a_reset_is_that_of_a_new_world(steps, seed):
     world = World(scenario(), seed=3)
     for _ in range(steps):
@@ -122,7 +123,7 @@ def steer_all(world):
     return [[0.1, 0.1], [0.5, 0.5]]
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("command", "words"),
     [
         ({"rad": (1, 0)}, "did you mean 'red'"),

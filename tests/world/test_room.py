@@ -1,18 +1,18 @@
 """A room notices every robot that leaves it, and looks closely at few."""
 
 import numpy as np
-import pytest
 
 from mars2d.core.plane import outside_polygon
 from mars2d.world import room
 from mars2d.world.room import Room
+from tests.cases import each_case
 
 SQUARE = [(-2, -2), (2, -2), (2, 2), (-2, 2)]
 ANGLE = [(0, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4)]
 
 
-@pytest.mark.parametrize("outline", [SQUARE, ANGLE])
-@pytest.mark.parametrize("seed", range(5))
+@each_case("outline", [SQUARE, ANGLE])
+@each_case("seed", range(5))
 def test_it_says_at_each_step_what_a_close_look_at_all_says(outline, seed):
     rng = np.random.default_rng(seed)
     here = Room(outline, 8)

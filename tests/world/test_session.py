@@ -4,6 +4,7 @@ import signal
 import sys
 import time
 import types
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from mars2d.output.formats.mcap import Log
 from mars2d.record.columns import DiskError
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import Interrupted, simulate, watch_by
+from tests.cases import each_case
 
 SQUARE = Scenario(robots=[Robot()], sampling_time=0.1, stop_time=1.0)
 
@@ -171,7 +173,7 @@ def test_seeds_make_runs_that_differ_and_repeat():
     assert first.digest != other.digest
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("arguments", "words"),
     [
         ({"experiment": 3}, "expected a file"),
@@ -266,7 +268,7 @@ def test_a_law_may_have_another_name_and_import_what_lies_beside_it(duel):
     assert not {name for name in set(sys.modules) - before if "mine" in name or "gains" in name}
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("text", "where", "words"),
     [
         ("def contrl(robot):\n    pass\n", "red.py", "no law 'control'; did you mean 'contrl'?"),
@@ -281,15 +283,15 @@ def test_a_law_may_have_another_name_and_import_what_lies_beside_it(duel):
         ("def control(robot):\n    pass\n", "red.py, line 1", "control returned nothing"),
     ],
 )
-def test_a_mistake_in_a_laws_file_points_into_it(duel, tmp_path, text, where, words):
-    (tmp_path / "mine" / "red.py").write_text(text)
+def test_a_mistake_in_a_laws_file_points_into_it(duel, text, where, words):
+    Path("red.py").write_text(text)
     with pytest.raises(InputError) as caught:
         mars2d.run(duel, options={"red": "red.py"})
     assert caught.value.where == where
     assert words in str(caught.value)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("path", "words"),
     [
         (
@@ -305,9 +307,9 @@ def test_a_mistake_in_a_laws_file_points_into_it(duel, tmp_path, text, where, wo
         (3, "load_law(path) = 3: expected the name of a law's file"),
     ],
 )
-def test_a_laws_file_that_is_not_there_is_named_with_the_nearest(duel, tmp_path, path, words):
-    (tmp_path / "mine" / "red.py").write_text("def control(robot):\n    return 0, 0\n")
-    (tmp_path / "mine" / "red.txt").write_text("")
+def test_a_laws_file_that_is_not_there_is_named_with_the_nearest(duel, path, words):
+    Path("red.py").write_text("def control(robot):\n    return 0, 0\n")
+    Path("red.txt").write_text("")
     with pytest.raises(InputError) as caught:
         mars2d.run(duel, options={"red": path})
     assert words in str(caught.value)
@@ -348,7 +350,7 @@ def test_where_the_record_of_a_failed_law_can_not_be_saved_the_laws_error_counts
     assert "run.npz: can't be written" in caught.value.__notes__[0]
 
 
-@pytest.mark.parametrize("watchers", [5, [5], "x", print, None])
+@each_case("watchers", [5, [5], "x", print, None])
 def test_watchers_are_functions(watchers):
     with pytest.raises(mars2d.InputError, match=r"^watchers = .*: expected a list of functions"):
         mars2d.run("random_walk", stop_time=1, watchers=watchers)

@@ -11,10 +11,11 @@ from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.cli import command_line as cli
 from mars2d.core.errors import InputError
-from mars2d.record.record import COLUMNS
+from mars2d.record.rows import COLUMNS
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import open_world
 from mars2d.world.verify import ask_again, other_versions, rerun
+from tests.cases import each_case
 
 
 def scenario(**changes):
@@ -49,8 +50,8 @@ def one_ulp(value):
     return np.nextafter(value, np.inf)
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
-@pytest.mark.parametrize("on_exit", ["ignore", "stop"])
+@each_case("physics", ["contact", "stop", "ideal"])
+@each_case("on_exit", ["ignore", "stop"])
 def test_a_run_is_the_same_again_with_each_physics(physics, on_exit):
     assert rerun(mars2d.run(scenario(physics=physics, on_exit=on_exit), control=meet)) is None
 
@@ -105,7 +106,7 @@ def test_a_contact_departs_at_its_own_row_not_at_the_last(record):
     assert found.row < len(record) - 1
 
 
-@pytest.mark.parametrize("first", [True, False])
+@each_case("first", [True, False])
 def test_a_contact_that_is_missing_or_too_many_is_told(record, first):
     kept = record.contacts[1:] if first else record.contacts[:-1]
     found = rerun(replace(record, contacts=kept))
@@ -266,7 +267,7 @@ def test_settings_are_those_of_the_run(walk, capsys):
     assert cli.main(["check", "other.npz", "--laws", "--set", "robots.1.pose=(1, 0, 3)"]) == 1
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("words", "message"),
     [
         (["walk.py", "--laws"], "--laws is for records: .npz"),

@@ -12,6 +12,7 @@ from mars2d import Holonomic, InputError, LawError, Robot, Scenario, Unicycle, W
 from mars2d.addons import Addon, Map
 from mars2d.bodies.props import Ball, Box, Puck
 from mars2d.sensors import Sensor
+from tests.cases import each_case
 
 
 def test_a_control_step_goes_in_the_order_of_algorithm_1():
@@ -118,7 +119,7 @@ def test_a_command_can_be_given_in_place_of_the_laws():
     assert world.command.ravel().tolist() == [0.3, 0.1]
 
 
-@pytest.mark.parametrize("command", [[[0, 0], [0, 0]], [1, 2, 3], "x", [[np.nan], [0]], 5])
+@each_case("command", [[[0, 0], [0, 0]], [1, 2, 3], "x", [[np.nan], [0]], 5])
 def test_a_given_command_that_cannot_be_used_is_an_input_error(command):
     world = World(Scenario())
     with pytest.raises(InputError, match=r"World.step\(command\)"):
@@ -256,7 +257,7 @@ class Inner(Addon):
             world.step()
 
 
-@pytest.mark.parametrize("hook", ["on_step", "on_stop"])
+@each_case("hook", ["on_step", "on_stop"])
 def test_a_hook_that_steps_the_world_is_an_error(hook):
     world = World(Scenario(addons=[Inner(hook=hook)], stop_time=0.2))
     with pytest.raises(LawError, match=r"add-on 'inner' raised"):
@@ -305,7 +306,7 @@ def late(what):
     return law
 
 
-@pytest.mark.parametrize("what", [lambda: 1 / 0, lambda: None, lambda: (np.nan, 0)])
+@each_case("what", [lambda: 1 / 0, lambda: None, lambda: (np.nan, 0)])
 def test_what_was_recorded_until_an_error_is_kept(what):
     scenario = Scenario(robots=[Robot(controller=late(what))])
     with pytest.raises(LawError) as raised:
@@ -358,8 +359,8 @@ def test_a_world_tells_what_mars_tells():
     assert [view.name for view in world.robots] == ["robot0"]
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
-@pytest.mark.parametrize("delay", [0.0, 0.25])
+@each_case("physics", ["contact", "stop", "ideal"])
+@each_case("delay", [0.0, 0.25])
 def test_velocity_is_that_of_the_instant_not_of_the_last_chord(physics, delay):
     far = Robot(pose=(0, 4, 0), drive=Holonomic())
     scenario = Scenario(
@@ -375,7 +376,7 @@ def test_velocity_is_that_of_the_instant_not_of_the_last_chord(physics, delay):
     assert world.robots[0].velocity == pytest.approx(world.velocity[:, 0])
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop"])
+@each_case("physics", ["contact", "stop"])
 def test_a_robot_that_a_wall_holds_has_no_velocity(physics):
     wall = Map([[(0.4, -1), (0.4, 1)]])
     world = World(Scenario(robots=[Robot()], addons=[wall], physics=physics, sampling_time=0.1))
@@ -494,7 +495,7 @@ def test_a_frame_shows_props_contacts_and_efforts_of_this_instant():
 # -- a step that is broken off --------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("hook", ["on_step", "law"])
+@each_case("hook", ["on_step", "law"])
 def test_a_world_that_was_interrupted_within_a_step_is_over(hook):
     class Stop(Addon):
         def on_step(self, world):

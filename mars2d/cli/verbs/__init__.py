@@ -22,8 +22,6 @@ NAMES = (
     "plot",
     "sweep",
     "tournament",
-    "robotarium",
-    "ros",
     "list",
     "check",
     "schema",

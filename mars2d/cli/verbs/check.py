@@ -15,14 +15,13 @@ from mars2d.bodies.joints import Joint
 from mars2d.cli import remarks
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import run_headless
-from mars2d.core.deadline import PATIENCE, Deadline, Late
-from mars2d.core.errors import InputError, LawError, Mars2dError, counted, nearest, one_line
+from mars2d.core.deadline import PATIENCE, Deadline
+from mars2d.core.errors import InputError, Late, LawError, Mars2dError, counted, nearest, one_line
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.figures.map import save_map
-from mars2d.record.record import Record, load
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
 from mars2d.scenario.map_option import reading_options
@@ -36,6 +35,7 @@ from mars2d.study.tournament.schedule import trial_matches
 from mars2d.study.tournament.tournament import LIMITS
 from mars2d.testing.file import trials
 from mars2d.testing.finding import Finding
+from mars2d.world.record import Record, load
 from mars2d.world.verify import ask_again, other_versions, rerun
 
 TRIAL_STEPS = 10

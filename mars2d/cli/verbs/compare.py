@@ -24,9 +24,9 @@ from mars2d.output.figures import figure
 from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.output.films import film
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.world.record import Record
 
 if TYPE_CHECKING:
     from mars2d.output.films.footage import Footage

@@ -26,10 +26,10 @@ from mars2d.core.errors import InputError, likely, one_line
 from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import LISTED, Experiment, open_experiment
 from mars2d.world.loop import Interrupted
+from mars2d.world.record import Record
 
 FOLDER = Path("mars2d_demo")
 FILM_SIZE = (640, 480)

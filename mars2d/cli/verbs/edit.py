@@ -40,7 +40,8 @@ def execute(arguments: argparse.Namespace) -> None:
     if not has_display():
         require_pygame("a window")
         raise InputError(NO_DISPLAY)
-    from mars2d.window.editor import Editor, EditorWindow
+    from mars2d.window.editor import Editor
+    from mars2d.window.editor_window import EditorWindow
     from mars2d.window.looks import Looks
 
     robots_wanted = any(name.partition(".")[0] == "robots" for name in options)

@@ -16,8 +16,8 @@ from mars2d.output.figures import figure
 from mars2d.output.figures.style import STYLES, style_of
 from mars2d.output.formats import SUFFIXES
 from mars2d.output.layers.table import LAYERS, Layers
-from mars2d.record.record import Record, load
 from mars2d.scenario.examples import examples
+from mars2d.world.record import Record, load
 
 KINDS = ("paths", "snapshots", "signals", "energy", "momentum", "contacts", "distances")
 

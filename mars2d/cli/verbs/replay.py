@@ -14,7 +14,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.terminal import tell
 from mars2d.output.formats import SUFFIXES
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record, load
+from mars2d.world.record import Record, load
 
 NO_DISPLAY = (
     "there is no display for a window; make a film with --video OUT.gif, a page for any browser "

@@ -46,10 +46,10 @@ from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.prediction import Prediction
 from mars2d.world.loop import Interrupted
+from mars2d.world.record import Record
 from mars2d.world.world import Watcher
 
 FOXGLOVE = 8765
@@ -70,7 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--record",
         type=Path,
         metavar="OUT",
-        help="save all data: .npz, .mat, .csv, .nc, or .mcap, which is written during the run",
+        help="save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc",
     )
     add_pictures(parser)
     add(

@@ -185,13 +185,15 @@ def _check_compared(name: str, counts: dict[str, int]) -> None:
 
 def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
     """Print the summary of a study, and the paths of its files."""
+    from mars2d.study.summary import comparison, summary
+
     if arguments.compare is not None:
         points = table.points()
         counts = {n: len({p[k] for p in points}) for k, n in enumerate(table.settings)}
         _check_compared(arguments.compare, counts)
-    tell(table.summary(arguments.confidence))
+    tell(summary(table, arguments.confidence))
     if arguments.compare is not None:
-        tell("", table.compare(arguments.compare, arguments.confidence), sep="\n")
+        tell("", comparison(table, arguments.compare, arguments.confidence), sep="\n")
     tell(f"\ntable:  {path}")
     if arguments.figure is not None:
         from mars2d.study.figure import save_study_figure

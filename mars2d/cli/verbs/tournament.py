@@ -15,20 +15,20 @@ from mars2d.core.scene import color_word
 from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import contest_of
 from mars2d.study.isolation.limits import Limits
 from mars2d.study.plan import Plan, parse_all, settings_of
 from mars2d.study.tournament.folder import played_before
-from mars2d.study.tournament.league import PAGE, Tournament
+from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.league_text import league_text, matches
 from mars2d.study.tournament.match import Match, Played, replayed
 from mars2d.study.tournament.page.rules import rules_page
 from mars2d.study.tournament.rules import Rules
 from mars2d.study.tournament.schedule import Schedule, schedule
-from mars2d.study.tournament.tournament import LIMITS, TournamentInterrupted, play_schedule
+from mars2d.study.tournament.tournament import LIMITS, PAGE, TournamentInterrupted, play_schedule
 from mars2d.study.work import worker_count
+from mars2d.world.record import Record
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -108,7 +108,7 @@ def _check(arguments: argparse.Namespace) -> None:
     for name in ("view", "record"):
         if getattr(arguments, name) and arguments.match is None:
             raise InputError(f"--{name} needs --match N")
-    check_outputs(arguments, {"record": formats.SUFFIXES, "rules": (".html", ".htm")})
+    check_outputs(arguments, {"record": tuple(formats.FORMATS), "rules": (".html", ".htm")})
     worker_count(arguments.workers)
     if arguments.view and not has_display():
         require_pygame("a window")

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
 
 Float = NDArray[np.float64]
 
@@ -65,7 +65,7 @@ class Drift:
     distance: Float
 
     @classmethod
-    def between(cls, first: Record, second: Record) -> Drift:
+    def between(cls, first: Rows, second: Rows) -> Drift:
         """Return the drift of two runs of the same bodies."""
         rows = min(len(first), len(second))
         apart = _places(second)[:rows] - _places(first)[:rows]
@@ -84,7 +84,7 @@ class Drift:
         return mean
 
 
-def _places(record: Record) -> Float:
+def _places(record: Rows) -> Float:
     """Return the positions of a run's bodies, (T, 2, k) metres."""
     return np.concatenate([record.pose[:, :2], record.prop_pose[:, :2]], axis=2)
 
@@ -96,9 +96,9 @@ class Comparison:
     Raises InputError for runs without rows, or with different bodies or sampling times.
     """
 
-    contact: Record
-    stop: Record
-    ideal: Record
+    contact: Rows
+    stop: Rows
+    ideal: Rows
 
     def __post_init__(self) -> None:
         for mode, record in self.records.items():
@@ -110,7 +110,7 @@ class Comparison:
                 raise InputError(f"{mode}: expected the sampling time of the run with contact")
 
     @property
-    def records(self) -> dict[str, Record]:
+    def records(self) -> dict[str, Rows]:
         """The runs by their physics."""
         return {"contact": self.contact, "stop": self.stop, "ideal": self.ideal}
 
@@ -186,7 +186,7 @@ def _head(figure: Figure, comparison: Comparison) -> None:
     )  # fmt: skip
 
 
-def _title(figure: Figure, x: float, y: float, mode: str, record: Record) -> None:
+def _title(figure: Figure, x: float, y: float, mode: str, record: Rows) -> None:
     """Write the physics, the number of collisions and the end of a run above its panel."""
     tall = figure.get_size_inches()[1]
     done = f"{counted(record.collisions, 'collision')}, {counted(len(record) - 1, 'step')}"

@@ -29,7 +29,7 @@ from mars2d.output.figures.style import Style, style_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
     from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -43,7 +43,7 @@ BAR_HEIGHT = 0.62
 
 
 def plot_contacts(
-    record: Record, axes: Sequence[Axes] | None = None, *, style: str = "screen"
+    record: Rows, axes: Sequence[Axes] | None = None, *, style: str = "screen"
 ) -> list[Axes]:
     """Draw the times at which pairs touched, and the normal force of all contacts over time.
 
@@ -83,7 +83,7 @@ def plot_contacts(
         return finish(axes, own=own)
 
 
-def normal_force(record: Record) -> Float:
+def normal_force(record: Rows) -> Float:
     """Return the sum of all normal forces, (T,) N, averaged over the step before each row.
 
     This is the normal impulse of the control step that led to the row, over the sampling time.
@@ -131,7 +131,7 @@ def _lines(group: Index, chosen: Index, count: int) -> Index:
     return np.asarray(line[group])
 
 
-def _timeline(ax: Axes, record: Record, pairs: Index, lines: Index, look: Style) -> None:
+def _timeline(ax: Axes, record: Rows, pairs: Index, lines: Index, look: Style) -> None:
     """Draw a bar for each time that a pair stayed in touch, coloured by its force."""
     import matplotlib as mpl
     from matplotlib.collections import PolyCollection
@@ -184,14 +184,14 @@ def _say_more(ax: Axes, count: int, look: Style) -> None:
     )  # fmt: skip
 
 
-def _say_nothing(axes: Sequence[Axes], record: Record, look: Style) -> None:
+def _say_nothing(axes: Sequence[Axes], record: Rows, look: Style) -> None:
     lasted = f"{float(record.time[-1] - record.time[0]):.4g} s"
     say(axes[0], f"no contacts: nothing touched in {lasted}", look)
     for ax in axes:
         ax.set_axis_off()
 
 
-def _sum(ax: Axes, record: Record, look: Style) -> None:
+def _sum(ax: Axes, record: Rows, look: Style) -> None:
     """Draw the sum of all normal forces over time."""
     force = normal_force(record)
     color, _ = look.curve(0)

@@ -32,7 +32,7 @@ from mars2d.output.figures.style import Style, style_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
     from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -63,7 +63,7 @@ class Clearances:
     obstacle: Float | None
 
 
-def clearances(record: Record) -> Clearances:
+def clearances(record: Rows) -> Clearances:
     """Return the clearances of a record: of robots to robots, props and obstacles.
 
     A clearance is the shortest distance between two outlines. For two discs that overlap, it is
@@ -153,13 +153,13 @@ class _Placed:
         return np.asarray(np.min(gaps, axis=0))
 
 
-def _surfaces(record: Record) -> list[Scenario]:
+def _surfaces(record: Rows) -> list[Scenario]:
     """Return the scenarios of a run, changes included, that have obstacles or a wall."""
     scenarios = [record.scenario, *(change.scenario for change in record.changes)]
     return [scenario for scenario in scenarios if scenario.surfaces]
 
 
-def _to_obstacles(record: Record, placed: _Placed, rows: NDArray[np.intp]) -> Float:
+def _to_obstacles(record: Rows, placed: _Placed, rows: NDArray[np.intp]) -> Float:
     """Return the clearance of each robot to its nearest obstacle, (T', n) metres; nan if none."""
     import shapely
 
@@ -189,7 +189,7 @@ def _to_obstacles(record: Record, placed: _Placed, rows: NDArray[np.intp]) -> Fl
 # -- the figure -----------------------------------------------------------------------------------
 
 
-def plot_distances(record: Record, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen") -> Axes:
     """Draw clearances over time: the distances between surfaces, 0 in contact.
 
     Up to six pairs (of robots, or a robot and a prop) have a curve each. For more, the figure shows
@@ -242,7 +242,7 @@ def _least(gaps: Float) -> Float:
     return np.where(np.isfinite(least), least, np.nan)
 
 
-def _pair_curves(record: Record, found: Clearances, look: Style) -> tuple[list[Entry], list[Float]]:
+def _pair_curves(record: Rows, found: Clearances, look: Style) -> tuple[list[Entry], list[Float]]:
     """Return a curve for each pair."""
     entries = []
     for k, (a, b) in enumerate(found.pairs.tolist()):
@@ -265,7 +265,7 @@ def nearest_body(found: Clearances, robots: int) -> Float:
 
 
 def _band(
-    ax: Axes, record: Record, found: Clearances, look: Style
+    ax: Axes, record: Rows, found: Clearances, look: Style
 ) -> tuple[list[Entry], list[Float]]:
     """Draw a band from minimum to maximum; return the legend, and the minimum, mean and maximum."""
     nearest = nearest_body(found, len(record.scenario.robots))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.errors import InputError, shown
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
     from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -33,7 +33,7 @@ class View:
     """The largest ratio of the sides; a longer corridor gets margins."""
 
     @classmethod
-    def of(cls, record: Record, row: int) -> Self:
+    def of(cls, record: Rows, row: int) -> Self:
         """Return the view of the workspace, and of all paths until `row`, with a margin."""
         check_rows(record)
         paths = record.pose[: row + 1], record.prop_pose[: row + 1]
@@ -93,7 +93,7 @@ PANEL_LIMIT = 64
 """The most panels in a figure."""
 
 
-def check_rows(record: Record, what: str = "draw") -> None:
+def check_rows(record: Rows, what: str = "draw") -> None:
     """Raise InputError for a record without rows; what: the verb of the message."""
     if len(record) == 0:
         raise InputError(f"the record has no rows: nothing ran, so there is nothing to {what}")
@@ -104,7 +104,7 @@ def is_end(time: object) -> bool:
     return isinstance(time, str) and time == "end"
 
 
-def rows_at(record: Record, times: ArrayLike) -> list[int]:
+def rows_at(record: Rows, times: ArrayLike) -> list[int]:
     """Return the last row of a record at or before each of the times [s], or "end".
 
     Raises InputError for a time outside the record, and for no times or too many.

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from mars2d.record.frame import Frame
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
     from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -69,7 +69,7 @@ TICK_SPACING = 28.0  # points between ticks, at least
 
 
 def plot_paths(
-    record: Record, ax: Axes | None = None, *, style: str = "screen", layers: Layers | None = None
+    record: Rows, ax: Axes | None = None, *, style: str = "screen", layers: Layers | None = None
 ) -> Axes:
     """Draw all layers at the end of a record: paths, initial poses hollow, final ones filled.
 
@@ -121,7 +121,7 @@ def _page(look: Style, scenario: Scenario, view: View) -> tuple[float, float]:
 
 
 def plot_snapshots(
-    record: Record,
+    record: Rows,
     times: ArrayLike,
     figure: Figure | None = None,
     *,
@@ -141,7 +141,7 @@ def plot_snapshots(
 
 
 def _snapshots(
-    record: Record, rows: list[int], figure: Figure | None, look: Style, layers: Layers | None
+    record: Rows, rows: list[int], figure: Figure | None, look: Style, layers: Layers | None
 ) -> Figure:
     scenario = record.scenario
     view = View.of(record, max(rows))
@@ -186,7 +186,7 @@ def _page_of_panels(
 
 
 def save_figure(
-    record: Record, path: str | Path, times: ArrayLike | None = None, *, style: str = "screen"
+    record: Rows, path: str | Path, times: ArrayLike | None = None, *, style: str = "screen"
 ) -> Path:
     """Save a figure of a record as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
@@ -329,7 +329,7 @@ def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SC
 
 
 def paint_row(
-    ax: Axes, record: Record, row: int, look: Style = SCREEN, layers: Layers | None = None
+    ax: Axes, record: Rows, row: int, look: Style = SCREEN, layers: Layers | None = None
 ) -> None:
     """Paint the layers at a row; layers: the switches, as in `plot_paths`."""
     now = record.frame(row)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.cm import ScalarMappable
 
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
 
 Float = NDArray[np.float64]
 
@@ -78,9 +78,7 @@ def panels(
     return list(made.ravel())
 
 
-def dress_panel(
-    ax: Axes, record: Record, last: Axes, look: Style, rows: slice = slice(None)
-) -> None:
+def dress_panel(ax: Axes, record: Rows, last: Axes, look: Style, rows: slice = slice(None)) -> None:
     """Set the limits of time, grid, ticks and spines; label the time below the last panel.
 
     rows: the rows that are drawn.

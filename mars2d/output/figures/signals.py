@@ -35,7 +35,7 @@ from mars2d.record.interventions import Change, Place
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
 
 Float = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ MAX_IMAGE_COLUMNS = 1500
 
 
 def plot_signals(
-    record: Record,
+    record: Rows,
     columns: Sequence[str] = (),
     robots: Sequence[str | int] | None = None,
     axes: Sequence[Axes] | None = None,
@@ -92,7 +92,7 @@ def plot_signals(
 
 
 def draw_signals(
-    record: Record,
+    record: Rows,
     found: Sequence[Signal],
     axes: Sequence[Axes] | None = None,
     *,
@@ -127,7 +127,7 @@ def draw_signals(
         return finish(axes, own=own)
 
 
-def _rows(record: Record, start: float | None, end: float | None) -> slice:
+def _rows(record: Rows, start: float | None, end: float | None) -> slice:
     """Return the rows from start to end, both inclusive, seconds."""
     last = float(record.time[-1])
     first = 0.0 if start is None else real("start", start, "seconds")
@@ -156,7 +156,7 @@ def _is_image(signal: Signal) -> bool:
     return signal.values.ndim == 4 or (several and signal.values.dtype != np.bool_)
 
 
-def _draw(ax: Axes, record: Record, rows: slice, signal: Signal, look: Style) -> None:
+def _draw(ax: Axes, record: Rows, rows: slice, signal: Signal, look: Style) -> None:
     times = record.time[rows]
     if signal.values.ndim > 2 and _is_image(signal):
         _image(ax, record, times, signal, look)
@@ -182,7 +182,7 @@ def _draw(ax: Axes, record: Record, rows: slice, signal: Signal, look: Style) ->
     set_span(ax, min(low, finite.min(initial=np.inf)), max(high, finite.max(initial=-np.inf)))
 
 
-def _entry(record: Record, body: int, look: Style, many: int) -> Entry:
+def _entry(record: Rows, body: int, look: Style, many: int) -> Entry:
     """Return the style of the curve of a robot or a prop, and its name in a legend."""
     width = width_of(many, look, LEGEND_LIMIT)
     scenario = record.scenario
@@ -203,7 +203,7 @@ def _own_entries(signal: Signal, look: Style) -> list[Entry]:
 
 
 def _entries(
-    record: Record, robots: tuple[int, ...], shown: list[Signal], look: Style
+    record: Rows, robots: tuple[int, ...], shown: list[Signal], look: Style
 ) -> list[Entry]:
     """Return the legend of the bodies with curves, robots first, or none for too many."""
     curves = [s for s in shown if s.values.dtype != np.bool_ and not _is_image(s)]
@@ -213,7 +213,7 @@ def _entries(
     return [_entry(record, b, look, 1) for b in order] if len(order) <= LEGEND_LIMIT else []
 
 
-def _mark(axes: Sequence[Axes], record: Record, rows: slice, look: Style) -> list[Entry]:
+def _mark(axes: Sequence[Axes], record: Rows, rows: slice, look: Style) -> list[Entry]:
     """Draw a line at each intervention by hand, and return its entry in the legend."""
     kinds = (Place, Change)
     moments = {each.row for each in record.interventions if isinstance(each, kinds)}
@@ -232,7 +232,7 @@ def _mark(axes: Sequence[Axes], record: Record, rows: slice, look: Style) -> lis
 
 
 def _flags(
-    ax: Axes, record: Record, times: Float, signal: Signal, values: Float, look: Style
+    ax: Axes, record: Rows, times: Float, signal: Signal, values: Float, look: Style
 ) -> None:
     """Draw bars where flags (T, rows) are True, one row each, the first on top."""
     from matplotlib.collections import PolyCollection
@@ -263,7 +263,7 @@ def _flags(
         say(ax, "never", look)
 
 
-def _image(ax: Axes, record: Record, times: Float, signal: Signal, look: Style) -> None:
+def _image(ax: Axes, record: Rows, times: Float, signal: Signal, look: Style) -> None:
     """Draw the readings (T, 1, beams) or (T, 1, pixels, 3) of a robot over time and bearing."""
     import matplotlib as mpl
     from matplotlib.image import AxesImage

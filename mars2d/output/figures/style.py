@@ -12,7 +12,7 @@ from mars2d.core.scene import rgb
 from mars2d.record.interventions import Change
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
     from mars2d.scenario.scenario import Scenario
 
 MILLIMETRE = 1 / 25.4
@@ -92,7 +92,7 @@ class Style:
         colors = self.colors(scenario)
         return colors[index], DASHES[colors[:index].count(colors[index]) % len(DASHES)]
 
-    def restyled(self, record: Record) -> Record:
+    def restyled(self, record: Rows) -> Rows:
         """Return the record with the colours that this style gives its robots."""
         if self.colors(record.scenario) == record.scenario.colors:
             return record

@@ -22,7 +22,7 @@ from mars2d.record.frame import Frame
 if TYPE_CHECKING:
     import pygame
 
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
 
 SUFFIXES = (".gif", ".mp4")
 
@@ -35,7 +35,7 @@ MAX_FPS = {".gif": 50, ".mp4": 240}
 
 
 def film_record(
-    record: Record,
+    record: Rows,
     path: str | os.PathLike[str],
     *,
     speed: float = 1.0,
@@ -65,7 +65,7 @@ def film_record(
 
 
 def cut_of(
-    record: Record,
+    record: Rows,
     speed: float = 1.0,
     fps: float = 25,
     start: float | None = None,

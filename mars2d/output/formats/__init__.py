@@ -1,4 +1,4 @@
-"""Records as files: one module per format, each of which reads its own files to the last bit."""
+"""Records as files: one module per format. Exports, for other programs, are not read back."""
 
 from __future__ import annotations
 
@@ -11,14 +11,15 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mars2d.core.errors import InputError, likely, shown
+from mars2d.core.errors import InputError, Mars2dError, likely, one_line, shown
 from mars2d.output.formats.guard import check_limit, reading
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
 __all__ = [
+    "EXPORTS",
     "FORMATS",
     "SUFFIXES",
     "Format",
@@ -36,10 +37,11 @@ __all__ = [
 class Format(NamedTuple):
     """A format of records, as far as it is known before its module is imported.
 
-    module: in this folder. It has ``write(record, path)`` and ``read(path, largest)``; if the
-    format has an `extra`, also ``require(path)``, which raises MissingExtraError where a library is
-    missing; if it is `streamed`, also a class ``Log``. extra: the extra of MARS2D that installs
-    those libraries. streamed: whether it can be written while the run goes on.
+    module: in this folder. It has ``write(record, path)``; if the format is read back, also
+    ``read(path, largest)``; if it has an `extra`, also ``require(path)``, which raises
+    MissingExtraError where a library is missing; if it is `streamed`, also a class ``Log``. extra:
+    the extra of MARS2D that installs those libraries. streamed: whether it can be written while the
+    run goes on.
     """
 
     module: str
@@ -49,27 +51,38 @@ class Format(NamedTuple):
 
 FORMATS = {
     ".npz": Format("npz"),
-    ".mat": Format("mat"),
     ".csv": Format("table"),
-    ".nc": Format("netcdf", extra="data"),
     ".mcap": Format("mcap", extra="log", streamed=True),
+    ".mat": Format("mat"),
+    ".nc": Format("dataset", extra="data"),
 }
 """The formats by the endings of files."""
 
-SUFFIXES = tuple(FORMATS)
+EXPORTS = (".mat", ".nc")
+"""The endings of files for other programs, which MARS2D does not read."""
+
+SUFFIXES = tuple(suffix for suffix in FORMATS if suffix not in EXPORTS)
+"""The endings of files that are read back."""
 
 MAX_STEM = 50
 """How many letters of a name are kept in the new name of a record that is kept elsewhere."""
 
 
-def save(record: Record, path: str | Path) -> Path:
+def save(record: Rows, path: str | Path) -> Path:
     """Write a record in the format that the path's ending names; see `Record.save`."""
     target = _path(path)
-    _module(target).write(record, target)
+    try:
+        _module(target).write(record, target)
+    except Mars2dError:
+        raise
+    except Exception as error:  # of scipy or xarray, such as for more than 2 GB
+        raise InputError(
+            f"{target}: can't be written: {one_line(error)}; save it as .npz"
+        ) from error
     return target
 
 
-def load(path: str | Path, largest: float) -> Record:
+def load(path: str | Path, largest: float) -> Rows:
     """Read a record in the format that the path's ending names; see `mars2d.load`."""
     source = _path(path)
     limit = check_limit(largest)
@@ -82,7 +95,11 @@ def load(path: str | Path, largest: float) -> Record:
         if not source.is_file():  # a pipe, for example, may never end
             raise InputError(f"{source}: not a file; expected a record, as run.npz")
     module = _module(source)
-    record: Record = module.read(source, limit)
+    if source.suffix.lower() in EXPORTS:
+        raise InputError(
+            f"{source}: an export for other programs; expected a record: {' or '.join(SUFFIXES)}"
+        )
+    record: Rows = module.read(source, limit)
     return record
 
 
@@ -119,7 +136,8 @@ def _path(path: str | Path) -> Path:
 def _module(path: Path) -> Any:
     format_ = FORMATS.get(path.suffix.lower())
     if format_ is None:
-        known = f"{', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        *others, last = FORMATS
+        known = f"{', '.join(others)} or {last}"
         raise InputError(f"{path}: expected a record: a name that ends in {known}")
     return import_module(f"mars2d.output.formats.{format_.module}")
 
@@ -127,7 +145,7 @@ def _module(path: Path) -> Any:
 # -- records that can't be saved where they should be -----------------------------------------
 
 
-def save_or_rescue(record: Record, path: Path) -> None:
+def save_or_rescue(record: Rows, path: Path) -> None:
     """Save a record; where that fails, keep it elsewhere.
 
     Raises InputError, which says why it failed and where the record is now. The error's `record` is
@@ -143,16 +161,16 @@ def save_or_rescue(record: Record, path: Path) -> None:
         raise failure from error
 
 
-def save_branches(record: Record, beside: Path) -> list[Path]:
+def save_branches(record: Rows, beside: Path) -> list[Path]:
     """Save the branches of a record beside it, under free names; return these."""
     saved = []
     for branch in record.branches:
         names = (beside.with_stem(f"{beside.stem}_branch{k}") for k in count(1))
-        saved.append(branch.save(next(name for name in names if not name.exists())))
+        saved.append(save(branch, next(name for name in names if not name.exists())))
     return saved
 
 
-def rescued(record: Record, path: Path) -> Path | None:
+def rescued(record: Rows, path: Path) -> Path | None:
     """Save a record under a new name where there is room, and return that name; None if nowhere.
 
     path: where it should have been saved. The new file is an .npz, which can hold every record.

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mars2d.record.energy import WORK
-from mars2d.record.record import COLUMNS, Record
+from mars2d.record.rows import COLUMNS, Rows
 
 # -- units ------------------------------------------------------------------------------------
 
@@ -29,7 +29,7 @@ MESSAGE_UNITS = {"time": "s", "arrival": "s", "size": "byte"}
 """The units of the fields of messages; the other fields are indices."""
 
 
-def command_units(record: Record) -> tuple[str, ...]:
+def command_units(record: Rows) -> tuple[str, ...]:
     """Return the units of a command's two numbers; () where the robots' drives disagree.
 
     It is () as well for drives of the user's own that do not say.
@@ -39,7 +39,7 @@ def command_units(record: Record) -> tuple[str, ...]:
     return found.pop() if len(found) == 1 else ()
 
 
-def sensor_units(record: Record, name: str) -> tuple[str, ...] | None:
+def sensor_units(record: Rows, name: str) -> tuple[str, ...] | None:
     """Return the units of a sensor's readings, in order; None where it has none.
 
     None, too, where they are unknown: for sensors of the user's own in a record from a file.

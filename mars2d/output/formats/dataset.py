@@ -1,13 +1,15 @@
-"""Datasets of xarray: all columns of a record, with named axes and units."""
+"""Datasets of xarray: all columns of a record, with named axes and units; ``.nc`` files of them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mars2d.core.extras import extra
+from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import (
     COLUMN_UNITS,
@@ -15,11 +17,12 @@ from mars2d.output.formats.columns import (
     MESSAGE_UNITS,
     POSE_UNITS,
     command_units,
+    plain_names,
     sensor_units,
 )
 from mars2d.record.energy import WORK
 from mars2d.record.message import STATUS
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -51,7 +54,7 @@ DIMENSIONS = {
 }
 
 
-def to_xarray(record: Record) -> Dataset:
+def to_xarray(record: Rows) -> Dataset:
     """Return all columns of a record as a dataset, with units as attributes.
 
     ``pose``: time, axis (x, y, theta), robot. ``command``: time, input, robot. ``prop_pose``: time,
@@ -65,7 +68,7 @@ def to_xarray(record: Record) -> Dataset:
     return named_dataset(record, {name: name for name in record.sensors})
 
 
-def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
+def named_dataset(record: Rows, sensors: Mapping[str, str]) -> Dataset:
     """Return the dataset of `to_xarray`, with other names for sensors."""
     with extra("data", "datasets need xarray"):
         import xarray as xr
@@ -103,13 +106,33 @@ def named_dataset(record: Record, sensors: Mapping[str, str]) -> Dataset:
     return xr.Dataset(variables, coords=places, attrs=about)
 
 
+def require(path: Path) -> None:
+    """Raise MissingExtraError where xarray isn't installed."""
+    with extra("data", f"{path}: netCDF needs xarray", ".npz, .mat and .csv need nothing"):
+        import xarray  # noqa: F401
+
+
+def write(record: Rows, path: Path) -> None:
+    """Write the dataset as netCDF 3, which ncdump, R, Matlab and Panoply open.
+
+    Names of sensors become ASCII. Variables without values are left out: a length of 0 means in
+    netCDF 3 that a dimension can grow. Raises MissingExtraError without xarray.
+    """
+    require(path)
+    dataset = named_dataset(record, plain_names(record.sensors))
+    empty = [name for name, each in dataset.variables.items() if not each.size]
+    content = dataset.drop_vars(empty).to_netcdf(engine="scipy", format="NETCDF3_64BIT")
+    with atomic_write(path) as file:
+        file.write(content)
+
+
 def variable_of(column: str, sensors: Mapping[str, str]) -> str:
     """Return the name of a column's variable: ``sensor_scan`` for ``sensor:scan``."""
     family, _, name = column.partition(":")
     return f"sensor_{sensors[name]}" if family == "sensor" else column.replace(":", "_")
 
 
-def _dimensions(record: Record, column: str, sensors: Mapping[str, str]) -> tuple[str, ...]:
+def _dimensions(record: Rows, column: str, sensors: Mapping[str, str]) -> tuple[str, ...]:
     if column in DIMENSIONS:
         return DIMENSIONS[column]
     family, _, name = column.partition(":")
@@ -121,7 +144,7 @@ def _dimensions(record: Record, column: str, sensors: Mapping[str, str]) -> tupl
     return ("time", "robot" if all_carry else f"{called}_robot", *others)
 
 
-def _attributes(record: Record, column: str) -> dict[str, str]:
+def _attributes(record: Rows, column: str) -> dict[str, str]:
     family, _, name = column.partition(":")
     unit = COLUMN_UNITS.get(column)
     if column in ("pose", "prop_pose"):

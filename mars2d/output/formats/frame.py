@@ -22,13 +22,13 @@ from mars2d.output.formats.columns import (
     sensor_units,
 )
 from mars2d.record.message import STATUS
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 
-def to_frame(record: Record, table: str = "bodies") -> DataFrame:
+def to_frame(record: Rows, table: str = "bodies") -> DataFrame:
     """Return a table of a record; ``frame.attrs["units"]`` has the units of its columns.
 
     "bodies": indexed by time and body, robots first, then props. Values that a body does not have
@@ -50,7 +50,7 @@ def to_frame(record: Record, table: str = "bodies") -> DataFrame:
     return frame
 
 
-def _bodies(record: Record) -> tuple[DataFrame, dict[str, str]]:
+def _bodies(record: Rows) -> tuple[DataFrame, dict[str, str]]:
     import pandas as pd
 
     columns = record.columns()
@@ -86,7 +86,7 @@ def _column(columns: dict[str, NDArray[Any]], parts: list[Part], bodies: int) ->
     return found.ravel()
 
 
-def _contacts(record: Record) -> tuple[DataFrame, dict[str, str]]:
+def _contacts(record: Rows) -> tuple[DataFrame, dict[str, str]]:
     import pandas as pd
 
     rows = record.contacts
@@ -107,7 +107,7 @@ def _contacts(record: Record) -> tuple[DataFrame, dict[str, str]]:
     return pd.DataFrame(table), units
 
 
-def _messages(record: Record) -> tuple[DataFrame, dict[str, str]]:
+def _messages(record: Rows) -> tuple[DataFrame, dict[str, str]]:
     import pandas as pd
 
     rows, names = record.messages, [str(robot.name) for robot in record.scenario.robots]

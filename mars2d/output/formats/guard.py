@@ -1,4 +1,4 @@
-"""Reading files that may be damaged, hostile or huge: limits of size, and one-line errors."""
+"""Reading files that may be damaged or huge: one limit of size, and one-line errors."""
 
 from __future__ import annotations
 

@@ -7,19 +7,17 @@ from collections.abc import Mapping
 from contextlib import suppress
 from hashlib import sha256
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
-from mars2d.output.formats.guard import check_size
 from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE, STATUS
-from mars2d.record.record import COLUMNS, FORMER, Record, digest_of
+from mars2d.record.rows import COLUMNS, FORMER, Rows, digest_of
 from mars2d.scenario import pictures, serialize
 
 Columns = Mapping[str, NDArray[Any]]
@@ -43,9 +41,6 @@ MEANING = {
 }  # fmt: skip
 """The values of a header in words."""
 
-OBJECTS = 16
-"""How many bytes of memory one byte of JSON may take when it is read."""
-
 NOT_KEPT = np.empty(0)
 """In place of a column that files of the former version do not have."""
 
@@ -56,7 +51,7 @@ KINDS = frozenset(np.dtype(kind).str for kind in (np.float64, np.bool_, np.int32
 """The types of numbers in all other columns."""
 
 
-def of_record(record: Record) -> dict[str, Any]:
+def of_record(record: Rows) -> dict[str, Any]:
     """Return everything in a record but its columns, as dicts, lists, text and numbers."""
     return {
         "format": FORMAT if record.kept == COLUMNS else FORMER_FORMAT,
@@ -74,7 +69,7 @@ def of_record(record: Record) -> dict[str, Any]:
     }
 
 
-def _settings_of(record: Record) -> dict[str, Any]:
+def _settings_of(record: Rows) -> dict[str, Any]:
     """Return the settings that a file can hold; nothing where there are none."""
     plain = {}
     for name, value in record.settings.items():
@@ -83,12 +78,12 @@ def _settings_of(record: Record) -> dict[str, Any]:
     return {"settings": plain} if plain else {}
 
 
-def numbers_of(record: Record) -> dict[str, NDArray[Any]]:
+def numbers_of(record: Rows) -> dict[str, NDArray[Any]]:
     """Return all columns of a record except those that are texts."""
     return {name: column for name, column in record.columns().items() if name not in TEXTS}
 
 
-def with_shapes(record: Record) -> dict[str, Any]:
+def with_shapes(record: Rows) -> dict[str, Any]:
     """Return the header for a format in which columns lose their types or shapes.
 
     In addition to `of_record`, ``columns`` has the type and shape of each column, and ``contents``
@@ -103,12 +98,11 @@ def as_text(header: Mapping[str, Any]) -> str:
     return json.dumps({**header, SUMS: _sums(header)})
 
 
-def of_text(path: Path, text: str | bytes, largest: int) -> dict[str, Any]:
-    """Return the header in a file's JSON; InputError where it is too large, or of another version.
+def of_text(text: str | bytes) -> dict[str, Any]:
+    """Return the header in a file's JSON; InputError where it is of another version, or changed.
 
     Raises various exceptions where it is no header at all.
     """
-    check_size(path, OBJECTS * len(text), largest)
     header: dict[str, Any] = json.loads(text)
     check_format(header)
     check_sums(header, header["format"])
@@ -166,7 +160,7 @@ def check_format(header: Mapping[str, Any]) -> None:
         raise InputError(f"written by an older version of MARS2D, {made}: run the experiment again")
 
 
-def restored(header: Mapping[str, Any], columns: Columns) -> Record:
+def restored(header: Mapping[str, Any], columns: Columns) -> Rows:
     """Put a record together from columns that lost their types or shapes; see `with_shapes`.
 
     columns: the values of each column of `numbers_of`, in order; a column without values may be
@@ -187,7 +181,7 @@ def restored(header: Mapping[str, Any], columns: Columns) -> Record:
     return to_record(header, whole)
 
 
-def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False) -> Record:
+def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False) -> Rows:
     """Put a record together from the header and the columns of a file.
 
     columns: those of `names_in`, as `Record.columns` gives them. torn: whether the file breaks off,
@@ -198,7 +192,7 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
     lost: list[str] = []
     scenario, missing = serialize.to_scenario(pictures.of_record(header["scenario"], lost))
     robots = {name: tuple(indices) for name, indices in header["sensor_robots"].items()}
-    record = Record(
+    record = Rows(
         scenario=scenario,
         seed=header["seed"],
         time=columns["time"],
@@ -242,7 +236,7 @@ def _tuples(value: Any) -> Any:
     return tuple(map(_tuples, value)) if isinstance(value, list) else value
 
 
-def _digest(record: Record, header: Mapping[str, Any]) -> str:
+def _digest(record: Rows, header: Mapping[str, Any]) -> str:
     """Return the digest of a record, as the version of its file has it."""
     without = set(COLUMNS) - set(columns_in(header))
     if not without:
@@ -284,7 +278,7 @@ def _check_kinds(header: Mapping[str, Any]) -> None:
     json.dumps(words, ensure_ascii=False).encode()  # fails for half a character
 
 
-def _check(record: Record) -> None:
+def _check(record: Rows) -> None:
     """Raise ValueError for wrong shapes, types or indices, and for numbers that are not finite.
 
     Later a window or a figure would fail on them, with a less helpful message.

@@ -10,7 +10,6 @@ import io
 from base64 import b64decode, b64encode
 from collections.abc import Iterator, Mapping
 from itertools import chain, islice, repeat
-from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +21,7 @@ from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import KEYS, LAST, Part, parts_of
 from mars2d.output.formats.guard import check_size, reading
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 PIECE_LENGTH = 30_000
 """The characters of JSON in a cell; a cell of a spreadsheet holds 32 767."""
@@ -39,7 +38,7 @@ NAN = np.array(np.nan).view(np.uint64) << np.uint64(1)
 Columns = Mapping[str, NDArray[Any]]
 
 
-def write(record: Record, path: Path) -> None:
+def write(record: Rows, path: Path) -> None:
     """Write a record to a file. Raises InputError where it can't be written."""
     columns, header = headers.numbers_of(record), headers.with_shapes(record)
     parts = _parts(header)
@@ -66,35 +65,20 @@ def write(record: Record, path: Path) -> None:
         table.writerows([*repeat("", len(KEYS) + len(parts)), piece] for piece in pieces)
 
 
-def read(path: Path, largest: int) -> Record:
+def read(path: Path, largest: int) -> Rows:
     """Read the record in a file; InputError where there is none, or it is larger than allowed."""
     with reading(path), path.open(encoding="utf-8-sig", newline="") as file:
         size = path.stat().st_size
         check_size(path, size, largest)
         csv.field_size_limit(max(csv.field_size_limit(), size))  # no cell is longer than the file
         text = "".join(_pieces(csv.reader(file, strict=True)))
-        header = headers.of_text(path, text, largest)
-        check_size(path, 8 * _claimed(header, size), largest)
+        header = headers.of_text(text)
         file.seek(0)
         values, names = _values(header, csv.reader(file, strict=True))
         record = headers.restored(header, values)
         if names not in (None, [str(body.name) for body in record.scenario.bodies]):
             raise InputError(MIXED)
         return record
-
-
-def _claimed(header: Mapping[str, Any], size: int) -> int:
-    """Return how many values a table claims to hold. Raises ValueError if its file is too small.
-
-    Each value takes at least a byte, and each column at least a byte of the first line.
-    """
-    kept = [header["columns"][name] for name in headers.names_of_bodies(header)]
-    values: int = sum(prod(shape) for _, shape in kept)
-    wide = sum(prod(shape[2:]) for _, shape in kept)
-    known = all(kind in headers.KINDS and min(shape) >= 0 for kind, shape in kept)
-    if not known or max(values, wide) > size:
-        raise ValueError("columns")
-    return values
 
 
 def _pieces(table: Iterator[list[str]]) -> Iterator[str]:

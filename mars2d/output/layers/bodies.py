@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mars2d.bodies.colors import prop_color, prop_colors
 from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.props.base import Prop
 from mars2d.core.plane import Point
@@ -21,26 +22,6 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
-
-OBSTACLE = "#b8c0c8"
-
-NEUTRAL = "#d8cbb3"
-"""The colour of a prop of which neither colour nor material is said."""
-
-MATERIAL_COLORS = {
-    "aluminium": "#c3ced8",
-    "cardboard": "#c9a26b",
-    "concrete": "#bdb8ae",
-    "felt": "#a9bd97",
-    "foam": "#f1e3b0",
-    "glass": "#cfe8e4",
-    "ice": "#d6ecf8",
-    "plastic": "#e8c7d9",
-    "rubber": "#77716b",
-    "steel": "#9fb2c4",
-    "teflon": "#eceae4",
-    "wood": "#d9b384",
-}
 
 
 def draw_robot(scene: Scene, robot: Robot, pose: Float, fill: str | None, stroke: str) -> None:
@@ -147,16 +128,6 @@ def joints(frame: Frame) -> Scene:
         for tie in frame.scenario.ties:
             draw_tie(scene, tie, poses)
     return scene
-
-
-def prop_color(prop: Prop) -> str:
-    """Return the colour of a prop: its own, or that of its material."""
-    return prop.color or MATERIAL_COLORS.get(prop.material or "", NEUTRAL)
-
-
-def prop_colors(props: Sequence[Prop]) -> tuple[str, ...]:
-    """Return the colour of each prop."""
-    return tuple(prop_color(prop) for prop in props)
 
 
 def prop_edge(color: str) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from mars2d.bodies.colors import OBSTACLE
 from mars2d.core.scene import INK, Polygon, Scene, faded
-from mars2d.output.layers.bodies import OBSTACLE
 from mars2d.scenario.scenario import Scenario
 
 

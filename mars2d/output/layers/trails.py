@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.bodies.colors import prop_colors
 from mars2d.core.scene import Scene, faded
-from mars2d.output.layers.bodies import prop_colors, prop_edge
+from mars2d.output.layers.bodies import prop_edge
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Leap
 from mars2d.scenario.scenario import Scenario

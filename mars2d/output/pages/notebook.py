@@ -21,7 +21,7 @@ from mars2d.output.pages.svg import text_of
 from mars2d.record.frame import Frame
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
     from mars2d.scenario.scenario import Scenario
 
 REPLAY_HEIGHT = 480
@@ -77,7 +77,7 @@ def world_svg(world: Shown) -> str:
     return _picture(picture, world.scenario.title)
 
 
-def record_svg(record: Record) -> str:
+def record_svg(record: Rows) -> str:
     """Return a picture of the end of a record, with the paths; it never raises."""
 
     def picture() -> tuple[Frame, str]:
@@ -88,7 +88,7 @@ def record_svg(record: Record) -> str:
     return _picture(picture, record.scenario.title)
 
 
-def record_html(record: Record) -> str:
+def record_html(record: Rows) -> str:
     """Return a replay in a frame, above the picture of its end; it never raises.
 
     If there is no replay, or one too large for a notebook, a text below the picture says so.
@@ -156,7 +156,7 @@ def _described(scenario: Scenario) -> str:
     )
 
 
-def _outcome(record: Record) -> str:
+def _outcome(record: Rows) -> str:
     """Return the outcome of a run, in words."""
     rows = f"{counted(len(record), 'row')} to t = {record.time[-1]:.10g} s"
     touches = counted(record.collisions, "collision")

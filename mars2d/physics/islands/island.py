@@ -35,6 +35,9 @@ from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust
 from mars2d.physics.islands.tie import Tie
 
+STUCK = 16
+"""After how many substeps in a row with bodies too deep in each other they are mended faster."""
+
 
 @cython.final
 @cython.cclass
@@ -206,7 +209,10 @@ class Island:
     def weigh(self) -> cython.void:
         """Learn from overlaps how many pushes add up, and how hard the solver has to try."""
         accuracy: Accuracy = self.accuracy
+        self.solver.hurries = False
         if self.deepest > accuracy.strained:
+            # What turns fast gets deeper again and again before the engine has mended it.
+            self.solver.hurries = self.tries >= STUCK
             self.strain = min(accuracy.strain_growth * self.strain, self.most_strain)
             # If the solver goes round in a circle it ends elsewhere in it each time.
             self.tries = min(self.tries + 1, 64)
@@ -244,7 +250,7 @@ class Island:
         tie: Tie
         for tie in self.ties:
             solver.tie(tie)
-        self.tries = 0
+        self.tries, solver.hurries = 0, False
         set_iterations(solver.space, self.iterations)
         solver.used = True
 

@@ -101,6 +101,8 @@ class Solver:
     joint_mend_rate: cython.double
     mend_base: cython.double  # e to the power of minus the rate
     joint_mend_base: cython.double
+    hurries: cython.bint  # whether overlaps are to go as fast as what joints are off by
+    hurried: cython.bint
     mend: cython.double  # what the engine is told for steps as long as the last one
     joint_mend: cython.double
     surfaces: object  # kept for the space, which knows its address
@@ -118,8 +120,12 @@ class Solver:
         """
         self.space, self.room = new_space(slop), room
         self.mend_rate, self.joint_mend_rate = mend_rate, joint_mend_rate
-        self.mend_base, self.joint_mend_base = exponential(-mend_rate), exponential(-joint_mend_rate)
+        self.mend_base, self.joint_mend_base = (
+            exponential(-mend_rate),
+            exponential(-joint_mend_rate),
+        )
         self.mend = self.joint_mend = 0.0
+        self.hurries = self.hurried = False
         self.surfaces = surfaces
         if surfaces is not None:
             watch(self.space, surfaces)
@@ -384,9 +390,12 @@ class Solver:
         ratio: cython.double = 0.0 if self.stale else h / self.last_step
         self.stale = False
         k: cython.int
-        if h != self.last_step:
-            self.last_step = h
-            self.mend, self.joint_mend = decay_base(self.mend_rate, self.mend_base, h), 0.0
+        if h != self.last_step or self.hurries != self.hurried:
+            self.last_step, self.hurried, self.joint_mend = h, self.hurries, 0.0
+            if self.hurries:
+                self.mend = decay_base(self.joint_mend_rate, self.joint_mend_base, h)
+            else:
+                self.mend = decay_base(self.mend_rate, self.mend_base, h)
         if ratio != 1.0:
             for k in range(self.find_contacts()):
                 scale(self.arbiters.at(k), ratio)

@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mars2d.record.record import Record
 from mars2d.reports.bench.report import Figures, Row
 from mars2d.reports.bench.scenes import SCENES, Scene
 from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
+from mars2d.world.record import Record
 from mars2d.world.world import World
 
 START = "start"

@@ -13,7 +13,7 @@ from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.prediction import Prediction
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.world.record import Record
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,6 @@ from collections.abc import Callable
 from typing import NamedTuple, NoReturn
 
 from mars2d.core.errors import InputError
-from mars2d.core.lastresort import kill_group
 from mars2d.study import ONE_THREAD
 
 Sockets = tuple[socket.socket, socket.socket]
@@ -139,7 +138,9 @@ def _command(code: str, *arguments: str) -> list[str]:
 
 def _kill(process: int, alone: Callable[[], None]) -> None:
     """Kill a process and its group."""
-    kill_group(process)
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        if hasattr(os, "killpg"):
+            os.killpg(process, signal.SIGKILL)
     with contextlib.suppress(ProcessLookupError):
         alone()
 

@@ -10,17 +10,19 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from math import ceil
 from pathlib import Path
-from typing import Self, cast
+from typing import Self
 
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.streams import check_seed
 from mars2d.scenario.scenario import Scenario
-from mars2d.study.isolation.clock import LOOK, Clock
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.study.isolation.observation import brief
 from mars2d.study.isolation.process import LawProcess
 from mars2d.world.simulation import Simulation
 from mars2d.world.views import RobotView
+
+LOOK = 0.1
+"""The longest time between two looks at the memory of laws while they compute, seconds."""
 
 CHATTER_TIME = 1.0
 """How long a law may go on sending after another law's time is over, seconds."""
@@ -70,7 +72,6 @@ class Guard:
         self._poller: _Poller | None = None
         self._world: Simulation | None = None
         self._iteration = -1
-        self._clock = Clock()
 
     @property
     def output(self) -> dict[str, str]:
@@ -86,7 +87,7 @@ class Guard:
         poller = self._poller = _Poller()
         try:
             for role, briefing in briefings.items():
-                process = self._processes[role] = LawProcess(briefing, *count, self._clock)
+                process = self._processes[role] = LawProcess(briefing, *count)
                 poller.add(process.channel, process.receive)
                 poller.add(process.output, process.drain)
             for process in self._processes.values():
@@ -111,7 +112,7 @@ class Guard:
 
     def _asking(self, robot: int) -> Callable[[RobotView], tuple[float, float]]:
         def control(view: RobotView) -> tuple[float, float]:
-            world = cast("Simulation", view._world)
+            world = view._world
             if world.iteration != self._iteration or world is not self._world:
                 self._ask_all(world)
             process = self._processes[self._drivers[robot]]
@@ -142,9 +143,9 @@ class Guard:
         """Wait until each process that was asked has answered, or its time is over."""
         assert self._poller is not None
         while asked := [process for process in self._processes.values() if process.asked]:
-            wait = min(process.deadline for process in asked) - self._clock.now()
+            wait = min(process.deadline for process in asked) - time.perf_counter()
             heard = self._poller.wait(min(max(0.0, wait), LOOK))
-            now = self._clock.now() - (CHATTER_TIME if heard else 0.0)
+            now = time.perf_counter() - (CHATTER_TIME if heard else 0.0)
             for process in asked:
                 process.weigh()
                 if process.asked and process.deadline <= now:

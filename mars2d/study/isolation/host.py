@@ -21,7 +21,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from mars2d.core.errors import Mars2dError, is_a, is_made_here, part_of
+from mars2d.core.errors import Mars2dError
 from mars2d.core.hints import described
 from mars2d.core.usercode import stack_of, users_line
 from mars2d.scenario.code_file import law_in
@@ -171,7 +171,7 @@ class Host:
         place = users_line(stack_of(error)) or file
         if _is_memory_error(error):
             kind = "memory"
-        if is_a(error, Mars2dError) and is_made_here(error):
+        if isinstance(error, Mars2dError):
             place, text = error.where or place, str(error.args[0])
         else:
             text = f"raised {described(error)}"
@@ -221,8 +221,8 @@ def _is_memory_error(error: BaseException | None) -> bool:
     """Return whether an error is a MemoryError or was caused by one."""
     seen: set[int] = set()
     while error is not None and id(error) not in seen:
-        if is_a(error, MemoryError):
+        if isinstance(error, MemoryError):
             return True
         seen.add(id(error))
-        error = part_of(error, "__cause__")
+        error = error.__cause__
     return False

@@ -21,7 +21,7 @@ from mars2d.world.channel import Channel
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView, unknown
 
 if TYPE_CHECKING:
-    from mars2d.world.interfaces import Seen
+    from mars2d.world.simulation import Simulation
 
 Float = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ REFUSED = {
     "history": "robot.memory, to keep what it needs",
     **dict.fromkeys(
         (
-            "addons", "surroundings", "hands", "recorder", "record", "frame", "step", "stop",
+            "addons", "surroundings", "operator", "recorder", "record", "frame", "step", "stop",
             "hold", "observe", "follow", "change", "rebuild", "break_off", "control", "driven",
             "motion", "over", "over_message", "finished", "watch", "filename",
         ),
@@ -100,7 +100,7 @@ def _refused(what: str) -> Any:
 class OtherView(RobotView):
     """Another law's robot, as seen by a law that sees the whole world."""
 
-    def __init__(self, world: Seen, index: int) -> None:
+    def __init__(self, world: Simulation, index: int) -> None:
         self._world, self._index = world, index
 
     sense = _refused("sense")
@@ -134,7 +134,7 @@ class MirrorWorld:
             limit = int(briefing.limits.output * 1e6)
             self._mailbox = Mailbox([str(robot.name) for robot in described], limit)
         self._neighbours: dict[int, Sequence[int]] = {}
-        world: Seen = self
+        world = cast("Simulation", self)
         names = [str(described[i].name) for i in briefing.robots]
         keys = [f"robot {name}" for name in names]
         stream = _Streams(dict(zip(keys, briefing.streams, strict=True))).stream

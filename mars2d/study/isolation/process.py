@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mars2d.core.errors import Mars2dError
 from mars2d.core.usercode import users_line
-from mars2d.study.isolation.clock import Clock
 from mars2d.study.isolation.fork_server import start
 from mars2d.study.isolation.host import CUT_OFF
 from mars2d.study.isolation.limits import MB
@@ -69,9 +68,8 @@ class LawProcess:
     sockets to poll; call `receive` and `drain` when they can be read.
     """
 
-    def __init__(self, briefing: Briefing, robots: int, props: int, clock: Clock) -> None:
-        """Start the process. robots, props: the numbers of all of them. clock: of the match."""
-        self._clock = clock
+    def __init__(self, briefing: Briefing, robots: int, props: int) -> None:
+        """Start the process. robots, props: the numbers of all of them."""
         self._briefing, self._limits = briefing, briefing.limits
         self._file = briefing.file.name
         self._observer = Observer(briefing, robots, props)
@@ -116,7 +114,7 @@ class LawProcess:
 
     def _ask(self, frame: bytes | memoryview, allowed: float) -> None:
         self.asked, self._allowed = True, allowed
-        self._since = self._clock.now()
+        self._since = time.perf_counter()
         self._send(frame)
 
     def _send(self, frame: bytes | memoryview) -> None:
@@ -131,7 +129,7 @@ class LawProcess:
 
     @property
     def deadline(self) -> float:
-        """The time by which it must answer, on the clock of the match."""
+        """The time by which it must answer, as `time.perf_counter` counts."""
         return self._since + self._allowed
 
     def receive(self) -> bool:
@@ -199,7 +197,7 @@ class LawProcess:
             raise ValueError(numbers)
         self._commands, self._letters = numbers, letters
         self.asked, self._late = False, ""
-        self._used += self._clock.now() - self._since
+        self._used += time.perf_counter() - self._since
         if self._used > self._limits.match:
             self._too_long()
 

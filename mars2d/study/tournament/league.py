@@ -27,9 +27,6 @@ if TYPE_CHECKING:
 WIN, DRAW = 1.0, 0.5
 """The points for a match; a loss gives none."""
 
-MATCHES, LEAGUE, PAGE = "matches.csv", "league.csv", "league.html"
-"""The files that are written to a tournament's folder at the end."""
-
 
 @dataclass(frozen=True)
 class Standing:
@@ -251,19 +248,10 @@ class Tournament:
         writer = csv.writer(text)
         writer.writerow(rows[0] if rows else [])
         writer.writerows([_cell(value) for value in row.values()] for row in rows)
-        return _write(Path(path), text.getvalue())
-
-    def save_html(self, path: str | Path) -> Path:
-        """Write one page with the league, all matches and their replays; return the path."""
-        from mars2d.study.tournament.page import league_page
-
-        return _write(Path(path), league_page(self))
-
-    def save_all(self, folder: Path) -> None:
-        """Write both tables and the page to a folder."""
-        self.save_csv(folder / MATCHES)
-        self.save_csv(folder / LEAGUE, "league")
-        self.save_html(folder / PAGE)
+        target = Path(path)
+        with atomic_write(target) as file:
+            file.write(text.getvalue().encode("utf-8", errors="replace"))
+        return target
 
     def _repr_html_(self) -> str:
         """Return the league as tables, for a notebook."""
@@ -286,11 +274,3 @@ def _cell(value: Any) -> str:
     if value is None or value != value:  # noqa: PLR0124 - nan
         return ""
     return word_cell(one_line(" ".join(value.split()))) if isinstance(value, str) else cell(value)
-
-
-def _write(path: Path, text: str) -> Path:
-    if not path.parent.is_dir():
-        raise InputError(f"{path}: there is no folder {path.parent}")
-    with atomic_write(path) as file:
-        file.write(text.encode("utf-8", errors="replace"))
-    return path

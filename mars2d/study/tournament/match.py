@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 from mars2d.addons.contest import Contest, Outcome
 from mars2d.core.errors import LawError
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.roles import contest_of
 from mars2d.study.isolation.limits import Limits, Verdict
 from mars2d.world.loop import simulate
+from mars2d.world.record import Record
 
 if TYPE_CHECKING:
     from mars2d.study.isolation import Guard

@@ -9,16 +9,20 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mars2d.core.interrupt import noted_interrupts
+from mars2d.core.interrupt import interrupts
 from mars2d.study.code import WatchedFiles
 from mars2d.study.isolation.limits import Limits
 from mars2d.study.run import CountingBar
 from mars2d.study.tournament.folder import Folder
 from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Match, Played, play
+from mars2d.study.tournament.page import save_html
 from mars2d.study.tournament.schedule import Files, Schedule, law_code, schedule
 from mars2d.study.work import each_done, worker_count
 from mars2d.study.workers import Failure, leave_if_imported_again
+
+MATCHES, LEAGUE, PAGE = "matches.csv", "league.csv", "league.html"
+"""The files that are written to a tournament's folder at the end."""
 
 LIMITS = Limits()
 """The default limits of a law."""
@@ -108,7 +112,7 @@ def play_schedule(
         interrupted = False
         bar = CountingBar(len(missing)) if show_progress else None
         try:
-            with noted_interrupts() as check:
+            with interrupts() as check:
                 for played in play_all(missing, limits, replays, executor, workers):
                     done.append(played)
                     if folder is not None:
@@ -123,12 +127,19 @@ def play_schedule(
                 bar.close()
     result = Tournament.of(planned, done)
     if out is not None:
-        result.save_all(out)
+        save_all(result, out)
     if interrupted:
         where = "were played" if out is None else f"are in {out}; the same command goes on"
         said = f"{len(done)} of {len(planned.matches)} matches {where}"
         raise TournamentInterrupted(said, result)
     return result
+
+
+def save_all(result: Tournament, folder: Path) -> None:
+    """Write both tables and the page of a tournament to a folder."""
+    result.save_csv(folder / MATCHES)
+    result.save_csv(folder / LEAGUE, "league")
+    save_html(result, folder / PAGE)
 
 
 def matches_without(matches: Iterable[Match], played: Iterable[Played]) -> list[Match]:

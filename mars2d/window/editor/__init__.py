@@ -2,6 +2,5 @@
 
 from mars2d.window.editor.dialogs import Outcome
 from mars2d.window.editor.editor import Editor
-from mars2d.window.editor.window import EditorWindow
 
-__all__ = ["Editor", "EditorWindow", "Outcome"]
+__all__ = ["Editor", "Outcome"]

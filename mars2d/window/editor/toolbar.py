@@ -7,8 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import pygame
 
+from mars2d.bodies.colors import NEUTRAL, OBSTACLE
 from mars2d.core.scene import INK, PALETTE, Scene, faded
-from mars2d.output.layers.bodies import NEUTRAL, OBSTACLE, prop_edge
+from mars2d.output.layers.bodies import prop_edge
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.window.editor.chrome import draw_plate

@@ -17,7 +17,7 @@ from mars2d.addons import *
 from mars2d.bodies.joints import *
 from mars2d.bodies.props import *
 from mars2d.sensors import *
-from mars2d.geometry.shapes import *
+from mars2d.geometry import *
 """
 """The first lines of all Python files here: what a user writes begins in line 8."""
 

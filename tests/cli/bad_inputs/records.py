@@ -18,13 +18,13 @@ __all__ = ["CASES", "RECORDS", "save", "saved"]
 RECORDS = "MARS2D_TEST_RECORDS"
 """The environment's variable that says in which folder the sound ones lie."""
 
-SUFFIXES = (".npz", ".mat", ".csv", ".nc", ".mcap")
+SUFFIXES = (".npz", ".csv", ".mcap")
 
 GARBAGE = bytes((91 * k * k + 7 * k + k // 9) % 256 for k in range(3000))
 
 
 def saved(name: str) -> bytes:
-    """Return the bytes of a sound record: run.npz, run.mat, and so on."""
+    """Return the bytes of a sound record: run.npz, run.csv, and so on."""
     return Path(os.environ[RECORDS], name).read_bytes()
 
 
@@ -101,14 +101,6 @@ def _npz_of_others() -> bytes:
     return out.getvalue()
 
 
-def _mat(columns: dict[str, object]) -> bytes:
-    from scipy.io import savemat
-
-    out = io.BytesIO()
-    savemat(out, columns)
-    return out.getvalue()
-
-
 def _zip_of(name: str, data: bytes) -> bytes:
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w") as file:
@@ -159,18 +151,12 @@ OTHERS: list[tuple[str, str, Content, tuple[str, ...]]] = [
     ("a zip of notes", "run.npz", _zip_of("notes.txt", b"hello"), ("not a record of MARS2D",)),
     ("a table in the name of arrays", "run.npz", _renamed(".csv"), ("run.npz",)),
     ("arrays in the name of a table", "run.csv", _renamed(".npz"), ("run.csv",)),
-    ("arrays in the name of Matlab's", "run.mat", _renamed(".npz"), ("run.mat",)),
-    ("a log in the name of netCDF", "run.nc", _renamed(".mcap"), ("run.nc",)),
     ("a record in a spreadsheet's name", "run.xlsx", _renamed(".npz"), ("run.xlsx", ".npz")),
     ("a record that is a folder", "run.npz", None, ("folder", "run.npz")),
     ("a table without its end", "run.csv", "time,body,x,y,theta,record\n", ("run.csv",)),
     ("a table with a word for a pose", "run.csv", _replaced("run.csv", b"-4.0,2.0,2.0",
      b"a,2.0,2.0"),
      ("run.csv",)),
-    ("a Matlab file of another program", "run.mat", lambda: _mat({"x": np.eye(2)}),
-     ("out_data",)),
-    ("a Matlab file of MARS", "run.mat", lambda: _mat({"out_data": {"History": {"Pose": 1.0}}}),
-     ("not a record of MARS2D",)),
 ]  # fmt: skip
 
 

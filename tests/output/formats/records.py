@@ -17,11 +17,11 @@ from mars2d.bodies.props import Box, Puck
 from mars2d.record.contact import CONTACT
 from mars2d.record.interventions import Change, Place, Pull, Steer
 from mars2d.record.message import MESSAGE, STATUS, as_text
-from mars2d.record.record import COLUMNS
+from mars2d.record.rows import COLUMNS
 from mars2d.scenario import serialize
 from mars2d.sensors import Bumper, Proximity
 
-FORMATS = (".npz", ".mat", ".csv", ".nc")
+FORMATS = (".npz", ".csv")
 
 
 class Grid(Sensor):

@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.io import loadmat, savemat
 
 import mars2d
 from mars2d import InputError, Robot, Scenario
@@ -27,11 +26,11 @@ from tests.output.formats.records import FORMATS, cut_to, everything, records, r
 each_format = pytest.mark.parametrize("suffix", FORMATS)
 
 
-@pytest.mark.parametrize("suffix", formats.SUFFIXES)
+@pytest.mark.parametrize("suffix", formats.FORMATS)
 def test_a_formats_module_has_what_its_line_in_the_table_says(suffix):
     format_ = formats.FORMATS[suffix]
     module = import_module(f"mars2d.output.formats.{format_.module}")
-    assert callable(module.read)
+    assert hasattr(module, "read") == (suffix in formats.SUFFIXES)
     assert callable(module.write)
     assert hasattr(module, "require") == bool(format_.extra)
     assert hasattr(module, "Log") == format_.streamed == formats.is_streamed(Path(f"run{suffix}"))
@@ -222,14 +221,12 @@ def test_what_cannot_have_been_done_to_a_run_is_refused(number, change, tmp_path
     refused(path, "not a record of MARS2D, or damaged")
 
 
-@pytest.mark.parametrize("suffix", [".mat", ".csv", ".nc"])
 @pytest.mark.parametrize(
     "column",
-    [["<f8", [10**12, 3, 3]], ["<f8", [-1, 3, 3]], ["<f8", [3, 3]], ["S999999999", [21, 3, 3]],
-     ["|O", [21, 3, 3]], ["<f8", "x"], ["<f8", [0, 3, 10**12]], 5, None],
+    [["<f8", [-1, 3, 3]], ["<f8", [3, 3]], ["|O", [21, 3, 3]], ["<f8", "x"], 5, None],
 )  # fmt: skip
-def test_a_header_that_lies_about_a_column_is_refused(suffix, column, tmp_path):
-    path = everything().save(tmp_path / f"run{suffix}")
+def test_a_header_that_lies_about_a_column_is_refused(column, tmp_path):
+    path = everything().save(tmp_path / "run.csv")
     header = _header(path)
     header["columns"]["pose"] = column
     _rewrite_header(path, header)
@@ -245,12 +242,7 @@ def _header(path: Path) -> dict:
     if path.suffix == ".npz":
         with np.load(path) as data:
             return json.loads(data["header"].tobytes())
-    if path.suffix == ".mat":
-        return json.loads(loadmat(path, simplify_cells=True)["out_data"]["Header"])
-    if path.suffix == ".csv":
-        return json.loads(_cells(path)["record"])
-    with _netcdf(path) as file:
-        return json.loads(file.mars2d)
+    return json.loads(_cells(path)["record"])
 
 
 def _cells(path: Path) -> dict:
@@ -260,37 +252,16 @@ def _cells(path: Path) -> dict:
     return {"table": table, "record": "".join(table["record"])}
 
 
-def _netcdf(path: Path):
-    from scipy.io import netcdf_file
-
-    return netcdf_file(path, "r", mmap=False)
-
-
 def _rewrite_header(path: Path, change: dict, write=as_text) -> None:
     """Change some of a file's header, all else stays; write: by whom, by default with its sums."""
     text = write(_header(path) | change)
     if path.suffix == ".npz":
         with np.load(path) as data:
             np.savez(path, **{**data, "header": np.frombuffer(text.encode(), np.uint8)})
-    elif path.suffix == ".mat":
-        out = loadmat(path)["out_data"]
-        out["Header"][0, 0] = text
-        savemat(path, {"out_data": out}, long_field_names=True)
-    elif path.suffix == ".csv":
+    else:
         table = _cells(path)["table"]
         table["record"] = ["".join(text[i * 30000 :][:30000]) for i in range(len(table))]
         table.to_csv(path, index=False)
-    else:
-        with _netcdf(path) as old:
-            variables, dimensions = dict(old.variables), dict(old.dimensions)
-        from scipy.io import netcdf_file
-
-        with netcdf_file(path, "w", version=2) as new:
-            new.mars2d = text
-            for name, size in dimensions.items():
-                new.createDimension(name, size)
-            for name, each in variables.items():
-                new.createVariable(name, each.data.dtype, each.dimensions)[...] = each.data
 
 
 def test_what_rewrites_headers_here_leaves_the_rest_of_a_file_as_it_is(tmp_path):
@@ -325,7 +296,7 @@ EDITS = [
 
 
 @pytest.mark.parametrize(("edit", "said"), EDITS, ids=[said for _, said in EDITS])
-@pytest.mark.parametrize("suffix", [".npz", ".mat", ".csv", ".nc"])
+@each_format
 def test_an_edit_of_a_header_is_refused_and_named(suffix, edit, said, tmp_path):
     path = everything().save(tmp_path / f"run{suffix}")
     _rewrite_header(path, edit(_header(path)), json.dumps)
@@ -453,9 +424,8 @@ def said(call, *arguments):
 
 def test_without_extras_all_but_netcdf_can_be_written(child, tmp_path):
     code = BLOCKED + (
-        f"for suffix in ('.npz', '.mat', '.csv'):\n"
-        f"    path = record.save({str(tmp_path)!r} + '/run' + suffix)\n"
-        f"    print(mars2d.load(path).digest == record.digest)\n"
+        f"for suffix in ('.npz', '.csv', '.mat'):\n"
+        f"    print(record.save({str(tmp_path)!r} + '/run' + suffix).exists())\n"
         f"said(record.save, {str(tmp_path)!r} + '/run.nc')\n"
         "said(record.to_xarray)\nsaid(record.to_frame)\n"
     )
@@ -469,7 +439,15 @@ def test_without_extras_all_but_netcdf_can_be_written(child, tmp_path):
     ], result.stderr  # fmt: skip
 
 
-def test_a_netcdf_file_is_read_without_xarray(child, tmp_path):
-    path = everything().save(tmp_path / "run.nc")
-    result = child(BLOCKED + f"print(mars2d.load({str(path)!r}).digest)")
-    assert result.stdout.strip() == everything().digest, result.stderr
+def test_exports_are_written_for_others_and_not_read_back(tmp_path):
+    for name in ("run.mat", "run.nc"):
+        with pytest.raises(InputError, match=rf"{name}: an export for other programs; expected a"):
+            mars2d.load(everything().save(tmp_path / name))
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_a_file_larger_than_asked_for_is_refused_and_told_how_to_read(suffix, tmp_path):
+    path = everything().save(tmp_path / f"run{suffix}")
+    text = refused(path, "holds, or claims to hold, .* more than the 200 bytes", largest=200)
+    enough = float(text.split("largest=")[1].rstrip(")"))
+    assert 200 < enough < 100 * path.stat().st_size

@@ -1,4 +1,4 @@
-"""``.mat``: a struct that Matlab and Octave open, and that is read again."""
+"""``.mat``: a struct that Matlab and Octave open."""
 
 from __future__ import annotations
 
@@ -6,14 +6,11 @@ import re
 import shutil
 import subprocess
 
-import numpy as np
 import pytest
 from scipy.io import loadmat
 
-import mars2d
-from mars2d import Robot, Scenario
 from tests.house.test_docs import ROOT, Reader, blocks
-from tests.output.formats.records import cut_to, everything, refused
+from tests.output.formats.records import everything
 from tests.processes import PATIENCE
 
 OCTAVE = shutil.which("octave-cli")
@@ -109,30 +106,6 @@ disp(header.contents{out_data.Messages.content(1)})
 
 @pytest.mark.slow
 @needs_octave
-@pytest.mark.parametrize("rows", [None, 0, 1])
-def test_what_octave_saves_again_is_still_the_record(rows, tmp_path):
-    record = everything() if rows is None else cut_to(everything(), rows)
-    record.save(tmp_path / "run.mat")
-    octave("load run.mat\nmine = 5;\nsave -v7 again.mat mine out_data\n", tmp_path)
-    octave("load run.mat\nsave -v6 plain.mat out_data\n", tmp_path)
-    for name in ("again.mat", "plain.mat"):
-        again = mars2d.load(tmp_path / name)
-        assert again.digest == record.digest
-        assert again.contents == record.contents
-
-
-@pytest.mark.slow
-@needs_octave
-def test_what_octave_changed_or_saved_otherwise_is_refused(tmp_path):
-    everything().save(tmp_path / "run.mat")
-    code = "load run.mat\nsave own.mat out_data\nout_data.History.Pose(3, 1, 1) += 1e-9;\n"
-    octave(code + "save -v7 changed.mat out_data\n", tmp_path)
-    refused(tmp_path / "changed.mat", "its columns do not have the digest that it states")
-    refused(tmp_path / "own.mat", "a file of Octave's own format; expected one of 'save -v7'")
-
-
-@pytest.mark.slow
-@needs_octave
 def test_the_lines_of_octave_in_the_docs_do_what_they_say(tmp_path, monkeypatch):
     document = ROOT / "docs" / "data.md"
     monkeypatch.chdir(tmp_path)
@@ -151,16 +124,3 @@ def test_the_lines_of_octave_in_the_docs_do_what_they_say(tmp_path, monkeypatch)
     assert "ans = robot2" in text
     assert "ans = 20\n" in text
     assert re.search(r"ans =\s+4\s+1$", text)  # four lines are in the figure
-
-
-def test_a_record_that_matlab_could_not_open_is_not_written(tmp_path):
-    rows, robots = 2_000_000, 24
-    nothing = np.broadcast_to(0.0, (rows, 3, robots))
-    record = mars2d.Record(
-        Scenario(robots=[Robot(pose=(k / 3 - 4, 0, 0)) for k in range(robots)]), 0,
-        np.arange(float(rows)), nothing, nothing[:, :2], np.arange(float(rows)),
-        nothing[:, :, :0], nothing[:, 0],
-    )  # fmt: skip
-    with pytest.raises(mars2d.InputError, match=r"2.3 GB are more than Matlab reads .* as .npz"):
-        record.save(tmp_path / "run.mat")
-    assert list(tmp_path.iterdir()) == []

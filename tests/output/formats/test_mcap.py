@@ -7,7 +7,6 @@ import hashlib
 import os
 import random
 import signal
-import struct
 import subprocess
 import sys
 import time
@@ -175,6 +174,7 @@ def test_a_damaged_log_is_refused_in_one_line_or_read(size, place, value, tmp_pa
 
 def test_a_row_is_a_message_that_protocol_buffers_can_read(tmp_path) -> None:
     from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+    from mcap.records import Message
 
     record = run("token_ring", tmp_path / "run.mcap")
     pool = descriptor_pool.DescriptorPool()
@@ -182,7 +182,8 @@ def test_a_row_is_a_message_that_protocol_buffers_can_read(tmp_path) -> None:
         pool.Add(file)
     kind = message_factory.GetMessageClass(pool.FindMessageTypeByName("mars2d.Row"))
     with (tmp_path / "run.mcap").open("rb") as file:
-        rows = [data[22:] for code, data in scan(tmp_path / "run.mcap", file, 2**31) if code == 5]
+        told = scan(tmp_path / "run.mcap", file)
+        rows = [each.data for each in told if isinstance(each, Message)]
     mine = [row for row in rows if _is_row(row)]
     assert len(mine) == len(record)
     for k in (0, len(record) - 1):
@@ -588,29 +589,6 @@ def test_foreign_files_are_refused_in_one_line(tmp_path) -> None:
         writer.add_message(channel, 0, b"{}", 0)
         writer.finish()
     with pytest.raises(InputError, match=r"run.mcap: an MCAP file, but not of MARS2D"):
-        mars2d.load(path)
-
-
-def chunk(claimed: int, data: bytes, kind: str = "zstd") -> bytes:
-    body = struct.pack("<QQQII", 0, 0, claimed, 0, len(kind)) + kind.encode()
-    body += struct.pack("<Q", len(data)) + data
-    return b"\x89MCAP0\r\n" + struct.pack("<BQ", 6, len(body)) + body
-
-
-def test_a_chunk_that_claims_terabytes_or_unpacks_to_them_is_refused(tmp_path) -> None:
-    import zstandard
-
-    path = tmp_path / "run.mcap"
-    small = zstandard.compress(bytes(1000))
-    path.write_bytes(chunk(2**42, small))
-    with pytest.raises(InputError, match=r"claims to hold, 4\.4 TB"):
-        mars2d.load(path)
-    bomb = zstandard.compress(bytes(2**26))  # 64 MB in some kB, which claims to be small
-    path.write_bytes(chunk(1000, bomb))
-    with pytest.raises(InputError, match="not a record of MARS2D, or damaged"):
-        mars2d.load(path)
-    path.write_bytes(chunk(1000, small, "lz4"))
-    with pytest.raises(InputError, match="compressed by 'lz4'"):
         mars2d.load(path)
 
 

@@ -273,13 +273,3 @@ def test_ncdump_reads_a_netcdf_file(tmp_path):
     text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     assert "double pose(time, axis, robot)" in text
     assert 'pose:units = "m, m, rad"' in text
-
-
-@pytest.mark.skipif(shutil.which("nccopy") is None, reason="nccopy is not installed")
-def test_what_netcdf_itself_copies_to_netcdf_4_and_back_is_still_the_record(tmp_path):
-    everything().save(tmp_path / "run.nc")
-    for kind, source, target in (("nc4", "run", "four"), ("nc6", "four", "back")):
-        command = ["nccopy", "-k", kind, tmp_path / f"{source}.nc", tmp_path / f"{target}.nc"]
-        subprocess.run(command, check=True)
-    refused(tmp_path / "four.nc", "netCDF 4")
-    assert mars2d.load(tmp_path / "back.nc").digest == everything().digest

@@ -7,8 +7,9 @@ import numpy as np
 import pygame
 import pytest
 
+from mars2d.bodies.colors import MATERIAL_COLORS, OBSTACLE
 from mars2d.core.scene import _NAMED, PALETTE, THEORY, Scene
-from mars2d.output.layers.bodies import INK, MATERIAL_COLORS, OBSTACLE, prop_edge
+from mars2d.output.layers.bodies import INK, prop_edge
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter

@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.bodies.colors import prop_colors
 from mars2d.core.scene import Circle, Line, Polygon, Scene, rgb
 from mars2d.output.formats.mcap.row import Row, with_arrays_as_bytes
-from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_colors, prop_edge
+from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_edge
 from mars2d.output.layers.ground import obstacles, workspace
 from mars2d.scenario.scenario import Scenario
 

@@ -14,20 +14,22 @@ import numpy as np
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import REPLACED_OPEN, growing
-from mars2d.core.interrupt import noted_interrupts, unbroken
+from mars2d.core.interrupt import interrupts, unbroken
 from mars2d.core.scene import Scene
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mcap.foxglove import nanoseconds
 from mars2d.output.formats.mcap.row import Row, changes_at, cut
-from mars2d.output.formats.mcap.scanning import MESSAGE as OPCODE
 from mars2d.output.formats.mcap.writing import Tape, pack, require
 from mars2d.record.columns import DiskError, Scratch
 from mars2d.record.contact import CONTACT
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE
-from mars2d.record.record import Record
 from mars2d.record.recorder import Recorder
+from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
+
+OPCODE = 5
+"""The kind of an operation that is a message."""
 
 HEAD = struct.Struct("<BQHIQQ")
 """How the operation of a message begins: its kind and length, channel, sequence, two times."""
@@ -41,7 +43,7 @@ CHECK_EVERY = 1.0
 """The seconds between two checks that the file still has its name."""
 
 
-class _Hands(Protocol):
+class _Operator(Protocol):
     @property
     def log(self) -> Sequence[Intervention]:
         """What was done to the world from outside."""
@@ -59,7 +61,7 @@ class Logged(Protocol):
         """What writes the rows."""
 
     @property
-    def record(self) -> Record:
+    def record(self) -> Rows:
         """The record so far."""
 
     @property
@@ -71,8 +73,8 @@ class Logged(Protocol):
         """The seed of the run."""
 
     @property
-    def operator(self) -> _Hands:
-        """The operator."""
+    def operator(self) -> _Operator:
+        """What acts on the world from outside."""
 
 
 def newest_row(world: Logged, counts: tuple[int, int, int, int]) -> Row:
@@ -185,7 +187,7 @@ class Log:
             parts += (HEAD.pack(OPCODE, length, channel, number, ns, ns), data)
         self._file.write(b"".join(parts))
 
-    def close(self, record: Record | None = None) -> None:
+    def close(self, record: Rows | None = None) -> None:
         """Write how the run ended, and pack the file. Raises DiskError where that fails.
 
         record: of the world, if it tells more of the end than the world does.
@@ -226,7 +228,7 @@ class Log:
             self._file.close()
 
     def __enter__(self) -> Log:
-        self._interrupts = noted_interrupts()
+        self._interrupts = interrupts()
         self._interrupts.__enter__()
         return self
 
@@ -239,7 +241,7 @@ class Log:
         try:
             self.close()
         finally:
-            self._interrupts.__exit__()
+            self._interrupts.__exit__(None)
 
 
 class _File:

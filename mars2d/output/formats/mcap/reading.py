@@ -13,24 +13,15 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.guard import reading
+from mars2d.output.formats.guard import check_size, reading
 from mars2d.output.formats.mcap.row import Row, decoded
-from mars2d.output.formats.mcap.scanning import (
-    CHANNEL,
-    MAGIC,
-    MESSAGE,
-    MESSAGE_HEAD,
-    METADATA,
-    Torn,
-    parsed,
-    scan,
-)
+from mars2d.output.formats.mcap.scanning import MAGIC, Torn, scan
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE as MESSAGES
 from mars2d.record.message import as_of
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 
 BROKEN_OFF = "The log breaks off here: the run was killed, or still goes on"
 """The `over_message` of a record whose log does not tell how the run ended."""
@@ -42,28 +33,30 @@ SIZES = {
 """How many numbers a body, or whatever works on bodies, has in each column."""
 
 
-def read(path: Path, largest: int) -> Record:
+def read(path: Path, largest: int) -> Rows:
     """Read the record in a file; InputError where there is none, or it is larger than allowed.
 
     A log that breaks off anywhere has all rows up to there; its `Record.over_message` says so.
     """
     require(path)
     with reading(path), path.open("rb") as file:
-        rows, count = _Rows(), 0
+        from mcap.records import Channel, Message, Metadata
+
+        rows, count, size = _Rows(), 0, 0
         header: Any = None
         end: Any = None
         channels: set[int] = set()
         try:
-            for operation in scan(path, file, largest, channels):
-                kind, data = operation
-                if kind == MESSAGE:
-                    rows.add(decoded(data[MESSAGE_HEAD.size :]))
-                elif kind == CHANNEL:
-                    channel = parsed(operation)
-                    if channel.topic == TOPIC:
-                        channels.add(channel.id)
-                elif kind == METADATA:
-                    told = parsed(operation)
+            for told in scan(path, file):
+                if isinstance(told, Message):
+                    if told.channel_id in channels:
+                        size += len(told.data)
+                        check_size(path, size, largest)
+                        rows.add(decoded(told.data))
+                elif isinstance(told, Channel):
+                    if told.topic == TOPIC:
+                        channels.add(told.id)
+                elif isinstance(told, Metadata):
                     if told.name == BEGIN:
                         header = json.loads(told.metadata["header"])
                         headers.check_format(header)
@@ -153,7 +146,7 @@ class _Rows:
         self._changes = [each for each in self._changes if each[0] < count]
         self._count = count
 
-    def record(self, header: dict[str, Any], end: dict[str, Any] | None) -> Record:
+    def record(self, header: dict[str, Any], end: dict[str, Any] | None) -> Rows:
         """Return the record. Raises the exceptions of `headers.to_record`.
 
         end: how the run ended, None where the log does not tell.

@@ -17,7 +17,7 @@ from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE
-from mars2d.record.record import COLUMNS, FORMER, Record
+from mars2d.record.rows import COLUMNS, FORMER, Rows
 
 Float = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ class Row(NamedTuple):
 # -- a record cut into rows -------------------------------------------------------------------
 
 
-def cut(record: Record, start: int = 0) -> Iterator[Row]:
+def cut(record: Rows, start: int = 0) -> Iterator[Row]:
     """Yield the rows of a record from `start` on."""
     contacts = _ends(record.contact_rows - 1, len(record))
     rounding = 1e-6 * record.scenario.sampling_time

@@ -13,21 +13,12 @@ from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.guard import MAX_LIMIT
 from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
 from mars2d.output.formats.mcap.row import Row, cut, encoded, schema
-from mars2d.output.formats.mcap.scanning import (
-    CHANNEL,
-    MESSAGE,
-    MESSAGE_HEAD,
-    METADATA,
-    SCHEMA,
-    parsed,
-    scan,
-)
+from mars2d.output.formats.mcap.scanning import scan
 from mars2d.record.columns import DiskError
 from mars2d.record.message import as_of
-from mars2d.record.record import Record
+from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -91,7 +82,7 @@ class Tape:
         yield from self._topics.messages(row, scenario)
         yield self._row, encoded(row)
 
-    def end(self, record: Record) -> None:
+    def end(self, record: Rows) -> None:
         """Write how the run ended."""
         header = headers.of_record(record)
         told = {name: header[name] for name in ("over_message", "finished", "digest")}
@@ -110,7 +101,7 @@ class Tape:
         return self._channel(topic, kind.DESCRIPTOR.full_name, lambda: schema_of(kind))
 
 
-def write(record: Record, path: Path) -> None:
+def write(record: Rows, path: Path) -> None:
     """Write a record to a file. Raises InputError where it can't be written.
 
     A record that no run gives is refused, too, for example half of one: it could not be read again.
@@ -132,7 +123,7 @@ def write(record: Record, path: Path) -> None:
         writer.finish()
 
 
-def _check_whole(record: Record, path: Path) -> None:
+def _check_whole(record: Rows, path: Path) -> None:
     """Refuse a record whose times, or whose messages' status at the end, are of no run."""
     rows = len(record)
     start, end = (float(record.time[0]), float(record.time[-1])) if rows else (0.0, 0.0)
@@ -154,6 +145,8 @@ def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int], held: Bina
     rows that they replaced are left out. held: see `atomic_write`. Raises DiskError, and leaves the
     file as it is.
     """
+    from mcap.records import Channel, Message, Metadata, Schema
+
     # Each world's rows count up to the first row at which a later world began.
     ends = [*accumulate([NEVER, *begun[:0:-1]], min)][::-1]
     world = -1
@@ -161,20 +154,16 @@ def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int], held: Bina
         with path.open("rb") as source, atomic_write(path, held) as file:
             writer = _writer(file)
             writer.start(profile="", library="mars2d")
-            for operation in scan(path, source, MAX_LIMIT):
-                kind, data = operation
-                if kind == MESSAGE:
-                    channel, row, time, _ = MESSAGE_HEAD.unpack_from(data)
+            for told in scan(path, source):
+                if isinstance(told, Message):
+                    row, time = told.sequence, told.log_time
                     if row < ends[world]:
-                        writer.add_message(channel, time, data[MESSAGE_HEAD.size :], time, row)
-                elif kind == SCHEMA:
-                    told = parsed(operation)
+                        writer.add_message(told.channel_id, time, told.data, time, row)
+                elif isinstance(told, Schema):
                     writer.register_schema(told.name, told.encoding, told.data)
-                elif kind == CHANNEL:
-                    told = parsed(operation)
+                elif isinstance(told, Channel):
                     writer.register_channel(told.topic, told.message_encoding, told.schema_id)
-                elif kind == METADATA:
-                    told = parsed(operation)
+                elif isinstance(told, Metadata):
                     world += told.name == BEGIN
                     if told.name != BEGIN:
                         writer.add_metadata(told.name, told.metadata)

@@ -21,7 +21,7 @@ from mars2d.output.pages.replay.content import content_of
 from mars2d.output.raster.theme import DARK, LIGHT, Theme
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
 
 __all__ = [
     "colors",
@@ -52,7 +52,7 @@ SCRIPTS = (
 """The parts of the script, each of which may use those before it."""
 
 
-def save_html(record: Record, path: str | Path) -> Path:
+def save_html(record: Rows, path: str | Path) -> Path:
     """Write a replay of a record as one HTML file; return its path.
 
     Raises InputError where it can't be written, or for a record without rows.
@@ -66,7 +66,7 @@ def save_html(record: Record, path: str | Path) -> Path:
     return target
 
 
-def page(record: Record) -> str:
+def page(record: Rows) -> str:
     """Return a replay of a record as the text of an HTML file, less than 2 MB.
 
     Raises InputError for a record without rows.
@@ -74,7 +74,7 @@ def page(record: Record) -> str:
     return player(record.scenario.title, replay_data(record))
 
 
-def replay_data(record: Record) -> str:
+def replay_data(record: Rows) -> str:
     """Return all that a replay shows of a record as text that needs no escape, for `player`.
 
     Raises InputError for a record without rows.

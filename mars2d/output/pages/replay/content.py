@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
 from mars2d.core.errors import ordinal
 from mars2d.core.quantity import UNKNOWN, Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
-from mars2d.output.layers.bodies import prop_colors
 from mars2d.output.layers.forces import (
     FAINTEST,
     MAX_CONTACTS,
@@ -53,7 +53,7 @@ from mars2d.scenario.robot import Robot
 from mars2d.sensors.base import Sensor
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
 
 MAX_ROWS = 20_000
 """The most rows of a replay."""
@@ -82,7 +82,7 @@ LEAP = 0.12
 """The share of the view beyond which a shape leaps between rows, rather than moving evenly."""
 
 
-def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
+def content_of(record: Rows) -> tuple[dict[str, Any], Columns]:
     """Return the content of a replay: plain data, and columns of numbers.
 
     Raises InputError for a record without rows.
@@ -94,7 +94,7 @@ def content_of(record: Record) -> tuple[dict[str, Any], Columns]:
 class _Content:
     """Assembles a replay, and notes the parts that are left out."""
 
-    def __init__(self, record: Record) -> None:
+    def __init__(self, record: Rows) -> None:
         self.record, self.scenario = record, record.scenario
         view = View.of(record, len(record) - 1)
         self.view = view
@@ -457,7 +457,7 @@ def commands_of(robot: Robot) -> list[list[str]]:
     return [[quantity.symbol, quantity.unit, quantity.kind] for quantity in quantities]
 
 
-def pack_contacts(record: Record, kept: Int, shown: Sequence[int]) -> Columns:
+def pack_contacts(record: Rows, kept: Int, shown: Sequence[int]) -> Columns:
     """Return the contacts of rows as columns, the strongest of each row.
 
     kept: the record's rows of the replay. shown: those of them that have arrows.

@@ -15,7 +15,7 @@ from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, foll
 from mars2d.sensors.base import Fan, Sensor
 
 if TYPE_CHECKING:
-    from mars2d.record.record import Record
+    from mars2d.record.rows import Rows
 
 FEW_SCENES = 8
 """The most scenes of a sensor that is never thinned."""
@@ -64,7 +64,7 @@ class Carried:
         return np.concatenate([[0], np.flatnonzero(changed) + 1])
 
 
-def carried(record: Record, kept: Int) -> Iterator[Carried]:
+def carried(record: Rows, kept: Int) -> Iterator[Carried]:
     """Yield the sensors of a record; a loaded record lacks those of the user's own."""
     for name, robots in record.sensor_robots.items():
         for k, robot in enumerate(robots):

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mars2d.output.figures.figure import GRID, INK, MUTED, new_figure
-from mars2d.record.record import Record
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.prediction import Prediction
 from mars2d.world.loop import simulate
+from mars2d.world.record import Record
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -23,7 +23,7 @@ from mars2d.scenario.experiment import open_experiment
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
-    from mars2d.record.record import Record
+    from mars2d.world.record import Record
 
 
 def radius_and_gaps(records: Sequence[Record]) -> Study:

@@ -27,7 +27,7 @@ from mars2d.reports.paper.studies.base import (
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
-    from mars2d.record.record import Record
+    from mars2d.world.record import Record
 
 Float = NDArray[np.float64]
 

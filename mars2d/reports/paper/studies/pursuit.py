@@ -28,7 +28,7 @@ from mars2d.scenario.prediction import Prediction
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
-    from mars2d.record.record import Record
+    from mars2d.world.record import Record
 
 Float = NDArray[np.float64]
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import base64
 import zlib
 from collections.abc import Sequence
+from pathlib import Path
 
+from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
 from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Played
@@ -20,7 +22,7 @@ from mars2d.study.tournament.page.tables import (
 )
 from mars2d.study.tournament.page.words import clean, escaped, facts, read
 
-__all__ = ["MAX_REPLAYS_SIZE", "league_page"]
+__all__ = ["MAX_REPLAYS_SIZE", "league_page", "save_html"]
 
 MAX_REPLAYS_SIZE = 40_000_000
 """How many characters the replays of a page may have; a larger page is slow to load."""
@@ -56,6 +58,13 @@ def league_page(tournament: Tournament) -> str:
         ),
     }
     return filled(read("league.html"), words)
+
+
+def save_html(tournament: Tournament, path: Path) -> Path:
+    """Write a tournament's page and return its path. Raises InputError if it can't be written."""
+    with atomic_write(path) as file:
+        file.write(league_page(tournament).encode("utf-8", errors="replace"))
+    return path
 
 
 def _kept(matches: Sequence[Played]) -> int:

@@ -1,4 +1,4 @@
-"""The record of a run: its columns over time, its contacts and messages."""
+"""The data of a run's record: its columns over time, its contacts and messages."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,13 +23,6 @@ from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
 from mars2d.record.message import MESSAGE, in_flight
 from mars2d.scenario.scenario import Scenario
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-    from numpy.typing import ArrayLike
-    from pandas import DataFrame
-    from xarray import Dataset
-
 Float = NDArray[np.float64]
 
 COLUMNS = (
@@ -42,16 +34,13 @@ COLUMNS = (
 FORMER = COLUMNS[:6]
 """The columns of records from before velocities and work were recorded."""
 
-LOAD_LIMIT = 2**31
-"""The most data that `load` reads by default, bytes."""
-
 
 def _not_given() -> Float:
     return np.empty(0)
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
+class Rows:
     """All data of a run. Row k of a column is the world at ``time[k]`` = k sampling times.
 
     time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, 2, n), issued at
@@ -97,7 +86,7 @@ class Record:
     missing: tuple[str, ...] = ()
     interventions: tuple[Intervention, ...] = ()
     settings: Mapping[str, Any] = field(default_factory=dict)
-    branches: tuple[Record, ...] = field(default=(), repr=False)
+    branches: tuple[Rows, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         self._complete()
@@ -117,18 +106,11 @@ class Record:
     def __len__(self) -> int:
         return len(self.time)
 
-    def __copy__(self) -> Record:
+    def __copy__(self) -> Self:
         return self  # nothing in it can be changed
 
-    def __deepcopy__(self, memo: object) -> Record:
+    def __deepcopy__(self, memo: object) -> Self:
         return self
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Return the state to pickle: that of files, without laws, with drawing and branches."""
-        from mars2d.output.formats import header
-
-        kept = header.of_record(self), self.columns()
-        return header.to_record, kept, {"drawn": self.drawn, "branches": self.branches}
 
     def __repr__(self) -> str:
         size = f"{counted(len(self), 'row')}, {counted(len(self.scenario.robots), 'robot')}"
@@ -270,112 +252,6 @@ class Record:
         flight = self.messages["arrival"] - self.messages["time"]
         return float(np.nanmax(flight, initial=0.0))
 
-    # -- for people ---------------------------------------------------------------------------
-
-    def plot(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
-        """Draw the paths: initial poses hollow, final poses filled, obstacles and grid.
-
-        ax: matplotlib axes to draw on; by default those of a new figure. style: "screen", "print"
-        or "projector", see `mars2d.output.figures.style`. Returns the axes.
-        """
-        from mars2d.output.figures.figure import plot_paths
-
-        return plot_paths(self, ax, style=style)
-
-    def plot_snapshots(
-        self, times: ArrayLike, figure: Figure | None = None, *, style: str = "screen"
-    ) -> Figure:
-        """Draw the paths until each of some times [s], one panel a time; return the figure."""
-        from mars2d.output.figures.figure import plot_snapshots
-
-        return plot_snapshots(self, times, figure, style=style)
-
-    def plot_signals(
-        self,
-        *columns: str,
-        robots: Sequence[str | int] | None = None,
-        axes: Sequence[Axes] | None = None,
-        start: float | None = None,
-        end: float | None = None,
-        style: str = "screen",
-    ) -> list[Axes]:
-        """Draw columns over time, one panel a column; see `figures.signals.plot_signals`."""
-        from mars2d.output.figures.signals import plot_signals
-
-        return plot_signals(self, columns, robots, axes, start=start, end=end, style=style)
-
-    def plot_contacts(
-        self, axes: Sequence[Axes] | None = None, *, style: str = "screen"
-    ) -> list[Axes]:
-        """Draw who touched whom when, and how hard; see `figures.contacts.plot_contacts`."""
-        from mars2d.output.figures.contacts import plot_contacts
-
-        return plot_contacts(self, axes, style=style)
-
-    def plot_distances(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
-        """Draw distances over time; see `mars2d.output.figures.distances.plot_distances`."""
-        from mars2d.output.figures.distances import plot_distances
-
-        return plot_distances(self, ax, style=style)
-
-    def film(
-        self,
-        path: str | Path,
-        *,
-        speed: float = 1.0,
-        size: tuple[int, int] = (1280, 720),
-        fps: float = 25,
-        start: float | None = None,
-        end: float | None = None,
-    ) -> Path:
-        """Make a film, .gif or .mp4, of a part of the run; see `films.film.film_record`."""
-        from mars2d.output.films.film import film_record
-
-        return film_record(self, path, speed=speed, size=size, fps=fps, start=start, end=end)
-
-    def save_html(self, path: str | Path) -> Path:
-        """Write a replay as one HTML file, which any browser plays without a network."""
-        from mars2d.output.pages.replay import save_html
-
-        return save_html(self, path)
-
-    def _repr_html_(self) -> str:
-        """Return an inline replay, for a notebook."""
-        from mars2d.output.pages.notebook import record_html
-
-        return record_html(self)
-
-    def _repr_svg_(self) -> str:
-        """Return a picture of the end, for viewers of notebooks without scripts."""
-        from mars2d.output.pages.notebook import record_svg
-
-        return record_svg(self)
-
-    # -- for programs -------------------------------------------------------------------------
-
-    def to_frame(self, table: str = "bodies") -> DataFrame:
-        """Return a table of pandas: "bodies", "contacts" or "messages"; see `formats.frame`."""
-        from mars2d.output.formats.frame import to_frame
-
-        return to_frame(self, table)
-
-    def to_xarray(self) -> Dataset:
-        """Return all columns as a dataset of xarray, with units; see `output.formats.dataset`."""
-        from mars2d.output.formats.dataset import to_xarray
-
-        return to_xarray(self)
-
-    def save(self, path: str | Path) -> Path:
-        """Write the record to a file and return its path; the ending says in which format.
-
-        ``.npz`` numpy, ``.mat`` Matlab and Octave, ``.csv`` a long table, ``.nc`` netCDF, ``.mcap``
-        a log for Foxglove. Each can be read again by `load`, with the same digest. Raises
-        InputError where it can't be written, MissingExtraError where a library is missing.
-        """
-        from mars2d.output import formats
-
-        return formats.save(self, path)
-
 
 def digest_of(columns: Mapping[str, NDArray[Any]], over_message: str) -> str:
     """Return the sha256 over columns by name, and over why a run ended."""
@@ -394,14 +270,3 @@ def _mean_velocity(time: Float, pose: Float) -> Float:
     with np.errstate(over="ignore"):  # of numbers that no run has
         velocity[1:] = np.diff(pose, axis=0) / np.diff(time)[:, None, None]
     return velocity
-
-
-def load(path: str | Path, largest: float = LOAD_LIMIT) -> Record:
-    """Read a record that `Record.save` wrote, or the log of a run, whole or broken off.
-
-    largest: the most data that are read, bytes; a file that holds or claims more is refused before
-    memory is taken. Raises InputError for such files, and for files that are no record.
-    """
-    from mars2d.output import formats
-
-    return formats.load(path, largest)

@@ -6,8 +6,9 @@ import pygame
 
 from mars2d.core.errors import Mars2dError
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.display import PICTURES_A_SECOND, show_drawn, started_display
+from mars2d.window.display import PICTURES_A_SECOND, started_display
 from mars2d.window.editor.editor import Editor
+from mars2d.window.show import show_experiment
 
 IDLE_WAIT = 100
 """How long to wait for an event before the editor is drawn again, milliseconds."""
@@ -36,7 +37,7 @@ class EditorWindow:
             surface = pygame.display.get_surface()
             assert surface is not None
             self.draw(surface)
-            show_drawn()
+            pygame.display.flip()
             clock.tick(PICTURES_A_SECOND)
             for event in (pygame.event.wait(IDLE_WAIT), *pygame.event.get()):
                 if event.type == pygame.QUIT:
@@ -60,8 +61,6 @@ class EditorWindow:
 
     def _play(self) -> None:
         """Run the file in a window, then open the editor's window again."""
-        from mars2d.window.show import show_experiment
-
         editor, surface = self.editor, pygame.display.get_surface()
         path, editor.dialogs.to_run = editor.dialogs.to_run, None
         assert path is not None
