@@ -147,7 +147,6 @@ def test_a_law_that_a_scenario_file_names_runs(tmp_path) -> None:
     assert "runs the laws that it names" in words
 
 
-
 # -- words that would like to run ------------------------------------------------------------------
 
 EVIL = "</title></script><script>hacked = 1</script><img src=x onerror='hacked = 1'>\"'&amp;"
