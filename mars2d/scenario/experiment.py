@@ -373,12 +373,6 @@ def load_law(
     return law_in(file, name, given=(arguments, values))
 
 
-def _scripts(path: Path) -> list[Path]:
-    """Return the experiments beside a path: Python files and scenario files."""
-    files = path.parent.iterdir() if path.parent.is_dir() else ()
-    return [file for file in files if file.suffix in (".py", ".toml")]
-
-
 def _find(source: str | Path) -> Path:
     path = Path(source)
     if path.is_file():
@@ -391,7 +385,8 @@ def _find(source: str | Path) -> Path:
         raise InputError(
             f"{path}: {kind}; expected an experiment, a file that ends in .py or .toml"
         )
-    beside = [str(file) for file in _scripts(path)]
+    files = path.parent.iterdir() if path.parent.is_dir() else ()
+    beside = [str(file) for file in files if file.suffix in (".py", ".toml")]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
     near = likely(source, [*beside, *known], 0.75)
     raise InputError(f"{source}: there is no such {kind}{near or LISTED}")
