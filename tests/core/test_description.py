@@ -171,15 +171,6 @@ def test_a_subclass_adds_fields_and_keeps_the_gate():
         Stepper(step=1)
 
 
-def test_a_broken_repr_does_not_hide_the_message():
-    class Sly:
-        def __repr__(self) -> str:
-            raise ZeroDivisionError
-
-    with pytest.raises(InputError, match="<Sly whose repr raises ZeroDivisionError>"):
-        Motor(power=Sly())
-
-
 def test_a_subclass_may_give_an_inherited_field_another_default_with_or_without_a_type():
     class Strong(Motor):
         power: float = 50.0
