@@ -108,13 +108,13 @@ def open_world(
             experiment.scenario,
             experiment.control,
             seed,
-            filename=experiment.filename,
+            filename=experiment.source.name,
             watch=watch_by(watchers),
             storage=storage,
             settings=experiment.options,
         )
     except InputError as error:
-        error.where = error.where or experiment.filename or None
+        error.where = error.where or experiment.source.name or None
         raise
 
 
