@@ -27,7 +27,7 @@ LINES = {
     "testing": 1_378,
     "window": 15_204,
     "world": 3_845,
-    "tests": 69_433,
+    "tests": 69_450,
 }
 """Lines at most, by room of the package, and of all tests."""
 
@@ -53,6 +53,4 @@ def test_the_quick_suite_is_no_larger(request: pytest.FixtureRequest) -> None:
     rooms = Counter(item.path.relative_to(ROOT / "tests").parts[0] for item in items)
     if len(rooms) < 15 or any(item.get_closest_marker("slow") for item in items):
         pytest.skip("not the whole quick suite was collected")
-    assert len(items) <= ITEMS, (
-        f"try many values in one test (each_case of tests/cases.py): {rooms}"
-    )
+    assert len(items) <= ITEMS, f"more items than allowed, go through cases in one test: {rooms}"
