@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +15,7 @@ import mars2d
 from mars2d import Scenario, World
 from mars2d.physics import islands
 from mars2d.physics.settings import versions
+from tests.cases import each_case
 from tests.islands import plainly
 
 KNOWN = islands.reason_without()
@@ -93,7 +95,7 @@ def test_where_it_was_not_compiled_worlds_do_without(copied, child):
 def test_a_change_of_any_of_its_sources_is_noticed(copied, child):
     made = Path(islands._loaded()[0].__file__)
     shutil.copy(made, copied)
-    names = [*islands.build.MODULES, "build"]
+    names = [*islands.build.MODULES, "build", "chipmunk"]
     for source in [*(copied / f"{name}.py" for name in names), copied / "chipmunk.pxi"]:
         text = source.read_text(encoding="utf-8")
         source.write_text(text + "# changed\n", encoding="utf-8")
@@ -163,9 +165,8 @@ def test_all_functions_that_it_calls_are_checked():
     """Each that stands in the C of chipmunk.pxi, in the order in which it takes addresses."""
     names = [name for name, _ in islands.functions()]
     assert len(names) == len(set(names)) > 60
-    text = (Path(islands.__file__).parent / "chipmunk.pxi").read_text(encoding="utf-8")
-    called = {word for word in text.replace("(", " ").split() if word.startswith("engine.cp")}
-    assert {word.removeprefix("engine.") for word in called} <= set(names)
+    called = re.findall(r"\bengine\.(cp\w+)", islands.build.joined())
+    assert set(called) == set(names)
 
 
 # -- numbers and signals --------------------------------------------------------------------
@@ -190,7 +191,7 @@ print("over")
 """
 
 
-@pytest.mark.parametrize("n", [5, 40])
+@each_case("n", [5, 40])
 def test_numbers_out_of_all_bounds_neither_hang_nor_crash_it(child, n):
     done = child(LOST.format(n=n))
     assert done.stdout == "over\n", done.stderr

@@ -25,6 +25,7 @@ from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.island import Island
 from mars2d.physics.islands.mover import Mover
+from tests.cases import each_case
 from tests.islands import FIND_TESTS, looked_at, plainly, states_of
 
 ALLOWED = 1e-3  # metres, the default of Scenario.max_overlap
@@ -358,7 +359,7 @@ def check(watch: Watch) -> None:
     assert watch.surplus <= 0
 
 
-@pytest.mark.parametrize(("mix", "mass_ratio", "sampling_time"), RUNS)
+@each_case(("mix", "mass_ratio", "sampling_time"), RUNS)
 def test_in_a_crowd_of_many_shapes_nothing_overlaps_by_a_millimetre(mix, mass_ratio, sampling_time):
     ties = mass_ratio == 1
     ticks = 15 if sampling_time < 0.1 else 3

@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from tests.faults.commands import started
 
 import mars2d
 from mars2d.cli import command_line as cli
@@ -31,7 +32,6 @@ from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
 from tests.cases import each_case
-from tests.faults.commands import started
 from tests.processes import PATIENCE, mars, wait_until
 
 FAILS = """

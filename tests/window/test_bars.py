@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mars2d.core.usercode import Excerpt
+from mars2d.output.excerpt import Excerpt
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import FOOTER, TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
