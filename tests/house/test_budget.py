@@ -13,25 +13,25 @@ CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 LINES = {
     "addons": 4_226,
     "bodies": 1_774,
-    "cli": 3_457,
-    "core": 3_477,
+    "cli": 3_491,
+    "core": 3_145,
     "geometry": 2_003,
-    "output": 15_701,
-    "physics": 8_818,
+    "output": 15_772,
+    "physics": 8_167,
     "record": 1_573,
     "reports": 2_666,
     "rl": 776,
     "scenario": 5_998,
-    "sensors": 2_048,
-    "study": 8_595,
+    "sensors": 2_041,
+    "study": 8_484,
     "testing": 1_378,
     "window": 15_204,
-    "world": 3_845,
-    "tests": 69_450,
+    "world": 3_812,
+    "tests": 68_756,
 }
 """Lines at most, by room of the package, and of all tests."""
 
-ITEMS = 4_000
+ITEMS = 3_700
 """Tests at most that `pytest` runs without further words."""
 
 
