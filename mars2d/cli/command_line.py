@@ -39,9 +39,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     if argv is None:
         usable_standard_files()
+    legible()
     os.environ["MPLBACKEND"] = "agg"  # a law that shows a figure of its own waits for nobody
     try:
-        with legible(), interrupts(), hang_up_as_interrupt():
+        with interrupts(), hang_up_as_interrupt():
             code = _outcome(argv)
     except KeyboardInterrupt as interrupt:
         warn(str(interrupt) or "interrupted")

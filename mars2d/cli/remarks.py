@@ -7,6 +7,7 @@ import inspect
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from math import pi
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,15 @@ from mars2d.world.world import World
 
 ORDERED = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 """The comparisons that a number is meant for."""
+
+_SLEEP = "sleep has no meaning in simulated time; compare robot.time"
+WAITING = {
+    "time.sleep": _SLEEP,
+    "sleep": _SLEEP,
+    "plt.show": "nothing is shown while a simulation runs; use plt.savefig, or mars2d plot RECORD",
+    "input": "nobody answers while a simulation runs; make it a parameter of scenario(...)",
+}
+"""Calls that would wait for somebody, and what to write instead."""
 
 MOST = 0.5
 """The share of cut commands above which a run gets a remark."""
@@ -33,6 +43,7 @@ def before(experiment: Experiment) -> Iterator[str]:
     laws = {robot.controller: None for robot in experiment.scenario.robots if robot.controller}
     for law in [*laws, *([experiment.control] if experiment.control else [])]:
         yield from _flags_compared(law, experiment.scenario.robots)
+        yield from _waits(law)
 
 
 class Bounds:
@@ -97,15 +108,9 @@ def _flags_compared(law: Callable[..., Any], robots: Sequence[Robot]) -> Iterato
         for sensor in robot.sensors
         if all(quantity.kind == "flag" for quantity in sensor.quantities)
     }
-    place = definition(law)
-    if not flags or place is None:
+    if not flags or (parsed := _parsed(law)) is None:
         return
-    try:
-        lines, first = inspect.getsourcelines(inspect.unwrap(law))
-        tree = ast.parse(textwrap.dedent("".join(lines)))
-    except (OSError, TypeError, SyntaxError):
-        return
-    file, meant = place.partition(",")[0], dict[str, str]()
+    (tree, line_of), meant = parsed, dict[str, str]()
     for node in ast.walk(tree):
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
             meant[node.targets[0].id] = _read(node.value, flags)
@@ -116,9 +121,37 @@ def _flags_compared(law: Callable[..., Any], robots: Sequence[Robot]) -> Iterato
             name = meant.get(side.id, "") if isinstance(side, ast.Name) else _read(side, flags)
             if name:
                 yield (
-                    f"{file}, line {first + node.lineno - 1}: robot.sense.{name} is True or False, "
+                    f"{line_of(node)}: robot.sense.{name} is True or False, "
                     "and is compared with a number; RangeFinder measures distances"
                 )
+
+
+def _parsed(law: Callable[..., Any]) -> tuple[ast.AST, Callable[[Any], str]] | None:
+    """Return the syntax tree of a function, and what tells a node's file and line, if known."""
+    place = definition(law)
+    try:
+        lines, first = inspect.getsourcelines(inspect.unwrap(law))
+        tree = ast.parse(textwrap.dedent("".join(lines)))
+    except (OSError, TypeError, SyntaxError):
+        return None
+    file = (place or "").partition(",")[0]
+    return (tree, lambda node: f"{file}, line {first + node.lineno - 1}") if place else None
+
+
+def _waits(law: Callable[..., Any]) -> Iterator[str]:
+    """Yield a remark on each call, in a law or a function that it names, that would wait."""
+    code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
+    named: list[Any] = [names.get(name) for name in code.co_names] if code else []
+    helpers: list[Callable[..., Any]] = [law]
+    helpers += [each for each in named if isinstance(each, FunctionType)]
+    for function in helpers:
+        if (parsed := _parsed(function)) is None:
+            continue
+        tree, line_of = parsed
+        for node in ast.walk(tree):
+            called = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
+            if called in WAITING:
+                yield f"{line_of(node)}: {called}(): {WAITING[called]}"
 
 
 def _read(node: ast.expr, flags: set[str]) -> str:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from mars2d.core.arithmetic import norms
-from mars2d.core.arrays import is_masked
 from mars2d.core.description import Check, Schema, accepts, real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point, is_clearly_convex
@@ -34,13 +33,11 @@ NAMES: Schema = {
 
 def items_of(name: str, value: object, expected: str, most: int = MAX_ITEMS) -> list[Any]:
     """Return the items of a list, an array or anything that yields them; no more than `most`."""
-    if isinstance(value, (str, bytes, dict)) or not isinstance(value, (Iterable, np.ndarray)):
+    if isinstance(value, (str, bytes, dict)) or not isinstance(value, Iterable):
         raise wrong(name, value, expected)
-    if is_masked(value):
-        raise wrong(name, value, f"{expected}, none of them masked")
     try:
         items = list(islice(value, most + 1))
-    except TypeError:
+    except TypeError:  # an array of no dimension
         raise wrong(name, value, expected) from None
     if len(items) > most:
         raise wrong(name, value, f"{expected}, at most {most:,}: it has more, or no end")
@@ -80,29 +77,28 @@ def pose(name: str, value: object) -> tuple[float, float, float]:
 
 
 @accepts(OUTLINE)
-def outline(name: str, value: object, least: int = 2) -> Outline:
-    """Check an outline: a wall of two vertices, or a closed polygon that does not cross itself."""
+def outline(name: str, value: object, least: int = 2, *, closed: bool = True) -> Outline:
+    """Check an outline: a wall of two vertices, or a closed polygon that does not cross itself.
+
+    least: how many vertices it must have. closed: False for an open line of any number of them.
+    """
     what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
+    what = what if closed else "a wall's vertices"
     expected = f"{what}, such as [(x, y), ...] in metres"
     items = items_of(name, value, expected)
     points = [point(f"{name}[{i}]", item) for i, item in enumerate(items)]
-    if len(points) > 2 and points[0] == points[-1]:
+    if closed and len(points) > 2 and points[0] == points[-1]:
         points.pop()  # the ring was given closed
     if len(points) < least:
         raise wrong(name, value, f"{expected}, at least {least} different ones")
-    _check_apart(name, [*points, points[0]] if len(points) > 2 else points)
-    if len(points) > 2:
+    ring = closed and len(points) > 2
+    for i, (a, b) in enumerate(pairwise([*points, points[0]] if ring else points)):
+        if norms(a[0] - b[0], a[1] - b[1]) < 1e-6:
+            after = (i + 1) % len(points)
+            raise InputError(f"{name}: vertices {i} and {after} are the same, {a}")
+    if ring:
         _check_ring(name, points)
     return tuple(points)
-
-
-def _check_apart(name: str, points: list[Point]) -> None:
-    """Raise InputError if consecutive vertices are the same; a closed list ends with the first."""
-    last = len(points) - 1
-    for i, (a, b) in enumerate(pairwise(points)):
-        if norms(a[0] - b[0], a[1] - b[1]) < 1e-6:
-            after = 0 if i + 1 == last and points[last] is points[0] else i + 1
-            raise InputError(f"{name}: vertices {i} and {after} are the same, {a}")
 
 
 def _check_ring(name: str, points: list[Point]) -> None:
@@ -127,36 +123,23 @@ def _check_ring(name: str, points: list[Point]) -> None:
 @accepts({"type": "array", "items": OUTLINE})
 def polylines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of open lines, each of two or more vertices."""
-    items = items_of(name, value, "a list of walls, each [(x, y), ...] in metres")
-    if items and _is_point(items[0]):
-        raise wrong(name, value, "a list of walls: put one more pair of brackets round it")
-    return tuple(_polyline(f"{name}[{i}]", item) for i, item in enumerate(items))
-
-
-def _polyline(name: str, value: object) -> Outline:
-    expected = "a wall's vertices, such as [(x, y), ...] in metres, at least 2"
-    points = [point(f"{name}[{i}]", p) for i, p in enumerate(items_of(name, value, expected))]
-    if len(points) < 2:
-        raise wrong(name, value, expected)
-    _check_apart(name, points)
-    return tuple(points)
+    lines = _lists(name, value, "walls")
+    return tuple(outline(each, item, closed=False) for each, item in lines)
 
 
 @accepts({"type": "array", "items": OUTLINE})
 def outlines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of outlines."""
-    items = items_of(name, value, "a list of outlines, each [(x, y), ...] in metres")
-    if items and _is_point(items[0]):
-        raise wrong(name, value, "a list of outlines: put one more pair of brackets round it")
-    return tuple(outline(f"{name}[{i}]", item) for i, item in enumerate(items))
+    return tuple(outline(each, item) for each, item in _lists(name, value, "outlines"))
 
 
-def _is_point(value: object) -> bool:
-    try:
-        first = next(iter(value))  # type: ignore[call-overload]
-    except (TypeError, StopIteration):
-        return False
-    return isinstance(first, (int, float, np.number))
+def _lists(name: str, value: object, what: str) -> list[tuple[str, Any]]:
+    """Return the items of a list of lists of points, each with its name."""
+    items = items_of(name, value, f"a list of {what}, each [(x, y), ...] in metres")
+    first = items[0] if items else None
+    if isinstance(first, (tuple, list, np.ndarray)) and len(first) and np.ndim(first[0]) == 0:
+        raise wrong(name, value, f"a list of {what}: put one more pair of brackets round it")
+    return [(f"{name}[{i}]", item) for i, item in enumerate(items)]
 
 
 def optional(check: Callable[..., Any], *arguments: Any) -> Check:
@@ -202,9 +185,7 @@ def names(name: str, value: object, expected: str) -> tuple[str, ...] | None:
     """Check a list of one or more different names, or None."""
     if value is None:
         return None
-    if not isinstance(value, (tuple, list)) or not value:
-        raise wrong(name, value, expected)
-    if not all(isinstance(item, str) for item in value):
+    if not isinstance(value, (tuple, list)) or not value or any(type(x) is not str for x in value):
         raise wrong(name, value, expected)
     for item in value:
         if value.count(item) > 1:
@@ -217,11 +198,6 @@ def unique(name: str, keys: list[str]) -> None:
     for key, count in Counter(keys).items():
         if count > 1:
             raise InputError(f"{name}: two are called {key!r}; give one another name=...")
-
-
-def law(name: str, value: object, subject: str) -> object:
-    """Check a control law: a function of one argument, the `subject`."""
-    return function(name, value, subject)
 
 
 def function(name: str, value: object, *arguments: str) -> object:

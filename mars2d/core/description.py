@@ -83,16 +83,17 @@ def _bounds(low: float | None, above: float | None, high: float | None, unit: st
 
 def number(
     *,
-    default: Any = dataclasses.MISSING,
     low: float | None = None,
     above: float | None = None,
     high: float | None = None,
     unit: str = "",
     optional: bool = False,
-    doc: str = "",
-    kw_only: bool = True,
+    **more: Any,
 ) -> Any:
-    """Declare a field that is a finite float: ``low <= value``, ``above < value <= high``."""
+    """Declare a field that is a finite float: ``low <= value``, ``above < value <= high``.
+
+    more: see `entry`, here and below.
+    """
     expected = _bounds(low, above, high, unit) + (", or None" if optional else "")
     limits = {"minimum": low, "exclusiveMinimum": above, "maximum": high}
 
@@ -101,27 +102,15 @@ def number(
         if optional and value is None:
             return None
         result = real(name, value, expected)
-        inside = (
-            (low is None or result >= low)
-            and (above is None or result > above)
-            and (high is None or result <= high)
-        )
-        if not inside:
+        over = high is not None and result > high
+        if over or (low is not None and result < low) or (above is not None and result <= above):
             raise wrong(name, value, expected)
         return result
 
-    return entry(default=default, check=check, unit=unit, doc=doc, kw_only=kw_only)
+    return entry(check=check, unit=unit, **more)
 
 
-def integer(
-    *,
-    default: Any = dataclasses.MISSING,
-    low: int,
-    high: int,
-    optional: bool = False,
-    doc: str = "",
-    kw_only: bool = True,
-) -> Any:
+def integer(*, low: int, high: int, optional: bool = False, **more: Any) -> Any:
     """Declare a field that is a whole number, ``low <= value <= high``."""
     expected = f"a whole number from {low} to {high}" + (", or None" if optional else "")
 
@@ -129,16 +118,14 @@ def integer(
     def check(name: str, value: object) -> int | None:
         if optional and value is None:
             return None
-        if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+        if not low <= (result := _check_int(name, value, expected)) <= high:
             raise wrong(name, value, expected)
-        if not low <= int(value) <= high:
-            raise wrong(name, value, expected)
-        return int(value)
+        return result
 
-    return entry(default=default, check=check, doc=doc, kw_only=kw_only)
+    return entry(check=check, **more)
 
 
-def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = "") -> Any:
+def choice(*, of: Sequence[str], **more: Any) -> Any:
     """Declare a field that is one of several words."""
 
     @accepts({"enum": list(of)})
@@ -148,15 +135,15 @@ def choice(*, default: Any = dataclasses.MISSING, of: Sequence[str], doc: str = 
             raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
         return value
 
-    return entry(default=default, check=check, doc=doc, of=of)
+    return entry(check=check, of=of, **more)
 
 
-def flag(*, default: Any = dataclasses.MISSING, doc: str = "") -> Any:
+def flag(**more: Any) -> Any:
     """Declare a field that is True or False."""
-    return entry(default=default, check=_check_bool, doc=doc)
+    return entry(check=_check_bool, **more)
 
 
-def text(*, default: Any = dataclasses.MISSING, optional: bool = False, doc: str = "") -> Any:
+def text(*, optional: bool = False, **more: Any) -> Any:
     """Declare a field that is one line of text, such as a name or a title."""
 
     @accepts({"type": "string"})
@@ -168,7 +155,7 @@ def text(*, default: Any = dataclasses.MISSING, optional: bool = False, doc: str
             raise wrong(name, value, "text in one line, without codes of a terminal")
         return found
 
-    return entry(default=default, check=check, doc=doc)
+    return entry(check=check, **more)
 
 
 def entry(
@@ -215,9 +202,9 @@ def _check_str(name: str, value: object) -> str:
 
 
 @accepts({"type": "integer"})
-def _check_int(name: str, value: object) -> int:
+def _check_int(name: str, value: object, expected: str = "a whole number") -> int:
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-        raise wrong(name, value, "a whole number")
+        raise wrong(name, value, expected)
     return int(value)
 
 
@@ -226,16 +213,19 @@ _PLAIN: dict[object, Check] = {
     "int": _check_int,
     "bool": _check_bool,
     "str": _check_str,
-    float: real,
-    int: _check_int,
-    bool: _check_bool,
-    str: _check_str,
 }
+
+
+def _check_of(field: dataclasses.Field[Any]) -> Check | None:
+    """Return a field's check; a plain one by its annotation, a class or its name."""
+    plain = _PLAIN.get(getattr(field.type, "__name__", field.type))
+    check: Check | None = field.metadata.get("check") or plain
+    return check
 
 
 def schema_of(field: dataclasses.Field[Any]) -> Schema:
     """Return the schema of the values that a field accepts, None aside; {} if it says nothing."""
-    check = field.metadata.get("check") or _PLAIN.get(field.type)
+    check = _check_of(field)
     return {} if check is None else vars(check).get("schema", {})
 
 
@@ -260,7 +250,7 @@ class Description:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            check = field.metadata.get("check") or _PLAIN.get(field.type)
+            check = _check_of(field)
             if check is not None:
                 name = f"{type(self).__name__}.{field.name}"
                 object.__setattr__(self, field.name, check(name, getattr(self, field.name)))
@@ -300,27 +290,17 @@ class Description:
     def __getstate__(self) -> dict[str, Any]:
         """Return the state that is copied and pickled: everything but cached properties."""
         kind, cached = type(self), functools.cached_property
-        return {
-            name: value
-            for name, value in self.__dict__.items()
-            if not isinstance(getattr(kind, name, None), cached)
-        }
+        state = self.__dict__.items()
+        return {k: value for k, value in state if not isinstance(getattr(kind, k, None), cached)}
 
     def __repr__(self) -> str:
-        changed = [
-            f"{f.name}={shown(getattr(self, f.name), 200)}"
-            for f in dataclasses.fields(self)
-            if not _is_default(f, getattr(self, f.name))
-        ]
+        changed = []
+        for field in dataclasses.fields(self):
+            value, made = getattr(self, field.name), field.default_factory
+            default = field.default if made is dataclasses.MISSING else made()
+            if value != default:
+                changed.append(f"{field.name}={shown(value, 200)}")
         return f"{type(self).__name__}({', '.join(changed)})"
-
-
-def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
-    if field.default is not dataclasses.MISSING:
-        return bool(field.default == value)
-    if field.default_factory is not dataclasses.MISSING:
-        return bool(field.default_factory() == value)
-    return False
 
 
 def _keep_checks(cls: type[Description]) -> None:
@@ -341,9 +321,7 @@ def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
     known = {f.name: f for f in dataclasses.fields(cls) if f.init}
     positional = [name for name, f in known.items() if not f.kw_only]
     required = [
-        name
-        for name, f in known.items()
-        if f.default is dataclasses.MISSING and f.default_factory is dataclasses.MISSING
+        f.name for f in known.values() if f.default is f.default_factory is dataclasses.MISSING
     ]
 
     @functools.wraps(init)

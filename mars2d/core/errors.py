@@ -84,25 +84,11 @@ def likely(name: object, known: Iterable[str], likeness: float = LIKENESS) -> st
     """
     names = sorted(known)
     lower, word = {each.lower(): each for each in names}, str(name).lower()
-    close = (
-        difflib.get_close_matches(str(name), names, n=1, cutoff=likeness)
-        or [lower[k] for k in difflib.get_close_matches(word, lower, n=1, cutoff=likeness)]
-        or [each for each in names if likeness <= LIKENESS and _one_slip(word, each.lower())]
-    )
+    if len(word) < 5 and likeness == LIKENESS:  # 'rde' is 'red', 'icy' is 'ice'
+        likeness = 0.66
+    close = difflib.get_close_matches(str(name), names, n=1, cutoff=likeness)
+    close = close or [lower[k] for k in difflib.get_close_matches(word, lower, 1, likeness)]
     return f"; did you mean {close[0]!r}?" if close else ""
-
-
-def _one_slip(word: str, other: str) -> bool:
-    """Return whether one slip leads from a word to another: a letter more, less, other, swapped."""
-    if len(word) > len(other):
-        word, other = other, word
-    if len(other) < 2 or len(other) - len(word) > 1:
-        return False
-    same = next((k for k, (a, b) in enumerate(zip(word, other, strict=False)) if a != b), len(word))
-    rest, rests = word[same:], other[same:]
-    if len(word) < len(other):
-        return rest == rests[1:]
-    return rest[1:] == rests[1:] or (rest[:2] == rests[1::-1] and rest[2:] == rests[2:])
 
 
 def nearest(name: object, known: Iterable[str], likeness: float = LIKENESS, most: int = 12) -> str:

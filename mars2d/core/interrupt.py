@@ -12,8 +12,8 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
+from contextlib import suppress
 from math import inf
 from pathlib import Path
 from types import FrameType
@@ -73,7 +73,8 @@ class interrupts:  # noqa: N801 - it is used as a function
         """React to Ctrl-C: this object is the signal's handler."""
         first, self.pressed = not self.pressed, True
         if self._held is None:
-            _raise_once()
+            if time.monotonic() - _raised >= GRACE:
+                _raise()
         elif self._held and first:
             with suppress(OSError):  # it is closed, or full
                 os.write(2, f"mars2d: one moment: {self._held}\n".encode(errors="replace"))
@@ -101,41 +102,6 @@ class interrupts:  # noqa: N801 - it is used as a function
             _raise()
 
 
-class _Unbroken:
-    """A short block that Ctrl-C does not interrupt: KeyboardInterrupt is raised at its end.
-
-    It costs less than a microsecond. It must be within a block of `interrupts`, and has an effect
-    in the main thread only, where Python raises KeyboardInterrupt.
-    """
-
-    def __init__(self) -> None:
-        self.depth = 0
-        self.late = False
-
-    def __enter__(self) -> None:
-        if threading.current_thread() is threading.main_thread():
-            self.depth += 1
-
-    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        if threading.current_thread() is not threading.main_thread():
-            return
-        self.depth -= 1
-        if self.late and not self.depth:
-            self.late = False
-            if kind is None:
-                _raise()
-
-
-unbroken = _Unbroken()
-
-
-def _raise_once() -> None:
-    if unbroken.depth:
-        unbroken.late = True
-    elif time.monotonic() - _raised >= GRACE:
-        _raise()
-
-
 def _raise() -> None:
     global _raised  # noqa: PLW0603
     _raised = time.monotonic()
@@ -161,23 +127,3 @@ def give_up(where: str) -> None:
         rescue(kept())
     finally:
         os._exit(code)
-
-
-@contextmanager
-def interrupts_blocked() -> Iterator[None]:
-    """Block SIGINT within the block, so that processes started in it never receive Ctrl-C.
-
-    A process inherits the blocked signals of the one that starts it. A Ctrl-C for this process is
-    delivered at the end of the block. Has no effect on Windows.
-    """
-    if sys.platform == "win32":
-        yield
-        return
-    from multiprocessing.resource_tracker import ensure_running
-
-    ensure_running()  # else it would be started here, and unblock the signal
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)

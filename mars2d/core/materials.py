@@ -23,7 +23,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple, Self
 
-from mars2d.core.description import Schema, accepts, real, wrong
+from mars2d.core.description import Check, accepts, real, wrong
 from mars2d.core.errors import nearest
 
 GRAVITY = 9.81
@@ -127,17 +127,9 @@ def check_static(name: str, static: float | None, kinetic: float) -> None:
         raise wrong(name, static, f"at least the kinetic coefficient, {kinetic:g}, or None")
 
 
-def _coefficient(high: float) -> Schema:
-    return {"anyOf": [{"type": "number", "minimum": 0, "maximum": high}, {"enum": list(MATERIALS)}]}
-
-
 @accepts({"enum": list(MATERIALS)})
 def material(name: str, value: object) -> str | None:
-    """Check a material's name, or None.
-
-    >>> material("Box.material", "wood")
-    'wood'
-    """
+    """Check a material's name, or None."""
     if value is None:
         return None
     if not isinstance(value, str) or value not in MATERIALS:
@@ -145,38 +137,29 @@ def material(name: str, value: object) -> str | None:
     return value
 
 
-@accepts(_coefficient(1e3))
-def surface_friction(name: str, value: object) -> float:
-    """Check a surface's coefficient of friction: a number from 0 to 1000, or a material's name.
-
-    >>> surface_friction("Robot.friction", "rubber")
-    1.07
-    """
-    return _surface(name, value, "friction", 1e3)
-
-
-@accepts(_coefficient(1.0))
-def surface_restitution(name: str, value: object) -> float:
-    """Check a surface's restitution: a number from 0 to 1, or a material's name.
-
-    >>> surface_restitution("Robot.restitution", 0.5)
-    0.5
-    """
-    return _surface(name, value, "restitution", 1.0)
-
-
-def _surface(name: str, value: object, quantity: str, high: float) -> float:
+def _surface(quantity: str, high: float) -> Check:
+    """Return the check of a surface's coefficient: a number up to `high`, or a material's name."""
     expected = f"a number >= 0 and <= {high:g}, or a material's name"
-    if isinstance(value, str):
-        if value not in MATERIALS:
-            raise wrong(name, value, expected + _known(value))
-        return Coefficient(getattr(MATERIALS[value], quantity), value)
-    if isinstance(value, Coefficient) and getattr(MATERIALS[value.material], quantity) == value:
-        return value
-    result = real(name, value, expected)
-    if not 0 <= result <= high:
-        raise wrong(name, value, expected)
-    return result
+    numeric = {"type": "number", "minimum": 0, "maximum": high}
+
+    @accepts({"anyOf": [numeric, {"enum": list(MATERIALS)}]})
+    def check(name: str, value: object) -> float:
+        if isinstance(value, str):
+            if value not in MATERIALS:
+                raise wrong(name, value, expected + _known(value))
+            return Coefficient(getattr(MATERIALS[value], quantity), value)
+        if isinstance(value, Coefficient) and getattr(MATERIALS[value.material], quantity) == value:
+            return value
+        result = real(name, value, expected)
+        if not 0 <= result <= high:
+            raise wrong(name, value, expected)
+        return result
+
+    return check
+
+
+surface_friction, surface_restitution = _surface("friction", 1e3), _surface("restitution", 1.0)
+"""Checks of a surface's coefficients of friction and restitution."""
 
 
 def _known(value: object) -> str:

@@ -4,15 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import Protocol, TextIO
-
-
-class Stepped(Protocol):
-    """An object whose iteration counts up."""
-
-    @property
-    def iteration(self) -> int:
-        """The number of steps done."""
+from typing import Any, TextIO
 
 
 class Progress:
@@ -33,7 +25,7 @@ class Progress:
         self._next = self._start + after
         self._shown = False
 
-    def __call__(self, stepped: Stepped) -> None:
+    def __call__(self, stepped: Any) -> None:
         """Show the progress of an object by its iteration."""
         self.update(stepped.iteration)
 

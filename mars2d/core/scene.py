@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from math import dist
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -77,14 +77,19 @@ def _checked(name: str, value: str) -> str:
     return color(name, value)
 
 
-@lru_cache(maxsize=64)
-def _styled(value: str) -> str:
-    return wake_style("style", value)
+def _look(style: dict[str, Any]) -> dict[str, Any]:
+    """Return how a shape looks, its colours and its line style checked; None paints nothing."""
+    for name in style.keys() & {"fill", "stroke", "color", "halo"}:
+        if style[name] is not None:
+            style[name] = _checked(name, style[name])
+    if "style" in style:
+        wake_style("style", style["style"])
+    return style
 
 
-def _paint(value: str | None, field: str = "fill") -> str | None:
-    """Check a colour, or None, which paints nothing."""
-    return None if value is None else _checked(field, value)
+def _point(point: ArrayLike) -> tuple[float, float]:
+    x, y = np.asarray(point, dtype=float)[:2].tolist()
+    return x, y
 
 
 def faded(value: str, opacity: float) -> str:
@@ -230,74 +235,31 @@ class Scene:
 
     shapes: list[Shape] = field(default_factory=list)
 
-    def circle(
-        self,
-        center: ArrayLike,
-        radius: float,
-        *,
-        fill: str | None = None,
-        stroke: str | None = None,
-        width: float = 1.0,
-        pixels: float = 0.0,
-    ) -> None:
-        """Add a disc (`fill`), a ring (`stroke`), or both."""
-        x, y = np.asarray(center, dtype=float)[:2].tolist()
-        fill, stroke = _paint(fill), _paint(stroke, "stroke")
-        self.shapes.append(Circle((x, y), float(radius), fill, stroke, width, pixels))
+    def circle(self, center: ArrayLike, radius: float, **look: Any) -> None:
+        """Add a disc (`fill`), a ring (`stroke`), or both; look: fields of `Circle`."""
+        self.shapes.append(Circle(_point(center), float(radius), **_look(look)))
 
-    def polygon(
-        self,
-        points: ArrayLike | Outline,
-        *,
-        fill: str | None = None,
-        stroke: str | None = None,
-        width: float = 1.0,
-    ) -> None:
-        """Add a closed outline through points (k, 2)."""
-        fill, stroke = _paint(fill), _paint(stroke, "stroke")
-        self.shapes.append(Polygon(_points(points), fill, stroke, width))
+    def polygon(self, points: ArrayLike | Outline, **look: Any) -> None:
+        """Add a closed outline through points (k, 2); look: fields of `Polygon`."""
+        self.shapes.append(Polygon(_points(points), **_look(look)))
 
-    def line(
-        self, points: ArrayLike | Outline, *, stroke: str, width: float = 1.0, style: str = "-"
-    ) -> None:
-        """Add a polyline through points (k, 2)."""
-        stroke, style = _checked("stroke", stroke), _styled(style)
-        self.shapes.append(Line(_points(points), stroke, width, style))
+    def line(self, points: ArrayLike | Outline, **look: Any) -> None:
+        """Add a polyline through points (k, 2); look: fields of `Line`, `stroke` among them."""
+        self.shapes.append(Line(_points(points), **_look(look)))
 
-    def text(
-        self,
-        position: Sequence[float] | NDArray[np.float64],
-        text: str,
-        *,
-        color: str = "#333333",
-        size: float = 12.0,
-        anchor: Anchor = "center",
-        halo: str | None = None,
-    ) -> None:
-        """Add a label."""
-        x, y = np.asarray(position, dtype=float)[:2].tolist()
-        color, halo = _checked("color", color), _paint(halo, "halo")
-        self.shapes.append(Text((x, y), str(text), color, size, anchor, halo))
+    def text(self, position: ArrayLike, text: str, **look: Any) -> None:
+        """Add a label; look: fields of `Text`."""
+        self.shapes.append(Text(_point(position), str(text), **_look(look)))
 
-    def arrow(
-        self,
-        tail: ArrayLike,
-        tip: ArrayLike,
-        *,
-        fill: str,
-        stroke: str | None = None,
-        width: float = 3.0,
-    ) -> None:
-        """Add an arrow."""
-        (ax, ay), (bx, by) = (np.asarray(end, dtype=float)[:2].tolist() for end in (tail, tip))
-        fill, stroke = _checked("fill", fill), _paint(stroke, "stroke")
-        self.shapes.append(Arrow((ax, ay), (bx, by), fill, stroke, width))
+    def arrow(self, tail: ArrayLike, tip: ArrayLike, **look: Any) -> None:
+        """Add an arrow; look: fields of `Arrow`, `fill` among them."""
+        self.shapes.append(Arrow(_point(tail), _point(tip), **_look(look)))
 
-    def cross(self, center: ArrayLike, arm: float, *, stroke: str, width: float = 1.0) -> None:
-        """Add a diagonal cross, twice its `arm` [m] wide and high."""
-        x, y = np.asarray(center, dtype=float)[:2].tolist()
+    def cross(self, center: ArrayLike, arm: float, **look: Any) -> None:
+        """Add a diagonal cross of two lines, twice its `arm` [m] wide and high."""
+        x, y = _point(center)
         for up in (arm, -arm):
-            self.line([(x - arm, y - up), (x + arm, y + up)], stroke=stroke, width=width)
+            self.line([(x - arm, y - up), (x + arm, y + up)], **look)
 
     def image(self, pixels: ArrayLike, bounds: Sequence[float]) -> None:
         """Add an image: pixels (rows, columns, 3) from 0 to 255, the top row first.
@@ -317,25 +279,16 @@ class Scene:
             raise InputError(f"bounds = {shown(bounds)}: expected (xmin, xmax, ymin, ymax) [m]")
         self.shapes.append(Image(given, (xmin, xmax, ymin, ymax)))
 
-    def sector(
-        self,
-        pose: ArrayLike,
-        radius: float,
-        angle: float,
-        *,
-        fill: str | None = None,
-        stroke: str | None = None,
-        width: float = 1.0,
-    ) -> None:
+    def sector(self, pose: ArrayLike, radius: float, angle: float, **look: Any) -> None:
         """Add a sector of `angle` radians about the heading of a pose (3,): a field of view."""
         if angle >= 2 * np.pi:
-            self.circle(pose, radius, fill=fill, stroke=stroke, width=width)
+            self.circle(pose, radius, **look)
             return
         x, y, theta = np.asarray(pose, dtype=float).tolist()
         steps = theta + np.linspace(-angle / 2, angle / 2, max(2, int(angle / 0.1) + 2))
         c, s = cosines_sines(steps)
         arc = np.column_stack([x + radius * c, y + radius * s])
-        self.polygon(np.vstack([[x, y], arc]), fill=fill, stroke=stroke, width=width)
+        self.polygon(np.vstack([[x, y], arc]), **look)
 
     def extend(self, shapes: Iterable[Shape]) -> None:
         """Add the shapes of another scene."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from typing import TextIO
+from contextlib import suppress
+from typing import Any, TextIO
 
 from mars2d.core.errors import InputError, escaped, one_line
 
@@ -32,9 +30,8 @@ def warn(text: object) -> None:
 
 
 def _write(stream: TextIO, text: str) -> None:
-    lines = (escaped(line) for line in text.split("\n"))
-    encoding = stream.encoding or "utf-8"
-    stream.write("\n".join(lines).encode(encoding, "backslashreplace").decode(encoding))
+    text, encoding = "\n".join(map(escaped, text.split("\n"))), stream.encoding or "utf-8"
+    stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
     stream.flush()
 
 
@@ -56,23 +53,12 @@ def usable_standard_files() -> None:
         setattr(sys, name, stream)
 
 
-@contextmanager
-def legible() -> Iterator[None]:
-    r"""Let stdout and stderr escape, within the block, letters that the terminal does not have.
+def legible() -> None:
+    r"""Let stdout and stderr escape letters that the terminal does not have.
 
     So a law's own `print` does not fail on a terminal for ASCII: it prints ``\u4e2d``.
     """
-    streams = [s for s in (sys.stdout, sys.stderr) if isinstance(s, io.TextIOWrapper)]
-    before = [stream.errors or "strict" for stream in streams]
-    try:
-        for stream in streams:
-            _reconfigure(stream, "backslashreplace")
-        yield
-    finally:
-        for stream, errors in zip(streams, before, strict=True):
-            _reconfigure(stream, errors)
-
-
-def _reconfigure(stream: io.TextIOWrapper, errors: str) -> None:
-    with suppress(OSError, ValueError):  # it is closed, or can't be flushed
-        stream.reconfigure(errors=errors)
+    streams: list[Any] = [sys.stdout, sys.stderr]
+    for stream in streams:
+        with suppress(OSError, ValueError, AttributeError):  # closed, full, or not a file
+            stream.reconfigure(errors="backslashreplace")

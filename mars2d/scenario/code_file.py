@@ -111,5 +111,5 @@ def _law_of(
         raise InputError(f"has no law {name!r}{nearest(name, functions)}")
     if (args or values) and callable(law):
         law = partial(law, *args, **values)
-    checks.law(name, law, subject)
+    checks.function(name, law, subject)
     return cast("Callable[[Any], Any]", law)

@@ -293,10 +293,10 @@ def _opened(
         scenario, function, chart = _scenario_of(module, options, chart, seed)
         own = getattr(module, "control", None)
         if own is not None:
-            checks.law("control", own, "the world")
+            checks.function("control", own, "the world")
         check = getattr(module, "checks", None)
         if check is not None:
-            checks.law("checks", check, "the record")
+            checks.function("checks", check, "the record")
         scopes = _scopes_of(module)
     except Mars2dError as error:
         error.where = error.where or Path(name).name
@@ -325,7 +325,7 @@ def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
     scopes = tuple(given)
     for k, each in enumerate(scopes):
         if not isinstance(each, str):
-            checks.law(f"scopes[{k}]", each, "the record")
+            checks.function(f"scopes[{k}]", each, "the record")
     return scopes
 
 

@@ -91,7 +91,7 @@ class Robot(Description):
     )
     controller: Callable[[Any], Any] | None = entry(
         default=None,
-        check=checks.optional(checks.law, "the robot"),
+        check=checks.optional(checks.function, "the robot"),
         doc="its own law, a function or generator of the robot",
     )
     sees: str = choice(

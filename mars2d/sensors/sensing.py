@@ -12,8 +12,8 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.arrays import is_masked, sealed
-from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, shown
+from mars2d.core.arrays import sealed
+from mars2d.core.errors import LawError, UnknownNameError, nearest, shown
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.usercode import called
 from mars2d.sensors.base import Sensor, Surroundings
@@ -153,7 +153,7 @@ class Device:
 
     def _measured(self, rng: np.random.Generator) -> Any:
         try:
-            reading = _unmasked(self.sensor.read(self.view, self.world, rng))
+            reading = self.sensor.read(self.view, self.world, rng)
             return _kept(self.sensor.measured(reading, rng))
         except BaseException as error:
             self.reading_it.blame(error)
@@ -194,7 +194,7 @@ class _Team:
     def _measured(self) -> Sequence[Any]:
         first = self._first
         try:
-            found = _unmasked(first.sensor.read_all(self._robots, first.world, self._rngs))
+            found = first.sensor.read_all(self._robots, first.world, self._rngs)
             measured = first.sensor.measured_all(found, self._rngs)
             if not isinstance(measured, np.ndarray):
                 return [_kept(reading) for reading in measured]
@@ -272,13 +272,6 @@ def _may_join(device: Device) -> bool:
     except TypeError:  # it has a field that can't be hashed, such as a list
         return False
     return True
-
-
-def _unmasked(reading: Any) -> Any:
-    """Return a reading. Raises InputError where numbers are masked: they would count."""
-    if is_masked(reading):
-        raise InputError("masked numbers: fill them, as by reading.filled(numpy.nan)")
-    return reading
 
 
 def _kept(reading: Any) -> Any:

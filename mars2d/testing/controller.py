@@ -78,7 +78,7 @@ def controller_findings(
     name = name_of(law)
     subject = Subject(name, (f"{name} ",), STREAM[of_team], KEEP[of_team])
     try:
-        checks.law(name, law, "the world" if of_team else "the robot")
+        checks.function(name, law, "the world" if of_team else "the robot")
     except InputError as error:
         subject.report.wrong(str(error))
         return subject.report.findings

@@ -10,7 +10,7 @@ import pygame
 
 from mars2d.core.errors import Mars2dError
 from mars2d.core.scene import faded
-from mars2d.core.usercode import Excerpt, excerpt_of
+from mars2d.output.excerpt import Excerpt, excerpt_of
 from mars2d.output.raster.bars import Banner
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme

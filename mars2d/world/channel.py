@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import marshal
 from collections import defaultdict
-from functools import cached_property
 from math import nan
 from typing import Any, NamedTuple
 
@@ -44,27 +42,17 @@ class _Sent(NamedTuple):
     status: NDArray[np.uint8]  # (k,), as far as it is known
 
 
-class _Letter:
-    """A message for all its receivers. It is parsed when the first of them looks at it."""
+class _Letter(NamedTuple):
+    """A message for all its receivers."""
 
-    def __init__(self, sender: int, name: str, time: float, text: str) -> None:
-        self._head, self._text = (sender, name, time), text
-
-    @cached_property
-    def _message(self) -> Message:
-        return Message(*self._head, json.loads(self._text))
-
-    @cached_property
-    def _packed(self) -> bytes | None:
-        """The content as bytes, to make copies from; None if it is immutable."""
-        content = self._message.content
-        # Lists and dicts are copied by this several times as fast as they are parsed.
-        return marshal.dumps(content) if isinstance(content, (list, dict)) else None
+    sender: int
+    name: str
+    time: float
+    text: str
 
     def opened(self) -> Message:
-        """Return the message, with a copy of the content that no other receiver can change."""
-        packed = self._packed
-        return self._message if packed is None else Message(*self._head, marshal.loads(packed))
+        """Return the message, with content of its own, which no other receiver can change."""
+        return Message(self.sender, self.name, self.time, json.loads(self.text))
 
 
 class Channel:

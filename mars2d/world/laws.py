@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core import checks
-from mars2d.core.arrays import is_masked, within
+from mars2d.core.arrays import within
 from mars2d.core.errors import LawError, shown
 from mars2d.core.usercode import called, definition, name_of
 
@@ -82,7 +82,7 @@ def robot_command(value: Any, refuse: Callable[[str], NoReturn]) -> tuple[float,
         plain = type(first) in PLAIN and type(second) in PLAIN
         if plain and abs(first) <= LARGEST and abs(second) <= LARGEST:
             return first, second
-    command = _numbers(value, refuse)
+    command = _numbers(value)
     if command is None or command.shape not in ((2,), (2, 1)):
         refuse(f"returned {shown(value)}: expected two numbers, such as (v, omega) or (vx, vy)")
     first, second = command.ravel().tolist()
@@ -96,7 +96,7 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     if value is None:
         refuse("returned nothing: a law returns its command, an array (2, n)")
     expected = f"expected two rows and a column for each robot, shape (2, {robots})"
-    command = _numbers(value, refuse)
+    command = _numbers(value)
     if command is None:
         refuse(f"returned {shown(value)}: {expected}{_unequal(value)}")
     if command.shape == (2,) and robots == 1:
@@ -120,14 +120,11 @@ def _unequal(value: Any) -> str:
     return f"; its rows have {' and '.join(map(str, lengths))} numbers"
 
 
-def _numbers(value: Any, refuse: Callable[[str], NoReturn]) -> Float | None:
+def _numbers(value: Any) -> Float | None:
     """Return a new array of floats, or None if `value` holds anything but real numbers.
 
-    Text, truth values, complex numbers and integers beyond a float are none. Masked ones are
-    refused.
+    Text, truth values, complex numbers and integers beyond a float are none.
     """
-    if is_masked(value):
-        refuse("returned an array with masked numbers: fill them, as by command.filled(0)")
     try:
         found = np.asarray(value)
     except Exception:  # such as for rows of different lengths, or a tensor that is being learned
@@ -177,7 +174,7 @@ class Laws:
         if control is None:
             self._central = None
         elif self.function is not control:
-            checks.law("control", control, "the world")
+            checks.function("control", control, "the world")
             self._central = Law(control, team_view, self._still)
         before = dict(self._own)
         self._own = []

@@ -159,7 +159,7 @@ class Operator:
         world, moved = self._world, dict(moved or {})
         check_same(world.scenario, scenario)
         if control is not None:
-            checks.law("control", control, "the world")
+            checks.function("control", control, "the world")
         world.observe()
         start = world.motion.moved(moved)
         stays = not moved and scenario.surfaces == world.scenario.surfaces

@@ -44,8 +44,10 @@ class Simulation(State):
     nowhere else.
 
     declared: the scenario with its `random_starts`. operator: does to the world what is done from
-    outside. watch: called with the world between sensing and control. view: the world as laws may
-    see it. engine_seconds: how long the engine has taken by now.
+    outside. laws: of the team and of single robots. watch: called with the world between sensing
+    and control. world: the World that add-ons and watchers are called with. view: the world as laws
+    may see it. engine_seconds: how long the engine has taken by now. endless: whether the stop time
+    does not end it, as in a fork.
     """
 
     def __init__(
@@ -62,7 +64,7 @@ class Simulation(State):
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
         self.engine_seconds = 0.0
-        self.endless = False  # a fork has no stop time
+        self.endless = False
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
         self._observed = -1  # the iteration that add-ons and sensors were last called for
@@ -76,7 +78,7 @@ class Simulation(State):
         self.props = tuple(PropView(self, i) for i in range(len(scenario.props)))
         self.minds = [Mind(str(robot.name), self.stream) for robot in scenario.robots]
         self.robots = [RobotView(self, i, mind) for i, mind in enumerate(self.minds)]
-        self._laws = Laws(n)
+        self.laws = Laws(n)
         self._channel: Channel | None = None
 
     def begin(
@@ -87,7 +89,7 @@ class Simulation(State):
         world: what add-ons and watchers are called with. view: ``robot.world`` of a law that sees
         all. team_view: what the team's law is called with.
         """
-        self._world, self.view, self._team_view = world, view, team_view
+        self.world, self.view, self._team_view = world, view, team_view
         self._take_scenario({}, control)
         live = vars(self.addons).values()
         talk = next((addon for addon in live if isinstance(addon, Communication)), None)
@@ -114,7 +116,7 @@ class Simulation(State):
         self._room: Room | None = None
         if scenario.workspace is not None and scenario.on_exit == "stop":
             self._room = Room(scenario.workspace, len(scenario.robots))
-        self._laws.renew(
+        self.laws.renew(
             control,
             self._team_view,
             [robot.controller for robot in scenario.robots],
@@ -140,22 +142,12 @@ class Simulation(State):
     @property
     def calls(self) -> tuple[int, int]:
         """What changes with each control step, and with each law that is asked."""
-        return self.iteration, self._laws.calls
-
-    @property
-    def laws(self) -> Laws:
-        """The laws of the team and of single robots."""
-        return self._laws
-
-    @property
-    def world(self) -> WorldLike:
-        """The World that add-ons and watchers are called with."""
-        return self._world
+        return self.iteration, self.laws.calls
 
     @property
     def control(self) -> Control | None:
         """The law of the team."""
-        return self._laws.function
+        return self.laws.function
 
     @property
     def record(self) -> Record:
@@ -187,7 +179,7 @@ class Simulation(State):
 
     def draw_addons(self, scene: Scene) -> None:
         """Let the add-ons draw the world as it is now."""
-        self._hooks.call("on_draw", self._world, scene)
+        self._hooks.call("on_draw", self.world, scene)
 
     # -- the control step ------------------------------------------------------------------------
 
@@ -263,12 +255,12 @@ class Simulation(State):
         """Do one pass of the loop of MARS's Algorithm 1; return the commands that laws ask for."""
         self._observe()
         if self.watch is not None:
-            self.watch(self._world)
+            self.watch(self.world)
         if command is None or isinstance(command, Mapping):
-            wanted = asked = self._laws.commands(self._named(command or {}))
+            wanted = asked = self.laws.commands(self._named(command or {}))
         else:
             wanted = self._given(command)
-            asked = self._laws.commands() if ask else wanted
+            asked = self.laws.commands() if ask else wanted
         if ask:
             asked = self._saturate(self.operator.command(asked))
         self.command = locked(self._saturate(self.operator.command(wanted)))
@@ -277,7 +269,7 @@ class Simulation(State):
         if self.iteration >= self.scenario.last_iteration and not self.endless:
             self.stop(f"Time is over: {self.time:g} s")
         if self.over:
-            self._hooks.call("on_stop", self._world)
+            self._hooks.call("on_stop", self.world)
             self.draw_addons(self._drawn)
         else:
             self._drive()
@@ -291,9 +283,9 @@ class Simulation(State):
             if self._channel is not None:
                 self._channel.deliver()
             self.sensing.hide()
-            self._hooks.call("on_step", self._world)
+            self._hooks.call("on_step", self.world)
             self.sensing.step(self.iteration)
-            self._hooks.call("on_sensed", self._world)
+            self._hooks.call("on_sensed", self.world)
 
     def _given(self, command: Any) -> Float:
         return team_command(command, len(self.robots), partial(_refuse, "World.step(command)"))

@@ -30,7 +30,7 @@ NEVER = sys.maxsize
 """A row that no run reaches."""
 
 OF_A_RUN = (
-    "_world", "_experiment", "_past", "branches", "row", "_lines", "_errors", "_count",
+    "world", "experiment", "_past", "branches", "row", "_lines", "_errors", "_count",
     "_gone_back",
 )  # fmt: skip
 """The attributes of a timeline that start again with a run."""
@@ -49,15 +49,15 @@ class Timeline:
     outside of the world, such as writing a file, are. So no world is made before somebody has gone
     back for the first time.
 
-    experiment: its laws and scenario. seed: of all random streams. watchers: called at each control
-    step. log: writes each row of the present branch to a file.
+    experiment: its laws, as its file was last read, and its scenario. seed: of all random streams.
+    watchers: called at each control step. log: writes each row of the present branch to a file.
 
-    row: the present one. branches: the worlds of the other branches, the one left longest ago
-    first. remark: a warning about the last way back, or empty.
+    world: at the newest row. row: the present one. branches: the worlds of the other branches, the
+    one left longest ago first. remark: a warning about the last way back, or empty.
     """
 
-    _world: World
-    _experiment: Experiment
+    world: World
+    experiment: Experiment
     _past: Past
     branches: list[World]
     row: int
@@ -86,7 +86,7 @@ class Timeline:
 
         A run in which hands did something is kept, with its branches, as one of `others`.
         """
-        again = self._experiment.reopened() if experiment is None else experiment
+        again = self.experiment.reopened() if experiment is None else experiment
         before = self._run if self.touched else None
         self._begin(again)
         if before is not None:
@@ -95,13 +95,13 @@ class Timeline:
 
     def _begin(self, experiment: Experiment) -> None:
         """Build the world of an experiment whose laws have not been asked yet."""
-        self._world = open_world(experiment, self._seed, self._watchers)
-        self._experiment = experiment
+        self.world = open_world(experiment, self._seed, self._watchers)
+        self.experiment = experiment
         self._past = Past(experiment, self._seed)
         self.branches = []
         self.row = 0
         self.remark = ""
-        self._lines = {self._world: _Line(((0, 0),))}
+        self._lines = {self.world: _Line(((0, 0),))}
         self._errors = {}
         self._count = 0  # of branches that there have been
         self._seen: tuple[World, int, Record] | None = None
@@ -111,32 +111,22 @@ class Timeline:
     # -- the present row -------------------------------------------------------------------------
 
     @property
-    def experiment(self) -> Experiment:
-        """The experiment, with the laws as its file was last read."""
-        return self._experiment
-
-    @property
-    def world(self) -> World:
-        """The world at the newest row."""
-        return self._world
-
-    @property
     def newest(self) -> int:
         """The row up to which was run."""
-        return self._world.iteration
+        return self.world.iteration
 
     @property
     def scenario(self) -> Scenario:
         """The scenario at the present row."""
         if self.row == self.newest:
-            return self._world.scenario
+            return self.world.scenario
         return self.recorded.scenario_at(self.row)
 
     @property
     def frame(self) -> Frame:
         """The frame of the present row."""
         if self.row == self.newest:
-            return self._world.frame
+            return self.world.frame
         frame = self.recorded.frame(self.row)
         if not frame.over_message:
             return frame
@@ -145,17 +135,17 @@ class Timeline:
     @property
     def contacts(self) -> NDArray[np.void]:
         """The contacts of all rows up to the newest."""
-        return self._world.frame.contact_log()
+        return self.world.frame.contact_log()
 
     @property
     def over(self) -> bool:
         """Whether this is the newest row and nothing follows it."""
-        return self.row == self.newest and self._world.over
+        return self.row == self.newest and self.world.over
 
     @property
     def error(self) -> LawError | None:
         """The error of a law, sensor or add-on at the newest row, or None."""
-        return self._errors.get(self._world)
+        return self._errors.get(self.world)
 
     @property
     def record(self) -> Record:
@@ -165,23 +155,23 @@ class Timeline:
         """
         others = [*self.branches]
         for run in self._earlier:
-            others += [run["_world"], *run["branches"]]
-        return replace(_closed(self._world), branches=tuple(_closed(world) for world in others))
+            others += [run["world"], *run["branches"]]
+        return replace(_closed(self.world), branches=tuple(_closed(world) for world in others))
 
     @property
     def settings(self) -> dict[str, Any]:
         """The options that hold at the newest row of the present branch, by name."""
-        return settings_of(self._world)
+        return settings_of(self.world)
 
     @property
     def touched(self) -> bool:
         """Whether hands did anything in this run, so that it can't just be run again."""
-        return bool(self.branches or self._world.operator.log or self._past.driven)
+        return bool(self.branches or self.world.operator.log or self._past.driven)
 
     @property
     def changed(self) -> bool:
         """Whether hands changed this run or one of `others`; to drive a robot is no change."""
-        return any(world.operator.log for world in (self._world, *self.others))
+        return any(world.operator.log for world in (self.world, *self.others))
 
     @property
     def _run(self) -> dict[str, Any]:
@@ -191,7 +181,7 @@ class Timeline:
     @property
     def recorded(self) -> Record:
         """The record of the present branch so far, kept as long as nothing is run."""
-        world = self._world
+        world = self.world
         if self._seen is None or self._seen[:2] != (world, world.iteration):
             self._seen = world, world.iteration, world.record
         return self._seen[2]
@@ -199,7 +189,7 @@ class Timeline:
     @property
     def _track(self) -> Track:
         """The rows of the present branch, as a world that is made again follows them."""
-        return Track(self._world, self._lines[self._world].since)
+        return Track(self.world, self._lines[self.world].since)
 
     # -- going on, going back -----------------------------------------------------------------
 
@@ -210,10 +200,10 @@ class Timeline:
         """
         if self.row < self.newest:
             self.row += 1
-        elif not self._world.over:
-            self._past.driven.update(self._world.operator.driven)
+        elif not self.world.over:
+            self._past.driven.update(self.world.operator.driven)
             with self._noting():
-                self._world.step()
+                self.world.step()
             self.row = self.newest
             self._write()
             self._observe()
@@ -226,9 +216,9 @@ class Timeline:
         if self._log is None:
             return
         try:
-            self._log.follow(self._world, same)
+            self._log.follow(self.world, same)
         except DiskError as error:
-            self._world.break_off(f"Error: {error}")
+            self.world.break_off(f"Error: {error}")
             raise
 
     def go(self, row: int) -> None:
@@ -238,9 +228,9 @@ class Timeline:
 
     def _observe(self) -> None:
         """Read the sensors for the present instant."""
-        if not self._world.over:
+        if not self.world.over:
             with self._noting():
-                self._world.observe()
+                self.world.observe()
 
     @contextmanager
     def _noting(self) -> Iterator[None]:
@@ -248,7 +238,7 @@ class Timeline:
         try:
             yield
         except LawError as error:
-            self._errors[self._world] = error
+            self._errors[self.world] = error
             raise
 
     # -- branches -----------------------------------------------------------------------------
@@ -256,7 +246,7 @@ class Timeline:
     @property
     def needs_way_back(self) -> bool:
         """Whether a world has to be made again before something can be changed at this row."""
-        return self.row < self.newest or self._world.over
+        return self.row < self.newest or self.world.over
 
     def idle(self, seconds: float) -> None:
         """Use spare time to prepare for changes in the past, once somebody has gone back.
@@ -265,7 +255,7 @@ class Timeline:
         than that by more than a control step does; a file is opened at the newest row only if there
         is time for it.
         """
-        own = self._experiment.alone  # else worlds would share what laws remember
+        own = self.experiment.alone  # else worlds would share what laws remember
         if own and self._gone_back:
             self._past.prepare(self._track, self.row, seconds)
 
@@ -280,24 +270,24 @@ class Timeline:
         if self.needs_way_back:
             self._adopt(self._past.world_at(self._track, self.row, progress))
             self.remark = self._past.doubt
-        return self._world
+        return self.world
 
     def change(self, act: Callable[[World], None], progress: Progress = lambda _: True) -> None:
         """Do something to the world at the present row, of a branch where that is in the past.
 
         Where `act` raises InputError, nothing changes.
         """
-        before, branches = self._world, [*self.branches]
+        before, branches = self.world, [*self.branches]
         lines, errors = dict(self._lines), dict(self._errors)
         world = self.branch(progress)
         log = [*world.operator.log]
         try:
-            if settings_of(world) != self._experiment.options:  # they were set later than this row
-                self._change_to(self._experiment, world)
+            if settings_of(world) != self.experiment.options:  # they were set later than this row
+                self._change_to(self.experiment, world)
             act(world)
         except InputError:
             if world is not before:
-                self._world, self.branches = before, branches
+                self.world, self.branches = before, branches
                 self._write(self.row)
                 self._lines, self._errors = lines, errors
                 untouched = world.operator.log == log and not world.operator.driven
@@ -312,7 +302,7 @@ class Timeline:
         The run with it becomes a branch. Raises InputError if there is nothing to undo, and as
         `branch` does.
         """
-        log = self._world.operator.log
+        log = self.world.operator.log
         if not log:
             raise InputError("nothing was done by hand")
         done = len(log) - 1
@@ -321,21 +311,21 @@ class Timeline:
         row = log[done].row
         self._past.forget_from(row)
         self.remark = ""
-        experiment, past = self._experiment, self._past
-        held = settings_of(self._world, done)
+        experiment, past = self.experiment, self._past
+        held = settings_of(self.world, done)
         if held != experiment.options:
             experiment = experiment.with_options(held)
             past = past.with_laws_of(experiment)
         world = past.world_at(replace(self._track, done=done), row, progress)
         self.row = row
-        self._experiment, self._past = experiment, past
+        self.experiment, self._past = experiment, past
         self._adopt(world)
         self.remark = self._past.doubt
         return log[done]
 
     def check(self, experiment: Experiment) -> None:
         """Raise InputError for an experiment that `take` can't go on with."""
-        check_alike(self._experiment.scenario, experiment.scenario)
+        check_alike(self.experiment.scenario, experiment.scenario)
 
     def set(
         self,
@@ -351,7 +341,7 @@ class Timeline:
         Raises InputError, and changes nothing, where there are no such parameters, or no such
         values.
         """
-        before = self._experiment
+        before = self.experiment
         after = before.with_options({**before.options, **options})
         begun = self.newest > 0 or self.touched
         reason = self._needs_start(after) if begun else ""
@@ -363,9 +353,9 @@ class Timeline:
 
     def _needs_start(self, experiment: Experiment) -> str:
         """Return the reason why the run can't go on with an experiment, or ""."""
-        if self.over and self._world.finished:
+        if self.over and self.world.finished:
             return "the run is over"
-        before, after = self._experiment.scenario, experiment.scenario
+        before, after = self.experiment.scenario, experiment.scenario
         try:
             self.check(experiment)
         except InputError as error:
@@ -384,18 +374,18 @@ class Timeline:
         """
         self.check(experiment)
         past = self._past.with_laws_of(experiment)
-        ended = self.over and self._world.finished
-        goes_on = not self.needs_way_back and experiment.decides_as(self._experiment)
+        ended = self.over and self.world.finished
+        goes_on = not self.needs_way_back and experiment.decides_as(self.experiment)
         if goes_on:  # with its laws as they are
             past.waiting = self._past.waiting
-            self._change_to(experiment, self._world)
-            self._experiment, self._past = experiment, past
+            self._change_to(experiment, self.world)
+            self.experiment, self._past = experiment, past
             return "in effect from now on; R runs it from the start"
         if not ended:
             past.waiting.append(past.opened(experiment))
-            world = past.world_at(Track(self._world, NEVER), self.row, progress)
+            world = past.world_at(Track(self.world, NEVER), self.row, progress)
             self._change_to(experiment, world)
-        self._experiment, self._past = experiment, past
+        self.experiment, self._past = experiment, past
         self._lines = {w: replace(line, since=NEVER) for w, line in self._lines.items()}
         if ended:
             return "in effect where you go back and change something; R runs it from the start"
@@ -404,7 +394,7 @@ class Timeline:
 
     def _change_to(self, experiment: Experiment, world: World) -> None:
         """Change a world where an experiment differs from the one whose settings it has."""
-        before, held = self._experiment, settings_of(world)
+        before, held = self.experiment, settings_of(world)
         if held != before.options:
             before = before.with_options(held)
         wanted = merged(before.scenario, experiment.scenario, world.scenario)
@@ -417,7 +407,7 @@ class Timeline:
 
         It does not where it has the same rows, unless they ended as they should.
         """
-        before, row = self._world, self.row
+        before, row = self.world, self.row
         line = self._lines[before]
         if row < before.iteration or before.finished:
             self.branches.append(before)
@@ -426,7 +416,7 @@ class Timeline:
             self._errors.pop(before, None)
         self._count += 1
         self._lines[world] = line.off(self._count, row)
-        self._world = world
+        self.world = world
         self._past.forget_from(row)
         world.operator.let_go()
         world.watch = watch_by(self._watchers)
@@ -435,7 +425,7 @@ class Timeline:
     @property
     def others(self) -> list[World]:
         """The worlds that can be shown: those of other branches, then those of earlier runs."""
-        return [*self.branches, *(run["_world"] for run in self._earlier)]
+        return [*self.branches, *(run["world"] for run in self._earlier)]
 
     def other_branch(self) -> None:
         """Go to the branch that was left longest ago; without one, to an earlier run."""
@@ -447,21 +437,21 @@ class Timeline:
         if other not in self.branches:
             self._show_run(other)
             return
-        experiment, held = self._experiment, settings_of(other)
+        experiment, held = self.experiment, settings_of(other)
         if held != experiment.options:
-            self._experiment = experiment.with_options(held)
-            self._past = self._past.with_laws_of(self._experiment)
+            self.experiment = experiment.with_options(held)
+            self._past = self._past.with_laws_of(self.experiment)
         self.branches.remove(other)
-        self.branches.append(self._world)
-        common = self._lines[self._world].common(self._lines[other])
+        self.branches.append(self.world)
+        common = self._lines[self.world].common(self._lines[other])
         self._past.forget_from(common)
-        self._world = other
+        self.world = other
         self._write(common)
         self.go(self.row)
 
     def _show_run(self, other: World) -> None:
         """Go to an earlier run; this one becomes one of them."""
-        run = next(run for run in self._earlier if run["_world"] is other)
+        run = next(run for run in self._earlier if run["world"] is other)
         self._earlier.remove(run)
         self._earlier.append(self._run)
         vars(self).update(run)
@@ -469,7 +459,7 @@ class Timeline:
 
     def parted(self, other: World) -> int:
         """Return the row up to which another branch is the same as the present one."""
-        return self._lines[self._world].common(self._lines[other])
+        return self._lines[self.world].common(self._lines[other])
 
 
 @dataclass(frozen=True, slots=True)

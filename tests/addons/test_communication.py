@@ -313,25 +313,6 @@ def test_in_one_control_step_a_message_is_the_same_object_at_each_look():
     assert world.robots[1].inbox[0] is world.robots[1].inbox[0]
 
 
-def test_a_content_is_parsed_once_and_only_if_somebody_looks(monkeypatch):
-    texts = []
-
-    def loads(text):
-        texts.append(text)
-        return parsed(text)
-
-    parsed = json.loads
-    monkeypatch.setattr(json, "loads", loads)
-    world = World(team(9))
-    for content in (3, [1, 2]):
-        world.robots[0].send(content)
-    stand(world)
-    world.observe()
-    assert texts == []
-    assert [contents(robot) for robot in world.robots[1:]] == 8 * [[3, [1, 2]]]
-    assert texts == ["3", "[1,2]"]
-
-
 # -- in reach -------------------------------------------------------------------------------------
 
 

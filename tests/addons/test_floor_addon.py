@@ -265,7 +265,7 @@ def files(folder):
         "long.png": "5000 x 2 pixels; expected at most 4096 x 4096",
         "deep.png": "more than 8 bits a channel; save it with 8",
         "cut.png": "can't be read",
-        "folder.png": "not a file; expected a PNG image",
+        "folder.png": "can't be read as a PNG image: .*Is a directory",
         "gone.png": "there is no such file in ",
     }
 

@@ -97,3 +97,18 @@ def test_several_robots_are_one_line():
     simulate(Experiment(Scenario(robots=robots, stop_time=1)), watchers=[bounds])
     (told,) = bounds.remarks()
     assert told.startswith("100% of the commands of robot0, and most of those of 3 other robots")
+
+
+def test_calls_that_would_wait_are_named_with_their_lines(tmp_path):
+    (tmp_path / "waits.py").write_text(
+        "import time\nfrom mars2d import Robot, Scenario\nimport matplotlib.pyplot as plt\n"
+        "def speed():\n    return float(input())\n"
+        "def go(robot):\n    time.sleep(0.1)\n    plt.show()\n    return speed(), 0\n"
+        "scenario = Scenario(robots=[Robot(controller=go)])\n"
+    )
+    told = [*before(open_experiment(tmp_path / "waits.py"))]
+    assert [each.split(";")[0] for each in told] == [
+        "waits.py, line 7: time.sleep(): sleep has no meaning in simulated time",
+        "waits.py, line 8: plt.show(): nothing is shown while a simulation runs",
+        "waits.py, line 5: input(): nobody answers while a simulation runs",
+    ]

@@ -16,7 +16,7 @@ import pytest
 import mars2d
 from mars2d import InputError, Scenario
 from mars2d.cli import command_line as cli
-from mars2d.core.terminal import legible, tell, warn
+from mars2d.core.terminal import tell, warn
 from mars2d.output.formats.header import as_text
 from mars2d.study.table import Result, Table, save_table
 from mars2d.study.tournament import league
@@ -193,10 +193,6 @@ def test_every_text_can_be_told_on_every_stream(monkeypatch) -> None:
         warn(EVIL)
         assert r"\x1b]0;owned" in out.buffer.getvalue().decode(encoding)
         assert err.buffer.getvalue().decode(encoding).count("\n") == 1
-    monkeypatch.setattr(sys, "stdout", None)
-    monkeypatch.setattr(sys, "stderr", None)
-    tell("nobody")
-    warn("hears")
 
 
 def test_a_full_device_is_one_error_and_stderr_none(monkeypatch) -> None:
@@ -210,13 +206,3 @@ def test_a_full_device_is_one_error_and_stderr_none(monkeypatch) -> None:
 def test_a_long_message_is_cut(capsys) -> None:
     warn("x" * 5_000_000)
     assert capsys.readouterr().err == f"mars2d: {'x' * 2000}... (4,998,000 letters more)\n"
-
-
-def test_streams_are_as_before_after_the_command(monkeypatch) -> None:
-    out = Stream("ascii")
-    monkeypatch.setattr(sys, "stdout", out)
-    with legible():
-        print("中")
-    assert out.errors == "strict"
-    out.flush()
-    assert out.buffer.getvalue() == rb"\u4e2d" + b"\n"

@@ -18,15 +18,14 @@ def test_a_locked_array_is_the_same_one_and_can_not_be_written():
 
 @pytest.mark.parametrize("kind", [float, bool, [("a", np.int32), ("b", float, (2,))]])
 @pytest.mark.parametrize("shape", [(0,), (3,), (2, 3), (3, 0)])
-def test_a_sealed_array_is_a_view_that_can_not_be_made_writable(kind, shape):
+def test_a_sealed_array_is_a_view_that_can_not_be_written(kind, shape):
     array = np.zeros(shape, dtype=kind)
     view = sealed(array)
     assert (view.dtype, view.shape) == (array.dtype, array.shape)
     array[...] = np.ones(shape, dtype=kind)
     assert np.array_equal(view, array)
     for each in (view, view[:1], view.view()):
-        with pytest.raises(ValueError, match="WRITEABLE"):
-            each.flags.writeable = True
+        assert not each.flags.writeable
 
 
 @pytest.mark.parametrize("most", [1.0, 1e6, 1e300, sys.float_info.max])

@@ -4,7 +4,7 @@ import signal
 
 import pytest
 
-from mars2d.core.interrupt import interrupts, unbroken
+from mars2d.core.interrupt import interrupts
 
 
 def press(times=1):
@@ -43,14 +43,6 @@ def test_the_innermost_block_counts():
         press()
     with pytest.raises(KeyboardInterrupt), interrupts(), interrupts(held=""):
         press()
-
-
-def test_a_row_that_is_written_is_not_broken():
-    rows = []
-    with pytest.raises(KeyboardInterrupt), interrupts(), unbroken:
-        press()
-        rows.append("whole")
-    assert rows == ["whole"]
 
 
 def test_a_handler_of_other_code_stays():

@@ -267,7 +267,7 @@ ANY = {
 @each_case("name", ANY)
 def test_mass_properties_agree_with_a_count_of_grid_points(name):
     shape = ANY[name]
-    x, y, cell = _grid(shape, 700)
+    x, y, cell = _grid(shape, 500)
     cx, cy = shape.centroid
     size = shape.bound[1]
     assert shape.area == pytest.approx(len(x) * cell, rel=3e-3)

@@ -360,14 +360,14 @@ def test_a_pursuit_page_has_a_formula_bodies_exercises_and_their_answer(page):
 
 
 LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi"}
-"""Experiments whose model answers take seconds: `pytest -m soak`."""
+"""Experiments whose model answers take seconds: `pytest -m nightly`."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "page",
     [
-        pytest.param(page, id=page.stem, marks=[pytest.mark.soak] if page.stem in LONG else [])
+        pytest.param(page, id=page.stem, marks=[pytest.mark.nightly] if page.stem in LONG else [])
         for page in (*EXPERIMENT_PAGES, *PURSUIT_PAGES)
     ],
 )

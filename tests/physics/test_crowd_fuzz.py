@@ -366,7 +366,7 @@ def test_in_a_crowd_of_many_shapes_nothing_overlaps_by_a_millimetre(mix, mass_ra
     check(rough(1, mix, mass_ratio, sampling_time, ticks, ties=ties))
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("seed", range(40))
 @pytest.mark.parametrize("ties", [False, True])
 def test_in_many_crowds_of_many_shapes_nothing_overlaps_by_a_millimetre(seed, ties):
@@ -437,7 +437,7 @@ def test_wild_crowds_end_neither_the_process_nor_in_nonsense(child):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("first", range(0, 100, 5))
 def test_many_wild_crowds_end_neither_the_process_nor_in_nonsense(child, first):
     done = in_a_child(child, range(first, first + 5), 600)

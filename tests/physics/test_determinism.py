@@ -288,7 +288,7 @@ def test_global_random_numbers_are_neither_used_nor_changed():
     assert mars2d.run(crowd(), seed=1).digest == digest
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("seed", range(20))
 def test_long_crowded_runs_are_the_same_twice(seed):
     scenario = crowd().replace(stop_time=60)

@@ -641,7 +641,7 @@ def test_in_a_larger_crowd_with_listed_pairs_the_overlap_is_as_small():
     assert depth <= 1e-3
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("seed", range(10))
 def test_in_many_crowds_nothing_overlaps_by_more_than_a_millimetre(seed):
     for speed, sampling_time, mass_ratio, restitution, offset in product(

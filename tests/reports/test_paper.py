@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from tests.faults.commands import started
 
 import mars2d
 from mars2d.cli import command_line as cli
@@ -30,7 +31,7 @@ from mars2d.reports.paper.page import MARK, page, typeset
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
-from tests.faults.commands import started
+from tests.cases import each_case
 from tests.processes import PATIENCE, mars, wait_until
 
 FAILS = """
@@ -208,7 +209,7 @@ def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, 
     assert (tmp_path / name).read_bytes() == (cheap / name).read_bytes()
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
     done = mars("paper", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
@@ -290,9 +291,7 @@ def test_its_own_folder_is_replaced_with_all_that_was_in_it(paper, cheap):
         assert Path("out", name).read_bytes() == (cheap / name).read_bytes()
 
 
-@pytest.mark.parametrize(
-    "name", ["notes.txt", "fig2_mine.png", "index.html", "fig2_random_walk.png/"]
-)
+@each_case("name", ["notes.txt", "fig2_mine.png", "index.html", "fig2_random_walk.png/"])
 def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, cheap, name):
     shutil.copytree(cheap, "out")
     before = {path.name: path.read_bytes() for path in Path("out").iterdir()}
@@ -310,8 +309,8 @@ def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, ch
     assert {p.name: p.read_bytes() for p in Path("out").iterdir() if p.is_file()} == before
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
+@each_case(
+    "arguments, words",
     [
         ((), "OUT"),
         (("file.txt",), "file.txt: this is a file; expected a folder"),
@@ -439,7 +438,7 @@ def test_times_after_the_end_of_a_run_show_its_end():
 # -- processes --------------------------------------------------------------------------------
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_what_comes_out_does_not_depend_on_the_number_of_processes(tmp_path):
     every = [
         figure(Run("random_walk", "W", "S.", options={"stop_time": 20}), number=number)
@@ -472,7 +471,7 @@ def is_group(number):
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child there")
 @pytest.mark.parametrize(
-    "only", [pytest.param("2,4,7", marks=pytest.mark.soak), "7"]
+    "only", [pytest.param("2,4,7", marks=pytest.mark.nightly), "7"]
 )  # in processes of their own, and in one
 def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
     folder = tmp_path / "out"
@@ -510,8 +509,8 @@ def test_no_process_outlives_it_however_it_ends(tmp_path, number):
 # -- formulas, and the browser ----------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("text", "html"),
+@each_case(
+    "text, html",
     [
         ("x_i^2", "x<sub>i</sub><sup>2</sup>"),
         ("v_{max} < rho_0", "v<sub>max</sub> &lt; &rho;<sub>0</sub>"),

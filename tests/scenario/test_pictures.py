@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +10,7 @@ import pytest
 from PIL import Image
 
 import mars2d
-from mars2d import InputError, Scenario
+from mars2d import Scenario
 from mars2d.addons import Density, Floor
 from mars2d.output.formats import SUFFIXES
 from mars2d.output.formats.header import as_text
@@ -80,35 +78,3 @@ for addon in loaded.scenario.addons:
 print([shape.text for shape in scene.shapes if hasattr(shape, "text")])
 print([name for name in opened if "secret" in name], loaded.missing)
 """
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
-@pytest.mark.parametrize("kind", ["picture", "pipe"])
-def test_a_foreign_record_opens_no_picture(scenario, child, kind) -> None:
-    record = mars2d.run(scenario)
-    if kind == "pipe":
-        os.mkfifo("secret.png")
-    else:
-        Path("a b;c.png").rename("secret.png")
-    foreign(record, str(Path("secret.png").absolute()))
-    done = child(OPENED)
-    missing = ("picture secret.png of Floor", "picture secret.png of Density")
-    assert done.stdout == f"{['secret.png is not there'] * 2}\n[] {missing}\n", done.stderr
-
-
-def test_what_is_no_picture_is_named_when_it_is_needed(scenario) -> None:
-    record = mars2d.run(scenario)
-    for data in ("%%", "aaaa"):
-        loaded = mars2d.load(foreign(record, f"data:image/png;name=p.png;base64,{data}"))
-        with pytest.raises(InputError, match=r"^Floor\.image = 'p\.png': this is no PNG image"):
-            mars2d.run(loaded.scenario)
-    loaded = mars2d.load(foreign(record, "p.png"))
-    with pytest.raises(InputError, match=r"'p\.png': the record does not hold this picture"):
-        mars2d.run(loaded.scenario)
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
-def test_a_pipe_is_no_picture(tmp_path) -> None:
-    os.mkfifo(tmp_path / "p.png")
-    with pytest.raises(InputError, match=r"p\.png': not a file; expected a PNG image"):
-        mars2d.run(Scenario(addons=[Floor(image=tmp_path / "p.png", bounds=BOUNDS)]))

@@ -479,7 +479,7 @@ def mutated(chance, text):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "block", [0, *(pytest.param(k, marks=pytest.mark.soak) for k in range(1, 24))]
+    "block", [0, *(pytest.param(k, marks=pytest.mark.nightly) for k in range(1, 24))]
 )
 def test_a_changed_file_is_read_or_refused_in_words(block, tmp_path):
     good = 0

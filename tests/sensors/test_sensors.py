@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 import shapely
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import mars2d
@@ -44,6 +44,7 @@ def sector(pose, radius: float, angle: float) -> shapely.Polygon:
 places = st.tuples(st.floats(-1.5, 1.5), st.floats(-1.5, 1.5))
 
 
+@settings(max_examples=50)
 @given(
     discs=st.lists(st.tuples(places, st.floats(0.02, 0.8)), max_size=3),
     walls=st.lists(st.tuples(places, places), max_size=3),

@@ -12,9 +12,11 @@ import pytest
 
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
+from mars2d.cli.command_line import main
 from mars2d.scenario import load_scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.editor import keys
+from tests.cases import each_case
 from tests.processes import PATIENCE, bare_environment, mars, wait_until
 from tests.window.drawing import near, team
 from tests.window.person import compare, differing, needs_screen
@@ -625,8 +627,8 @@ def test_the_command_draws_a_new_file(screen, tmp_path):
     assert len(load_scenario(tmp_path / "room.toml").robots) == 1
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
+@each_case(
+    "arguments, words",
     [
         (["nowhere/room.toml"], "there is no folder nowhere"),
         (["rndom_walk"], "did you mean 'random_walk'?"),
@@ -635,10 +637,14 @@ def test_the_command_draws_a_new_file(screen, tmp_path):
         ([], "there is no display to draw on"),
     ],
 )
-def test_what_can_not_be_edited_is_said_in_one_line(tmp_path, arguments, words):
-    done = mars("edit", *arguments, cwd=tmp_path)
-    said = done.stderr
-    assert done.returncode == 2
+def test_what_can_not_be_edited_is_said_in_one_line(
+    tmp_path, monkeypatch, capsys, arguments, words
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    assert main(["edit", *arguments]) == 2
+    said = capsys.readouterr().err
     assert words in said
     assert len(said.splitlines()) == 1
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, LawError, Robot, Scenario, World
+from mars2d import InputError, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies import Ball
-from mars2d.sensors import RangeFinder, Sensor
+from mars2d.sensors import RangeFinder
 from mars2d.study.plan import seeds_of, settings_of
 from tests.cases import each_case
 
@@ -83,7 +83,7 @@ def test_a_record_of_a_file_can_be_pickled(tmp_path) -> None:
     assert copy.copy(record) is copy.deepcopy(record) is record
 
 
-# -- lists without an end, and numbers that are masked --------------------------------------------
+# -- lists without an end -----------------------------------------------------------------------
 
 
 @each_case(
@@ -102,31 +102,3 @@ def test_a_record_of_a_file_can_be_pickled(tmp_path) -> None:
 def test_a_list_without_an_end_is_refused(make, name) -> None:
     with pytest.raises(InputError, match=rf"^{name} = .*at most 1,000,000: it has more, or no end"):
         make()
-
-
-MASKED = np.ma.array([[0.1, 0.2, 0.3], [0.0, 0.0, 0.0]], mask=[[0, 1, 0], [0, 0, 0]])
-
-
-def test_masked_commands_are_refused() -> None:
-    with pytest.raises(LawError, match="returned an array with masked numbers: fill them"):
-        mars2d.run(SCENARIO, control=lambda world: MASKED)
-    with pytest.raises(InputError, match="masked numbers"):
-        World(SCENARIO).step(MASKED)
-    law = Robot(controller=lambda robot: MASKED[:, 1])
-    with pytest.raises(LawError, match="masked numbers"):
-        mars2d.run(Scenario(robots=[law]))
-    filled = mars2d.run(SCENARIO, control=lambda world: np.ma.array(MASKED.data))
-    assert np.allclose(filled.command[0], MASKED.data)
-
-
-def test_masked_fields_and_readings_are_refused() -> None:
-    class Gaps(Sensor):
-        """Reads a masked number."""
-
-        def read(self, robot, world, rng):
-            return MASKED[0]
-
-    with pytest.raises(InputError, match=r"Robot\.pose = .*none of them masked"):
-        Robot(pose=np.ma.array([0.0, 1.0, 2.0], mask=[0, 1, 0]))
-    with pytest.raises(InputError, match="masked numbers: fill them, as by reading"):
-        mars2d.run(Scenario(robots=[Robot(sensors=[Gaps()])]))

@@ -29,7 +29,7 @@ GENERATORS = {
 TOUCHING = {"many_push_one": 1e-4, "material_pairs": 1e-3, "push_box": 1e-4, "wall_slide": 1e-3}
 """How far bodies in contact may be off after the steps, metres, as the solver starts again."""
 
-STEPS = 40
+STEPS = 25
 
 
 def stepped(world, steps=STEPS):

@@ -8,7 +8,7 @@ import pytest
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario
 from mars2d.addons import Addon
-from mars2d.core.usercode import excerpt_of
+from mars2d.output.excerpt import excerpt_of
 from mars2d.sensors import Sensor
 from mars2d.study.measures import measured
 from mars2d.study.work import Failure

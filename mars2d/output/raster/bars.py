@@ -8,7 +8,7 @@ from typing import Literal
 
 import pygame
 
-from mars2d.core.usercode import Excerpt
+from mars2d.output.excerpt import Excerpt
 from mars2d.output.raster.layout import FOOTER, Layout, interface_scale
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Tone

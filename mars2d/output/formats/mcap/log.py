@@ -14,7 +14,7 @@ import numpy as np
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import REPLACED_OPEN, growing
-from mars2d.core.interrupt import interrupts, unbroken
+from mars2d.core.interrupt import interrupts
 from mars2d.core.scene import Scene
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mcap.foxglove import nanoseconds
@@ -147,7 +147,7 @@ class Log:
 
         same: if this is another world than before, how many of its rows are the same as that one's.
         """
-        with unbroken:
+        with interrupts(held=""):
             self._follow(world, same)
 
     def _follow(self, world: Logged, same: int = 0) -> None:
@@ -194,7 +194,7 @@ class Log:
         """
         if not self._open:
             return
-        with unbroken:  # but packing may take long, and a log that is not packed is complete
+        with interrupts(held=""):  # but not while it is packed: that may take long
             try:
                 if self._world is not None:
                     self._follow(self._world)

@@ -7,7 +7,8 @@ import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.core.errors import InputError, LawError
-from mars2d.core.usercode import Excerpt, excerpt_of, users_line
+from mars2d.core.usercode import users_line
+from mars2d.output.excerpt import Excerpt, excerpt_of
 from mars2d.scenario.experiment import load_law, open_experiment
 
 LAW = """\
