@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -96,7 +96,7 @@ class Density(Addon, Weight):
     def _of_image(self, x: Float, y: Float) -> Float:
         assert self.bounds is not None
         xmin, xmax, ymin, ymax = self.bounds
-        dark = self.picture.darkness
+        dark = _darkness(self.picture)
         rows, columns = dark.shape
         across = np.clip((x - xmin) / (xmax - xmin) * columns - 0.5, 0, columns - 1)
         down = np.clip((ymax - y) / (ymax - ymin) * rows - 0.5, 0, rows - 1)
@@ -152,3 +152,10 @@ class Density(Addon, Weight):
         pixels[..., :3] = np.round(255 * np.array(rgb(self.color)))
         pixels[inside, 3] = np.round(255 * OPACITY * phi / max(phi.max(), 1e-300))
         scene.image(pixels, bounds)
+
+
+@lru_cache(maxsize=4)
+def _darkness(picture: Picture) -> Float:
+    """Return the darkness (rows, columns) of a picture by Rec. 601 luma: 1 is black, 0 is white."""
+    luma = picture.pixels @ np.array([299, 587, 114])
+    return np.asarray((255_000 - luma) / 255_000)

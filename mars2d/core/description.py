@@ -23,9 +23,6 @@ import numpy as np
 from mars2d.core.errors import CERTAIN, CONTROLS, InputError, likely, nearest, shown
 from mars2d.core.words import instead
 
-MOST = 40
-"""As many fields are listed where none is near."""
-
 Check = Callable[[str, Any], Any]
 """Called with a field's full name and the value given; returns the value to keep, or raises
 InputError."""
@@ -73,11 +70,8 @@ def real(name: str, value: object, expected: str = "a number") -> float:
 
 
 def _bounds(low: float | None, above: float | None, high: float | None, unit: str) -> str:
-    limits = [
-        f"{sign} {limit:g}"
-        for sign, limit in ((">=", low), (">", above), ("<=", high))
-        if limit is not None
-    ]
+    signs = ((">=", low), (">", above), ("<=", high))
+    limits = [f"{sign} {limit:g}" for sign, limit in signs if limit is not None]
     return " ".join(filter(None, ["a number", " and ".join(limits), f"[{unit}]" if unit else ""]))
 
 
@@ -265,7 +259,7 @@ class Description:
         known = [field.name for field in dataclasses.fields(cls) if field.init]
         kinds = [kind.__name__ for kind in cls.__mro__]
         certain = likely(name, known, CERTAIN)
-        return certain or instead(name, *kinds) or nearest(name, known, most=MOST)
+        return certain or instead(name, *kinds) or nearest(name, known, most=40)
 
     @classmethod
     def translated(cls, given: dict[str, Any]) -> dict[str, Any]:

@@ -20,12 +20,8 @@ def pip_line(name: str) -> str:
         declared = requires("mars2d") or []
     except PackageNotFoundError:  # it runs from its folder without being installed
         return f'pip install ".[{name}]"'
-    wanted = [
-        library
-        for library, _, condition in (each.partition(";") for each in declared)
-        if re.search(rf"""extra == ['"]{name}['"]""", condition)
-    ]
-    return " ".join(["pip install", *(f'"{library.strip()}"' for library in wanted)])
+    wanted = [each for each in declared if re.search(rf"""extra == ['"]{name}['"]""", each)]
+    return " ".join(["pip install", *(f'"{each.partition(";")[0].strip()}"' for each in wanted)])
 
 
 @contextmanager

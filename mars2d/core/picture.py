@@ -92,14 +92,6 @@ class Picture:
         Image.fromarray(self.pixels).save(file, "PNG")
         return b64encode(file.getvalue()).decode()
 
-    @cached_property
-    def darkness(self) -> NDArray[np.float64]:
-        """The darkness of each pixel (rows, columns) by Rec. 601 luma: 1 is black, 0 is white."""
-        luma = self.pixels @ np.array([299, 587, 114])
-        dark = (255_000 - luma) / 255_000
-        dark.flags.writeable = False
-        return np.asarray(dark)
-
 
 def read_picture(name: str, image: str, color: str | None = None) -> Picture:
     """Return the picture in a PNG file; its transparent parts show `color`, or white.

@@ -5,7 +5,6 @@ from __future__ import annotations
 _PLACE = "x y theta position positon pos xy orientation heading angle start initialpose location"
 _SPEED = "speed maxspeed maxlinearspeed vmax maxv v velocity"
 _TURN = "omega maxomega maxangularspeed w wmax angularspeed maxangularvelocity"
-_WHEELS = "wheel_semiaxis=..., half the distance of the wheels"
 _COMMAND = "return v, omega: a law returns its command"
 _MEMORY = (
     "robot.memory in the law, or functools.partial(law, goal=...): a law keeps its own numbers"
@@ -50,9 +49,8 @@ _INSTEAD: dict[str, dict[str, str]] = {
     "Drive": {
         _SPEED: "max_linear_speed=...",
         _TURN: "max_angular_speed=...",
+        "wheelbase": "wheel_semiaxis=..., half the distance of the wheels",
     },
-    "Unicycle": {"wheelbase": _WHEELS},
-    "Differential": {"wheelbase": _WHEELS},
     "Within": {"radius distance r": "range=..."},
     "a robot": {
         "x": "robot.pose[0]",
@@ -83,9 +81,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "wall walls obstacle obstacles": "Map, of mars2d.addons: Map([[(x, y), ...]])",
         "simulator simulation simulate sim environment env": "run: mars2d.run(scenario)",
     },
-    "mars2d": {
-        "help h": "mars2d --help",
-    },
+    "mars2d": {"help h": "mars2d --help"},
     "mars2d run": {
         "time stop duration t end": "--stop-time S",
         "seeds runs n": "--seed K; mars2d sweep has --seeds N",

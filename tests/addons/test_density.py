@@ -75,7 +75,7 @@ def test_colours_count_by_how_bright_they_look(tmp_path, monkeypatch):
 
 def test_all_worlds_share_an_images_pixels(picture):
     worlds = [World(Scenario(addons=[picture])) for _ in range(2)]
-    first, second = (world.addons.density.picture.darkness for world in worlds)
+    first, second = (world.addons.density.picture.pixels for world in worlds)
     assert first is second
     with pytest.raises(ValueError, match="read-only"):
         first[0] = 0
