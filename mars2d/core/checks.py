@@ -185,7 +185,9 @@ def names(name: str, value: object, expected: str) -> tuple[str, ...] | None:
     """Check a list of one or more different names, or None."""
     if value is None:
         return None
-    if not isinstance(value, (tuple, list)) or not value or any(type(x) is not str for x in value):
+    if not isinstance(value, (tuple, list)) or not value:
+        raise wrong(name, value, expected)
+    if not all(isinstance(item, str) for item in value):
         raise wrong(name, value, expected)
     for item in value:
         if value.count(item) > 1:

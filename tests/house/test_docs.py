@@ -38,6 +38,7 @@ import mars2d.rl
 from mars2d import addons, bodies, sensors
 from mars2d.bodies import joints, props
 from mars2d.cli import command_line as cli
+from mars2d.core import scene
 from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
 from mars2d.geometry import shapes
@@ -462,13 +463,18 @@ def test_the_exit_codes_in_the_commands_document_are_those_of_the_command_line()
     assert stated == {cli.OK, cli.FAULT, cli.BAD_INPUT, cli.INTERRUPTED}
 
 
+SHAPES = {"cross": scene.Line, "sector": scene.Polygon}
+"""What methods of a scene draw that are not called as their shapes."""
+
+
 def test_what_a_scene_draws_is_documented_with_its_arguments():
     rows = table((ROOT / "docs" / "own_sensor_and_addon.md").read_text(encoding="utf-8"))
     stated = [row[0].strip("`)").split("(") for row in rows[rows.index(["method", "draws"]) + 1 :]]
     drawing = {name for name in vars(Scene) if not name.startswith("_")} - {"extend", "shapes"}
     assert {name for name, _ in stated} == drawing
     for name, call in stated:
-        known = set(inspect.signature(getattr(Scene, name)).parameters)
+        shape = SHAPES.get(name) or getattr(scene, name.capitalize())
+        known = {*inspect.signature(getattr(Scene, name)).parameters, *shape.__match_args__}
         assert {word.strip("= ") for word in call.split(",")} <= known, name
 
 
