@@ -84,6 +84,8 @@ def simulate(
                 error.record = world.record
                 raise
             except Late as error:  # between two calls of the user's code
+                if not error.why:  # a limit that somebody else has set
+                    raise
                 late = LawError(f"the user's code {error.why}")
                 late.time, late.record = world.time, world.record
                 raise late from None

@@ -14,6 +14,7 @@ import pytest
 import mars2d
 from mars2d import Scenario, World
 from mars2d.physics import islands
+from mars2d.physics.islands import chipmunk, layout
 from mars2d.physics.settings import versions
 from tests.cases import each_case
 from tests.islands import plainly
@@ -148,6 +149,25 @@ def test_an_engine_of_another_shape_is_noticed(monkeypatch):
     assert "its struct cpArbiter has no field count" in found
     monkeypatch.setattr(islands, "functions", lambda: [("hypot", "double(*)(double, float)")])
     assert "its function hypot is a double(*)(double, double)" in changes(ARBITER)
+
+
+def test_numbers_that_the_engine_has_elsewhere_are_noticed(monkeypatch):
+    """Neither the compiled module nor Python could use such an engine."""
+    assert layout.misplaced() == ""
+    for what, names in {
+        "its bodies have their poses elsewhere": ("LEAD", "CENTER", "FAST", "ANGLE", "TURN"),
+        "its joints have their impulses elsewhere": (
+            "PIVOT_IMPULSE", "GEAR_IMPULSE", "GROOVE_IMPULSE",
+        ),
+        "its springs have their damping elsewhere": ("REST", "LOST", "FELT", "FELT_TURNING"),
+    }.items():  # fmt: skip
+        for name in names:
+            with monkeypatch.context() as patch:
+                patch.setattr(chipmunk, name, getattr(chipmunk, name) + 1)
+                assert layout.misplaced.__wrapped__() == what, name
+    monkeypatch.setattr(layout, "misplaced", lambda: "its bodies have their poses elsewhere")
+    with pytest.raises(ImportError, match="can't be used: its bodies"):
+        islands.islands()
 
 
 def test_only_what_is_pointed_to_may_differ():

@@ -611,17 +611,16 @@ def _rotation_center(robot: Robot) -> tuple[float, float, float]:
 @each_case("restitution", [0, 0.5, 1])
 @each_case("mass_ratio", [1, 10])
 @each_case("sampling_time", [0.05, 0.5])
-@each_case("speed", [0.3, 2.0])
+@pytest.mark.parametrize("speed", [0.3, 2.0])
 def test_in_a_crowd_nothing_overlaps_by_more_than_a_millimetre(
     speed, sampling_time, mass_ratio, restitution
 ):
     ticks = 60 if sampling_time < 0.1 else 15
-    for seed in range(2):
-        depth = deepest(
-            seed, speed=speed, sampling_time=sampling_time, mass_ratio=mass_ratio,
-            restitution=restitution, ticks=ticks,
-        )  # fmt: skip
-        assert depth <= 1e-3
+    depth = deepest(
+        0, speed=speed, sampling_time=sampling_time, mass_ratio=mass_ratio,
+        restitution=restitution, ticks=ticks,
+    )  # fmt: skip
+    assert depth <= 1e-3
 
 
 @each_case("offset", [0.05, 0.15])

@@ -466,8 +466,8 @@ def let_touch(island, a: int, b: int) -> None:
     body.first_touch = SimpleNamespace(other=b, is_wall=False, next_touch=body.first_touch)
 
 
-@each_case("bodies", [(0, 1), (1, 0)])
-@each_case("sign", [1.0, -1.0])
+@pytest.mark.parametrize("bodies", [(0, 1), (1, 0)])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_the_impulse_is_that_on_b_whatever_the_solvers_sign_and_order(told, bodies, sign):
     let_touch(told, 0, 1)
     a, b = told.numbers[:2]

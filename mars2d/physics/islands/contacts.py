@@ -154,15 +154,10 @@ class Touch:
 
     def __lt__(self, other: Touch) -> bool:
         """Return whether it began earlier, or comes before it by bodies and normal."""
-        if self.time != other.time:
-            return self.time < other.time
-        if self.a != other.a:
-            return self.a < other.a
-        if self.b != other.b:
-            return self.b < other.b
-        if self.first.normal_x != other.first.normal_x:
-            return self.first.normal_x < other.first.normal_x
-        return self.first.normal_y < other.first.normal_y
+        mine, theirs = self.first, other.first
+        return (self.time, self.a, self.b, mine.normal_x, mine.normal_y) < (
+            other.time, other.a, other.b, theirs.normal_x, theirs.normal_y,
+        )  # fmt: skip
 
     @cython.cfunc
     def write(self, numbers: cython.Doubles, k: cython.int) -> cython.void:

@@ -29,12 +29,7 @@ LEANS = 1e-9
 
 @cython.cfunc
 def lay(
-    p: Piece,
-    q: Piece,
-    x: cython.double,
-    y: cython.double,
-    number: cython.int,
-    room: cython.double,
+    p: Piece, q: Piece, x: cython.double, y: cython.double, number: cython.int, room: cython.double
 ) -> cython.bint:
     """Note which faces of a piece go on in another; return whether there are any.
 

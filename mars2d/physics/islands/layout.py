@@ -59,7 +59,7 @@ def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
     lost = [1.0 - exponential(-1.5 * STEP / felt) for felt in (2.0, 3.0)]
     rest = (0.125, 4.0, 1.5)
     impulses, damping = "joints have their impulses", "springs have their damping"
-    for what, kind, numbers, wanted in (
+    tried: tuple[tuple[str, int, tuple[float, float], Places], ...] = (
         (impulses, chipmunk.PIVOT, (0.0, 0.0), {chipmunk.PIVOT_IMPULSE: (-3.0, 4.0)}),
         (impulses, chipmunk.GEAR, (0.0, 1.0), {chipmunk.GEAR_IMPULSE: (-12.0,)}),
         (impulses, chipmunk.GROOVE, (0.0, 1.0), {chipmunk.GROOVE_IMPULSE: (-3.0, 0.0)}),
@@ -68,7 +68,8 @@ def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
         (damping, chipmunk.ROTARY_SPRING, rest[:2],
          {chipmunk.REST_ANGLE: rest, chipmunk.LOST_TURNING: (lost[1],),
           chipmunk.FELT_TURNING: (3.0,)}),
-    ):  # fmt: skip
+    )  # fmt: skip
+    for what, kind, numbers, wanted in tried:
         chipmunk.put(body, 0.0, 0.0, 0.0)
         chipmunk.aim(body, 1.5, -2.0, 4.0)
         ends = (0.0, 0.0), (0.0, 0.0)
