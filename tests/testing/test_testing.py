@@ -22,7 +22,7 @@ from mars2d.core.description import entry, number
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.scenario.registry import members
-from mars2d.sensors import ANGLE, COLOR, DISTANCE, FLAG, NUMBER
+from mars2d.sensors import ANGLE, COLOR, DISTANCE, FLAG
 from mars2d.testing import (
     CheckError,
     addon_findings,
