@@ -107,6 +107,6 @@ def instead(word: object, *places: str) -> str:
     plain = str(word).lower().replace("_", "").replace("-", "")
     for place in places:
         for words, meant in _INSTEAD.get(place, {}).items():
-            if plain in words.split():
+            if plain in words.split() and not meant.startswith(f"{word}="):
                 return f"; write {meant}"
     return ""

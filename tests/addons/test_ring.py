@@ -7,7 +7,7 @@ import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Ring
 from mars2d.core.scene import Circle, Line, Scene, Text
-from mars2d.scenario import load_scenario
+from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.registry import members
 from mars2d.scenario.roles import robots_named
 from mars2d.world.verify import rerun
@@ -118,7 +118,7 @@ def test_a_scenario_file_keeps_it(tmp_path):
     ring = Ring(ROLES, radius=2.5, center=(1.0, 0.0))
     file = tmp_path / "sumo.toml"
     still = bout([0.0] * 4, ring=ring)
-    still.replace(robots=[r.replace(controller=None) for r in still.robots]).save(file)
+    save_scenario(still.replace(robots=[r.replace(controller=None) for r in still.robots]), file)
     assert load_scenario(file).addons == (ring,)
 
 

@@ -246,7 +246,7 @@ def test_a_ramp_turns_a_car_no_quicker_than_it_may():
     ("make", "words"),
     [
         (lambda: Unicycle(max_angular_speed=0), "expected a number >= 0.001 and <= 1000 [rad/s]"),
-        (lambda: Holonomic(max_angular_speed=1), "a holonomic robot keeps its heading"),
+        (lambda: Holonomic(max_angular_speed=1), "Holonomic has no field 'max_angular_speed'"),
         (lambda: Dubins(max_acceleration=1), "expected None: its speed never changes"),
         (lambda: Dubins(max_angular_speed=None), "Dubins.max_angular_speed = None"),
     ],

@@ -22,7 +22,7 @@ from mars2d.core.description import entry, number
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.scenario.registry import members
-from mars2d.sensors import ANGLE, COLOR, DISTANCE, FLAG, NUMBER
+from mars2d.sensors import ANGLE, COLOR, DISTANCE, FLAG
 from mars2d.testing import (
     CheckError,
     addon_findings,
@@ -72,22 +72,6 @@ class Whisker(Sensor):
         x, y, theta = self.placed(pose)
         far = min(reading, self.range)
         scene.line([(x, y), (x + far * np.cos(theta), y + far * np.sin(theta))], stroke=color)
-
-
-class Milestones(Sensor):
-    """A sound sensor that keeps something: the way gone, and how often it has begun again."""
-
-    quantities = (NUMBER, FLAG)
-
-    def on_start(self, robot, world, rng):
-        self.way, self.last = 0.0, robot.pose
-
-    def on_step(self, robot, world, rng):
-        self.way += float(np.hypot(*(robot.pose - self.last)[:2]))
-        self.last = robot.pose
-
-    def read(self, robot, world, rng):
-        return np.array([self.way, self.way > 0.1])
 
 
 @pytest.mark.slow
@@ -614,10 +598,6 @@ def test_a_fault_of_a_law_is_named(fault):
     law, options, words = LAWS[fault]
     findings = controller_findings(law, **options)
     assert seen(findings, "wrong", *words), texts(findings, "wrong")
-
-
-def test_a_law_finds_the_sensors_that_it_is_given():
-    check_controller(lambda robot: (0.1 * robot.sense.whisker < 1, 0.2), sensors=[Whisker()])
 
 
 def test_a_law_is_tried_on_the_robots_of_a_scenario_that_have_it():
