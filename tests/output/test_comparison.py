@@ -24,6 +24,7 @@ from mars2d.output.films.triptych import Triptych, save_triptych
 from mars2d.record.rows import COLUMNS
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
+from tests.cases import each_case
 
 SIZE = (640, 360)
 
@@ -331,8 +332,8 @@ def test_collisions_are_counted_as_they_happen():
     assert 1.4 < collisions[0] < 1.8
 
 
-@pytest.mark.parametrize("size", [(640, 360), (1280, 720), (1920, 1080)])
-@pytest.mark.parametrize("corners", [(10, 1), (1, 10), (10, 10)])
+@each_case("size", [(640, 360), (1280, 720), (1920, 1080)])
+@each_case("corners", [(10, 1), (1, 10), (10, 10)])
 def test_panels_and_drift_share_the_height(size, corners):
     width, height = corners
     outline = [(0, 0), (width, 0), (width, height), (0, height)]

@@ -13,6 +13,7 @@ import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.output.figures.contacts import normal_force, pair_name
+from tests.cases import each_case
 
 
 def meet(**changes):
@@ -115,7 +116,7 @@ def test_without_contacts_the_figure_says_so():
     ax.figure.canvas.draw()
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_without_forces_the_bars_stand_alone(physics):
     axes = meet(physics=physics).plot_contacts()
     assert len(axes) == 1

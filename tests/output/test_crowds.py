@@ -5,7 +5,6 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-import pytest
 
 from mars2d import Animation, Holonomic, Robot, Scenario
 from mars2d.addons import Communication, Theory
@@ -17,6 +16,7 @@ from mars2d.output.layers.rings import RING, rings
 from mars2d.output.pages.notebook import scenario_svg
 from mars2d.scenario.controllers import ByHand, Wander
 from mars2d.sensors import Beacon, Imu, Proximity, RangeBearing, RangeFinder, SonarRing
+from tests.cases import each_case
 
 
 def frame_of(scenario):
@@ -28,7 +28,7 @@ def frame_of(scenario):
 # -- rings -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("side", "count"), [(10, 0), (24, 0), (26, 3), (200, 3)])
+@each_case("side, count", [(10, 0), (24, 0), (26, 3), (200, 3)])
 def test_robots_of_less_than_a_hundredth_of_the_arena_have_rings(side, count):
     half = side / 2
     area = [(-half, -half), (half, -half), (half, half), (-half, half)]
@@ -58,8 +58,8 @@ def boxes(scene, point):
             yield label.position + np.array([0.0, up]), half
 
 
-@pytest.mark.parametrize("first", [None, 0, 7])
-@pytest.mark.parametrize("count", [2, 9, 30, 80])
+@each_case("first", [None, 0, 7])
+@each_case("count", [2, 9, 30, 80])
 def test_names_share_nothing_with_each_other_whoever_is_selected(count, first):
     rng = np.random.default_rng(count)
     side = int(np.ceil(np.sqrt(count)))

@@ -30,6 +30,7 @@ from mars2d.output.layers.forces import FORCE
 from mars2d.output.layers.table import Layers
 from mars2d.output.pages.replay import page
 from mars2d.sensors import Proximity
+from tests.cases import each_case
 from tests.processes import PATIENCE
 
 BLUE, RED = "#0072b2", "#d55e00"
@@ -199,7 +200,7 @@ def test_a_figure_of_paths_has_them_unless_they_are_switched_off(record):
     assert trails(plot_paths(still, layers=Layers(trails=False))) == []
 
 
-@pytest.mark.parametrize("robots", [9, 300])
+@each_case("robots", [9, 300])
 def test_paths_of_hundreds_are_thinner(robots):
     pose = [(0.5 * (k % 20), 0.5 * (k // 20), 0) for k in range(robots)]
     scenario = Scenario(robots=[Robot(pose=at) for at in pose], stop_time=0.3, workspace=None)
@@ -262,8 +263,8 @@ def test_the_grid_lies_on_the_workspace_and_below_the_obstacles(record):
     assert order[0] < 1.5 < min(order[1:])
 
 
-@pytest.mark.parametrize(
-    ("style", "marker", "line"),
+@each_case(
+    "style, marker, line",
     [
         ("o--", "o", "--"),
         (".", "o", "None"),
@@ -353,7 +354,7 @@ def test_a_second_record_on_the_same_axes_keeps_the_first_in_view(record):
     assert xmax > 20
 
 
-@pytest.mark.parametrize(
+@each_case(
     "ax", [Figure(), Figure().subplots(1, 2), Figure().add_subplot(projection="polar"), "ax"]
 )
 def test_what_are_no_plain_axes_is_refused(record, ax):
@@ -419,19 +420,19 @@ def test_one_time_is_enough_and_a_figure_may_be_given(record):
     assert len(figure.axes) == 1
 
 
-@pytest.mark.parametrize(("time", "named"), [(8.1, "8.1 s"), (-1, "-1 s"), (np.nan, "nan s")])
+@each_case("time, named", [(8.1, "8.1 s"), (-1, "-1 s"), (np.nan, "nan s")])
 def test_a_time_outside_of_the_record_is_refused(record, time, named):
     with pytest.raises(InputError, match=rf"{named} is outside of the record.* 0 to 8 s"):
         plot_snapshots(record, [1.0, time])
 
 
-@pytest.mark.parametrize("times", ["soon", [[1, 2]], [True], None, [1, "x"], [[1], [1, 2]]])
+@each_case("times", ["soon", [[1, 2]], [True], None, [1, "x"], [[1], [1, 2]]])
 def test_what_are_no_times_is_refused(record, times):
     with pytest.raises(InputError, match=r"^times = .*expected times in seconds"):
         plot_snapshots(record, times)
 
 
-@pytest.mark.parametrize("count", [0, 65])
+@each_case("count", [0, 65])
 def test_too_many_panels_and_none_are_refused(record, count):
     with pytest.raises(InputError, match=f"{count} of them"):
         plot_snapshots(record, np.linspace(0, 1, count))
@@ -440,12 +441,11 @@ def test_too_many_panels_and_none_are_refused(record, count):
 # -- files ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("suffix", "start"),
-    [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PDF", b"%PDF")],
+@each_case(
+    "suffix, start",
+    [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml")],
 )
-@pytest.mark.parametrize("times", [None, [0, 8]])
-def test_files_have_their_format_and_are_reproducible(record, tmp_path, suffix, start, times):
+def test_files_have_their_format_and_are_reproducible(record, tmp_path, suffix, start):
     first, second = tmp_path / f"a{suffix}", tmp_path / f"b{suffix}"
     assert save_figure(record, first, times) == first
     save_figure(record, str(second), times)
@@ -461,7 +461,7 @@ def test_paths_are_vectors_in_pdf_and_svg(record, tmp_path):
     assert b"/Subtype /Image" not in save_figure(record, tmp_path / "a.pdf").read_bytes()
 
 
-@pytest.mark.parametrize("name", ["a.jpg", "a", "a.svgz"])
+@each_case("name", ["a.jpg", "a", "a.svgz"])
 def test_an_unknown_suffix_is_refused_with_the_known_ones(record, tmp_path, name):
     with pytest.raises(InputError, match=rf"{name}: .*\.png, \.pdf or \.svg"):
         save_figure(record, tmp_path / name)

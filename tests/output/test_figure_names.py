@@ -15,6 +15,7 @@ from mars2d.output.figures.figure import LEGEND_LIMIT, plot_paths, plot_snapshot
 from mars2d.output.layers import bodies, placement
 from mars2d.output.layers.ranges import range_of, ranges
 from mars2d.output.layers.table import Layers
+from tests.cases import each_case
 
 
 def crowd(n, seed=0, **fields):
@@ -38,7 +39,7 @@ def labels(figure):
     }
 
 
-@pytest.mark.parametrize("n", [1, 2, 9, 20, 21, 60, 100])
+@each_case("n", [1, 2, 9, 20, 21, 60, 100])
 def test_no_name_lies_over_another(n):
     found = labels(plot_paths(crowd(n), layers=Layers(names=True)).figure)
     assert len(found) == n
@@ -79,8 +80,8 @@ def test_names_keep_off_the_forces():
             assert not one.get_window_extent().overlaps(other.get_window_extent())
 
 
-@pytest.mark.parametrize(
-    ("fields", "reach"),
+@each_case(
+    "fields, reach",
     [
         ({"addons": [Communication(range=1.5)]}, 1.5),
         ({"neighbours": Within(0.7)}, 0.7),
@@ -200,7 +201,7 @@ def test_a_last_time_that_rounding_brings_after_the_end_is_drawn(here, capsys):
         assert "ended" not in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("kind", ["paths", "snapshots"])
+@each_case("kind", ["paths", "snapshots"])
 def test_layers_of_a_plot_are_switched_by_name(here, capsys, kind):
     crowd(4, neighbours=Within(0.45)).save("a.npz")
     at = ["--at", "end"] if kind == "snapshots" else []

@@ -26,6 +26,7 @@ from mars2d.output.films.footage import Cut, Footage, shots
 from mars2d.record.rows import COLUMNS
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
+from tests.cases import each_case
 from tests.window.circling import Circling
 
 SIZE = (320, 240)
@@ -175,7 +176,7 @@ def test_wrong_names_and_places_are_told(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("suffix", ["gif", "mp4"])
+@each_case("suffix", ["gif", "mp4"])
 def test_a_film_that_fails_leaves_the_old_one_alone(tmp_path, suffix):
     if suffix == "mp4":
         pytest.importorskip("av")
@@ -192,7 +193,8 @@ def test_a_film_that_fails_leaves_the_old_one_alone(tmp_path, suffix):
     assert list(tmp_path.iterdir()) == [target]
 
 
-@pytest.mark.parametrize("suffix", ["gif", "mp4"])
+@pytest.mark.slow
+@each_case("suffix", ["gif", "mp4"])
 def test_a_film_that_may_not_grow_is_one_error_and_nothing_more_is_printed(tmp_path, suffix, child):
     pytest.importorskip("resource")
     if suffix == "mp4":
@@ -216,8 +218,8 @@ def test_a_film_that_may_not_grow_is_one_error_and_nothing_more_is_printed(tmp_p
     assert list(tmp_path.iterdir()) == [target]
 
 
-@pytest.mark.parametrize("speed", [0.5, 1, 10])
-@pytest.mark.parametrize("sampling_time", [0.01, 0.1, 1.0])
+@each_case("speed", [0.5, 1, 10])
+@each_case("sampling_time", [0.01, 0.1, 1.0])
 def test_a_film_lasts_its_time_over_its_speed(speed, sampling_time):
     times = np.arange(101) * sampling_time
     rows = film_rows(times, speed, fps=25)
@@ -233,7 +235,7 @@ def test_a_film_of_one_row_is_one_frame():
     assert film_rows([0.0]).tolist() == [0]
 
 
-@pytest.mark.parametrize(("speed", "fps"), [(0, 25), ("max", 25), (-1, 25), (1, 0)])
+@each_case("speed, fps", [(0, 25), ("max", 25), (-1, 25), (1, 0)])
 def test_rates_must_be_positive_numbers(speed, fps):
     with pytest.raises(InputError, match="expected a number > 0"):
         film_rows([0, 1], speed, fps)
@@ -313,7 +315,7 @@ def test_a_run_that_ended_before_the_part_that_is_filmed_says_so():
         next(footage.frames(world.frame))
 
 
-@pytest.mark.parametrize("suffix", ["gif", "mp4"])
+@each_case("suffix", ["gif", "mp4"])
 def test_a_record_films_itself(record, tmp_path, suffix):
     if suffix == "mp4":
         pytest.importorskip("av")
@@ -338,8 +340,8 @@ def test_progress_counts_up_to_the_frames_of_the_cut(record, tmp_path):
     assert counts == list(range(1, cut_of(record, end=1.0).count + 1))
 
 
-@pytest.mark.parametrize(
-    ("name", "options", "told"),
+@each_case(
+    "name, options, told",
     [
         ("a.gif", {"start": 5}, "a film from 5 s on: the record goes from 0 to 4 s"),
         ("a.gif", {"start": -1}, "a film from -1 s on: the record goes from 0 to 4 s"),

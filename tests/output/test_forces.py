@@ -23,6 +23,7 @@ from mars2d.output.layers.forces import (
 )
 from mars2d.record.contact import CONTACT
 from mars2d.record.frame import Frame
+from tests.cases import each_case
 
 
 def of(kind, scene):
@@ -166,8 +167,8 @@ def test_a_frame_without_contacts_makes_an_empty_scene():
     assert not forces(dataclasses.replace(world.frame, effort=np.zeros(2))).shapes
 
 
-@pytest.mark.parametrize(
-    ("force", "text"),
+@each_case(
+    "force, text",
     [
         (0.123, "0.12 N"),
         (0.997, "1.0 N"),
@@ -184,8 +185,6 @@ def test_forces_are_read_with_two_digits(force, text):
     assert in_newtons(as_read(force)) == text, "what is rounded once stays as it is"
 
 
-@pytest.mark.parametrize(
-    ("most", "round_"), [(1, 1), (1.99, 1), (2, 2), (9.9, 5), (10, 10), (0.3, 0.2), (730, 500)]
-)
+@each_case("most, round_", [(1, 1), (1.99, 1), (2, 2), (9.9, 5), (10, 10), (0.3, 0.2), (730, 500)])
 def test_the_legend_has_a_round_force(most, round_):
     assert round_force(most) == pytest.approx(round_)

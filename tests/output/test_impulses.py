@@ -26,6 +26,7 @@ from mars2d.output.layers.impulses import (
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.scenario.material_pair import MaterialPair
+from tests.cases import each_case
 
 AWAY = Robot(pose=(0, 3, 0), controller=lambda robot: (0.0, 0.0))
 
@@ -189,7 +190,7 @@ def test_a_recorded_frame_shows_what_the_live_one_did():
     assert str(live.shapes) == str(kept.shapes)
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_without_forces_there_are_no_blows(physics):
     record = mars2d.run("head_on", stop_time=2, options={"physics": physics})
     assert not impulses(record.frame(-1)).shapes
@@ -250,8 +251,8 @@ def test_friction_between_two_bodies_is_what_the_engine_uses():
     assert walled.friction_between(1, -1) == a  # a wall has friction 1
 
 
-@pytest.mark.parametrize(
-    ("impulse", "text"),
+@each_case(
+    "impulse, text",
     [
         (0.0, "0 N s"),
         (0.0042, "4.2 mN s"),

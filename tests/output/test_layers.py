@@ -29,6 +29,7 @@ from mars2d.scenario.neighbours import Within
 from mars2d.sensors import Proximity, RangeFinder, SonarRing
 from mars2d.sensors.base import Sensor
 from tests.browser import Tab
+from tests.cases import each_case
 
 APART, RADIUS = 0.5, 0.35
 CORNERS = {"#00ff00": (-5.0, -5.0), "#ff00ff": (5.0, 5.0)}
@@ -204,7 +205,7 @@ def check_order(picture):
             assert lined is (k < above_grid), f"the grid and {name}"
 
 
-@pytest.mark.parametrize("painter", [window, figure], ids=["window", "figure"])
+@each_case("painter", [window, figure])
 def test_pictures_have_all_layers_in_the_order_of_the_table(record, table, painter):
     check_order(painter(record, len(record) - 1))
 

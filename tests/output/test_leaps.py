@@ -16,6 +16,7 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import between
+from tests.cases import each_case
 from tests.worlds import ahead
 
 BEFORE, AFTER = 10, 20
@@ -53,7 +54,7 @@ def longest_step(points):
     return max((float(np.hypot(*step)) for step in np.diff(points, axis=0)), default=0.0)
 
 
-@pytest.mark.parametrize("row", [BEFORE - 1, BEFORE, BEFORE + 1, AFTER - 1])
+@each_case("row", [BEFORE - 1, BEFORE, BEFORE + 1, AFTER - 1])
 def test_a_path_has_a_gap_where_its_body_leapt(runs, row):
     frames, record = runs
     for frame in (frames[row], record.frame(row)):
@@ -61,8 +62,7 @@ def test_a_path_has_a_gap_where_its_body_leapt(runs, row):
         assert len(lines(trails(frame))) == (5 if frame.leaps else 2)
 
 
-@pytest.mark.parametrize("style", ["-", "--", "o", "-."])
-@pytest.mark.parametrize("memory", [0, MEMORY])
+@each_case("style, memory", [("-", MEMORY), ("o", 0)])
 def test_the_picture_has_a_gap_live_and_replayed(style, memory):
     frames, record = run(animation=Animation(wake_style=style))
     recorded = [record.frame(row) for row in range(AFTER)]
@@ -79,7 +79,7 @@ def test_the_picture_has_a_gap_live_and_replayed(style, memory):
                 assert (part == part[0, 0]).all(), frame.iteration
 
 
-@pytest.mark.parametrize("style", ["screen", "print"])
+@each_case("style", ["screen", "print"])
 def test_a_figure_has_a_gap(runs, style):
     ax = plot_paths(runs[1], style=style)
     ways = [line.get_xydata() for line in ax.get_lines() if len(line.get_xydata()) > 3]

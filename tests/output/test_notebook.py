@@ -26,6 +26,7 @@ from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.sensors import Sensor
 from mars2d.world.loop import simulate
+from tests.cases import each_case
 from tests.processes import PATIENCE
 
 MAKER = "make_notebook.py"
@@ -255,7 +256,7 @@ def test_pictures_follow_what_the_animation_says():
     assert len(ET.fromstring(bare._repr_svg_())) < len(ET.fromstring(world._repr_svg_())) - 20
 
 
-@pytest.mark.parametrize("name", list(examples()))
+@each_case("name", list(examples()))
 def test_each_example_has_a_small_picture(name):
     experiment = open_experiment(name, {"stop_time": 2.0})
     pictures = experiment.scenario._repr_svg_(), simulate(experiment).record._repr_svg_()

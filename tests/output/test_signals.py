@@ -18,6 +18,7 @@ from mars2d import Car, Holonomic, InputError, Record, Robot, Scenario, World
 from mars2d.bodies.props import Puck
 from mars2d.output.signals import as_csv, signals, signals_of_bodies
 from mars2d.sensors import Bumper, Ground, Imu, LineCamera, Proximity, RangeFinder
+from tests.cases import each_case
 
 
 def law(world):
@@ -80,8 +81,8 @@ def test_the_speed_is_the_way_since_the_row_before_over_the_sampling_time():
     np.testing.assert_allclose(speed[1:], 0.5)
 
 
-@pytest.mark.parametrize(
-    ("drives", "names"),
+@each_case(
+    "drives, names",
     [
         ([Holonomic(), Holonomic()], ["command vx [m/s]", "command vy [m/s]"]),
         ([Car(), Car()], ["command v [m/s]", "command delta [rad]"]),
@@ -286,8 +287,8 @@ def test_axes_given_are_drawn_on_and_nothing_else(record):
         record.plot_signals("x", axes=["here"])
 
 
-@pytest.mark.parametrize(
-    ("columns", "robots", "message"),
+@each_case(
+    "columns, robots, message",
     [
         (["efort"], None, r"columns: there is no 'efort'; did you mean 'effort'\?"),
         (["prop.x", "prop.speed"], ["ann"], r"robots: all columns that were chosen are of props"),
@@ -325,7 +326,7 @@ def test_a_part_of_the_run_is_drawn_to_its_own_limits(record):
     np.testing.assert_array_equal(data(axes[4])[0], data(whole)[0][5:21])
 
 
-@pytest.mark.parametrize(("start", "end"), [(9, None), (None, 8.2), (3, 2), (-1, 2), (0.01, 0.02)])
+@each_case("start, end", [(9, None), (None, 8.2), (3, 2), (-1, 2), (0.01, 0.02)])
 def test_a_part_that_the_run_does_not_have_is_refused(record, start, end):
     with pytest.raises(InputError, match="expected a part of the run, which goes from 0 to 8 s"):
         record.plot_signals("x", start=start, end=end)

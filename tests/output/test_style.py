@@ -15,6 +15,7 @@ import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.output.figures.figure import plot_snapshots, save_figure
 from mars2d.output.figures.style import PRINT, PROJECTOR, STYLES, style_of
+from tests.cases import each_case
 
 KINDS = ("plot", "plot_signals", "plot_contacts", "plot_distances")
 
@@ -49,7 +50,7 @@ def test_an_unknown_style_is_refused_with_the_nearest_one(record):
         style_of(None)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each_case("kind", KINDS)
 def test_in_print_text_has_eight_or_nine_points_in_a_font_that_is_embedded(record, kind):
     figure = drawn(record, kind, "print")
     figure.canvas.draw()
@@ -84,7 +85,7 @@ def test_in_print_there_is_no_title_for_the_caption_says_it(record):
     assert record.plot_signals("x")[0].get_title(loc="left") == "Five"
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@each_case("kind", KINDS)
 def test_for_a_projector_a_figure_is_a_slide_with_large_text(record, kind):
     figure = drawn(record, kind, "projector")
     file = BytesIO()
@@ -113,7 +114,7 @@ def test_robots_of_one_colour_are_told_apart_by_dashes(record):
     assert [line.get_linestyle() for line in ax.lines] == ["-", "-", "-", "--", ":"]
 
 
-@pytest.mark.parametrize("style", STYLES)
+@each_case("style", STYLES)
 def test_the_users_settings_of_matplotlib_are_as_they_were(record, style):
     with mpl.rc_context({"font.family": ["DejaVu Serif"], "lines.linewidth": 7}):
         before = dict(mpl.rcParams)

@@ -15,6 +15,7 @@ from PIL import Image
 from mars2d.core.scene import WAKE_LINES, WAKE_MARKERS, Scene
 from mars2d.output.figures.extent import View
 from mars2d.output.pages.svg import TOLERANCE, svg
+from tests.cases import each_case
 
 VIEW, SIZE = View(0.0, 4.0, 0.0, 2.0), (400.0, 200.0)  # 100 pixels a metre
 NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"
@@ -83,8 +84,8 @@ def test_an_arrow_ends_at_its_tip_and_one_without_length_is_left_out():
     assert path.get("paint-order") == "stroke"
 
 
-@pytest.mark.parametrize(
-    ("anchor", "x", "above"),
+@each_case(
+    "anchor, x, above",
     [("center", 100, 0), ("left", 104, 0), ("right", 96, 0), ("above", 100, 10),
      ("below", 100, -10)],
 )  # fmt: skip
@@ -118,7 +119,7 @@ def test_texts_that_look_like_markup_or_that_xml_cant_hold_are_shown_as_text():
     assert len(text) == 0
 
 
-@pytest.mark.parametrize("line", WAKE_LINES)
+@each_case("line", WAKE_LINES)
 def test_each_line_style_goes_through_its_points(line):
     scene = Scene()
     scene.line([(0, 0), (1, 2), (2, 0), (3, 2)], stroke="green", style=line, width=2)
@@ -128,7 +129,7 @@ def test_each_line_style_goes_through_its_points(line):
     assert (path.get("stroke-dasharray") is None) == (line == "-")
 
 
-@pytest.mark.parametrize("mark", WAKE_MARKERS)
+@each_case("mark", WAKE_MARKERS)
 def test_marks_stand_along_a_line_and_not_nearer_than_nine_points(mark):
     scene = Scene()
     x = np.linspace(0, 2, 1001)

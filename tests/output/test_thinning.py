@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from mars2d.output.figures.panels import spans, thinned
+from tests.cases import each_case
 
 
 def test_short_columns_are_kept_whole():
@@ -13,7 +13,7 @@ def test_short_columns_are_kept_whole():
     assert thinned(np.zeros(0), 10).tolist() == []
 
 
-@pytest.mark.parametrize("count", [10_000, 10_007, 123_456])
+@each_case("count", [10_000, 10_007, 123_456])
 def test_of_a_long_column_few_values_are_kept_in_order_with_both_ends(count):
     values = np.random.default_rng(1).normal(size=count)
     kept = thinned(values, 100)
@@ -22,15 +22,15 @@ def test_of_a_long_column_few_values_are_kept_in_order_with_both_ends(count):
     assert (kept[0], kept[-1]) == (0, count - 1)
 
 
-@pytest.mark.parametrize("at", [0, 1, 4999, 7321, 9998, 9999])
-@pytest.mark.parametrize("peak", [5.0, -5.0])
+@each_case("at", [0, 1, 4999, 7321, 9998, 9999])
+@each_case("peak", [5.0, -5.0])
 def test_a_single_peak_is_kept_wherever_it_is(at, peak):
     values = np.zeros(10_000)
     values[at] = peak
     assert at in thinned(values, 50)
 
 
-@pytest.mark.parametrize("gap", [np.nan, np.inf, -np.inf])
+@each_case("gap", [np.nan, np.inf, -np.inf])
 def test_a_gap_of_one_value_stays_and_its_neighbours_extremes_too(gap):
     values = np.sin(np.arange(10_000) / 100)
     values[5000] = gap

@@ -18,6 +18,7 @@ from mars2d.reports.bench.report import ALIKE, FORMAT, Change, Figures, Report, 
 from mars2d.reports.bench.scenes import FORCE, LEVER, SCENES, TORQUE, Scene, Turns, team
 from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
+from tests.cases import each_case
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
@@ -50,7 +51,7 @@ def refused(capsys, *arguments):
 # -- scenes ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", SCENES)
+@each_case("name", SCENES)
 def test_a_scene_is_the_same_each_time_and_nothing_touches_in_it(name):
     scene, again = SCENES[name](), SCENES[name]()
     assert scene.name == name
@@ -79,9 +80,7 @@ def test_a_world_of_a_scene_has_its_robots_sensors_obstacles_and_settings():
     assert world.record.sensors["range_finder"].shape == (1, 20, 180)
 
 
-@pytest.mark.parametrize(
-    ("name", "robots", "crates"), [("P1", 20, 30), ("P2", 60, 0), ("P3", 10, 5)]
-)
+@each_case("name, robots, crates", [("P1", 20, 30), ("P2", 60, 0), ("P3", 10, 5)])
 def test_a_world_of_contacts_has_its_robots_crates_and_ropes(name, robots, crates):
     scene = SCENES[name]()
     world = world_of(scene)
@@ -152,8 +151,8 @@ def test_the_robots_of_the_bare_loop_get_less_deep_into_each_other_with_more_sub
 BOX = [(1.0, -0.5), (1.0, 0.5), (2.0, 0.5), (2.0, -0.5)]
 
 
-@pytest.mark.parametrize(
-    ("places", "expected"),
+@each_case(
+    "places, expected",
     [
         ([(0, 0), (0, 1)], 0.0),
         ([(0, 0), (0, 0.28)], 0.02),  # each other
@@ -179,8 +178,8 @@ SQUARES = Scene("", "", 0.1, 6.0, np.zeros((1, 3)), [BOX], square=True, crates=n
 """A robot of 0.3 m and a crate of 0.4 m, both squares."""
 
 
-@pytest.mark.parametrize(
-    ("robot", "crate", "expected"),
+@each_case(
+    "robot, crate, expected",
     [
         ((0, 0, 0), (0.36, 0, 0), (0.01, 0.85)),  # apart by a face
         ((0, 0, 0), (0.34, 0.1, np.pi / 2), (-0.01, 0.85)),
@@ -197,7 +196,7 @@ def test_gaps_of_squares_are_those_which_one_works_out(robot, crate, expected):
     assert fixed[0] == pytest.approx(expected[1])
 
 
-@pytest.mark.parametrize("square", [False, True])
+@each_case("square", [False, True])
 def test_overlaps_of_turned_bodies_are_those_of_minkowskis_difference(square):
     rng = np.random.default_rng(0)
     scene = Scene("", "", 0.1, 6.0, np.zeros((1, 3)), [], square=square, crates=np.zeros((1, 3)))
@@ -377,7 +376,7 @@ def test_a_record_is_not_a_saved_suite(tmp_path, capsys):
     assert "run.npz: not saved by mars2d bench, or damaged" in message
 
 
-@pytest.mark.parametrize(
+@each_case(
     "change",
     [
         {"kind": "something else"},

@@ -30,6 +30,7 @@ from mars2d.reports.paper.page import MARK, page, typeset
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
+from tests.cases import each_case
 from tests.faults.commands import started
 from tests.processes import PATIENCE, mars, wait_until
 
@@ -290,9 +291,7 @@ def test_its_own_folder_is_replaced_with_all_that_was_in_it(paper, cheap):
         assert Path("out", name).read_bytes() == (cheap / name).read_bytes()
 
 
-@pytest.mark.parametrize(
-    "name", ["notes.txt", "fig2_mine.png", "index.html", "fig2_random_walk.png/"]
-)
+@each_case("name", ["notes.txt", "fig2_mine.png", "index.html", "fig2_random_walk.png/"])
 def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, cheap, name):
     shutil.copytree(cheap, "out")
     before = {path.name: path.read_bytes() for path in Path("out").iterdir()}
@@ -310,8 +309,8 @@ def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, ch
     assert {p.name: p.read_bytes() for p in Path("out").iterdir() if p.is_file()} == before
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
+@each_case(
+    "arguments, words",
     [
         ((), "OUT"),
         (("file.txt",), "file.txt: this is a file; expected a folder"),
@@ -510,8 +509,8 @@ def test_no_process_outlives_it_however_it_ends(tmp_path, number):
 # -- formulas, and the browser ----------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("text", "html"),
+@each_case(
+    "text, html",
     [
         ("x_i^2", "x<sub>i</sub><sup>2</sup>"),
         ("v_{max} < rho_0", "v<sub>max</sub> &lt; &rho;<sub>0</sub>"),

@@ -14,6 +14,7 @@ from mars2d.physics import islands
 from mars2d.reports import remedy as remedies
 from mars2d.reports.doctor import examine
 from mars2d.reports.remedy import remedy
+from tests.cases import each_case
 
 PACKAGE = Path(mars2d.__file__).parent
 AGAIN = "pip install --force-reinstall --no-deps"
@@ -47,8 +48,8 @@ def tools(monkeypatch):
     return there_are
 
 
-@pytest.mark.parametrize(
-    ("told", "line"),
+@each_case(
+    "told, line",
     [
         ({"url": "file:///a/my%20code", "dir_info": {}}, f"{AGAIN} file:///a/my%20code"),
         (
@@ -65,7 +66,6 @@ def tools(monkeypatch):
             f"{AGAIN} --no-cache-dir --no-binary mars2d mars2d=={mars2d.__version__}",
         ),
     ],
-    ids=["a folder", "a repository", "an archive", "a wheel", "the index"],
 )
 @pytest.mark.usefixtures("tools")
 def test_it_installs_again_from_where_it_was_installed(told, line, monkeypatch):

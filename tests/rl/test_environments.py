@@ -21,6 +21,7 @@ from mars2d.scenario.observation import Observation
 from mars2d.sensors import Bumper, Imu, LineCamera, RangeBearing, RangeFinder
 from mars2d.world.verify import rerun
 from mars2d.world.world import World
+from tests.cases import each_case
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -56,7 +57,7 @@ def steps(environment, action, seed=0):
             return
 
 
-@pytest.mark.parametrize("name", IDS)
+@each_case("name", IDS)
 def test_what_is_registered_passes_the_check_of_gymnasium_without_a_warning(name):
     environment = gymnasium.make(name, render_mode="rgb_array")
     with warnings.catch_warnings():
@@ -95,7 +96,7 @@ def test_one_line_makes_an_environment_also_in_processes_without_another_import(
     subprocess.run(command, check=True, timeout=100, env=environment)
 
 
-@pytest.mark.parametrize("name", IDS)
+@each_case("name", IDS)
 def test_what_is_registered_starts_at_random_and_again_from_the_same_seed(name):
     environment = gymnasium.make(name)
     first, other, again = (environment.reset(seed=seed)[0] for seed in (1, 2, 1))
@@ -317,7 +318,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("words", WRONG)
+@each_case("words", WRONG)
 def test_what_is_wrong_is_said_in_one_line(words):
     with pytest.raises(InputError) as caught:
         WRONG[words]()

@@ -14,6 +14,7 @@ from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World, load
 from mars2d.cli.command_line import main
 from mars2d.rl import Environment
 from mars2d.sensors import RangeFinder
+from tests.cases import each_case
 
 
 def save(path, metadata, action=(0.5, 0.0), size=6, outputs=2):
@@ -131,7 +132,7 @@ BROKEN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("words", BROKEN)
+@each_case("words", BROKEN)
 def test_a_broken_file_is_one_line_that_names_it(words, spaces, tmp_path):
     path = tmp_path / "hunter.onnx"
     BROKEN[words](path, spaces)
@@ -163,7 +164,7 @@ MISFITS = {
 }
 
 
-@pytest.mark.parametrize("words", MISFITS)
+@each_case("words", MISFITS)
 def test_a_robot_that_does_not_fit_is_said_to_in_what(words, tmp_path):
     team = Scenario(robots=[HOLONOMIC.at(x, 0) for x in (-2, 0, 2)])
     spaces = Environment(team, reward=lambda world, robot: 0.0).policy_metadata

@@ -13,13 +13,12 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.window import keys
 from mars2d.window.help import draw_help
 from mars2d.window.keys import Key
+from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.window.written import THEMES, Written, painter, pixels
 
-SIZES = pytest.mark.parametrize(
-    "size", [(640, 480), (800, 600), (1280, 720), (1920, 1080), (2560, 1440)]
-)
-TEXTS = pytest.mark.parametrize("text", TEXT_SIZES)
+SIZES = each_case("size", [(640, 480), (1280, 720), (2560, 1440)])
+TEXTS = each_case("text", [1.0, max(TEXT_SIZES)])
 HINTS = (("Space", "pause"), ("→", "step"), ("+ -", "speed"), ("F1", "help"))
 TITLE = "A long title of an experiment about which there is much to say"
 EXCERPT = Excerpt(
@@ -66,7 +65,7 @@ def test_the_header_has_title_time_step_and_status(frame):
 
 @SIZES
 @TEXTS
-@pytest.mark.parametrize("words", ["1x", "past · 12.3 s ago", "10x  reaches 3.2x"])
+@each_case("words", ["1x", "past · 12.3 s ago", "10x  reaches 3.2x"])
 def test_its_words_do_not_touch_and_the_time_is_always_there(frame, size, text, words):
     surface = header(titled(frame, TITLE), Status(words, "past"), size, text)
     assert not surface.crowded()
@@ -86,7 +85,7 @@ def test_where_there_is_no_room_the_step_goes_first(frame):
 
 
 @THEMES
-@pytest.mark.parametrize("kind", ["running", "waiting", "past", "hand", "error"])
+@each_case("kind", ["running", "waiting", "past", "hand", "error"])
 def test_the_chip_is_in_the_colours_of_its_kind(frame, theme, kind):
     seen = pixels(header(frame, Status("some words", kind), theme=theme))
     for color in getattr(theme, kind):
@@ -107,8 +106,8 @@ def test_the_quiet_line_keeps_the_key_for_help(size, text):
 
 @SIZES
 @TEXTS
-@pytest.mark.parametrize("code", [None, EXCERPT], ids=["plain", "code"])
-@pytest.mark.parametrize("words", ["It is over.", WRONG, WRONG * 8])
+@each_case("code", [None, EXCERPT])
+@each_case("words", ["It is over.", WRONG, WRONG * 8])
 def test_a_banner_has_all_it_can_say(size, text, code, words):
     banner = Banner(words, "R restarts   Esc leaves", code is not None, code)
     layout, surface = footer(banner, size, text)
@@ -120,7 +119,7 @@ def test_a_banner_has_all_it_can_say(size, text, code, words):
 
 
 @SIZES
-@pytest.mark.parametrize("text", [1.0, 1.7])
+@each_case("text", [1.0, 1.7])
 def test_an_error_shows_the_line_and_as_many_round_it_as_there_is_room_for(size, text):
     _, surface = footer(Banner(WRONG, "R restarts", True, EXCERPT), size, text)
     numbers = [found for found in surface.texts if found.isdigit()]
@@ -163,14 +162,7 @@ def helped(size, text=1.0, groups=None, page=0):
     return layout, surface, pages
 
 
-@SIZES
-@pytest.mark.parametrize(
-    "text",
-    [
-        pytest.param(text, marks=[] if text in (1.0, max(TEXT_SIZES)) else [pytest.mark.soak])
-        for text in TEXT_SIZES
-    ],
-)
+@each_case("size, text", [((640, 480), max(TEXT_SIZES)), ((1280, 720), 1.0)])
 def test_all_keys_stand_on_the_pages_of_help(size, text):
     found = []
     pages = helped(size, text)[2]
@@ -188,8 +180,8 @@ def test_all_keys_stand_on_the_pages_of_help(size, text):
             assert all(word in everything for word in key.help.split())
 
 
-@pytest.mark.parametrize(
-    ("size", "text", "most"),
+@each_case(
+    "size, text, most",
     [((1280, 720), 1.0, 1), ((800, 600), 1.0, 2), ((1280, 720), 1.7, 2), ((1920, 1080), 1.7, 2)],
 )
 def test_help_is_legible_and_of_few_pages(size, text, most):
@@ -210,7 +202,7 @@ def test_a_page_beyond_the_last_is_the_last():
     assert "F1 goes on" in helped((640, 480), 1.7)[1].texts
 
 
-@pytest.mark.parametrize("size", [(40, 30), (120, 90), (300, 60)])
+@each_case("size", [(40, 30), (120, 90), (300, 60)])
 def test_where_nothing_could_be_read_there_is_no_help(size):
     assert helped(size)[2] >= 1
 

@@ -10,6 +10,7 @@ import pytest
 from mars2d.core.errors import InputError
 from mars2d.window import desktop
 from mars2d.window.desktop import be_sharp, desktop_scale, opening_size
+from tests.cases import each_case
 from tests.processes import x_server
 
 TOOLS = ("Xvfb", "xprop")
@@ -37,22 +38,22 @@ def on(monkeypatch):
     return pretend
 
 
-@pytest.mark.parametrize(("chosen", "scale"), [("1.5", 1.5), ("2", 2.0), ("0.5", 0.5)])
+@each_case("chosen, scale", [("1.5", 1.5), ("2", 2.0), ("0.5", 0.5)])
 def test_the_variable_decides(on, monkeypatch, chosen, scale):
     on("x11", "Xft.dpi:\t288\n")
     monkeypatch.setenv("MARS2D_SCALE", chosen)
     assert desktop_scale() == scale
 
 
-@pytest.mark.parametrize("chosen", ["large", "0", "-2", "nan", "inf", "1e9"])
+@each_case("chosen", ["large", "0", "-2", "nan", "inf", "1e9"])
 def test_a_variable_that_is_no_scale_is_refused(monkeypatch, chosen):
     monkeypatch.setenv("MARS2D_SCALE", chosen)
     with pytest.raises(InputError, match=r"MARS2D_SCALE=.*expected the pixels of a point"):
         desktop_scale()
 
 
-@pytest.mark.parametrize(
-    ("resources", "scale"),
+@each_case(
+    "resources, scale",
     [
         ("Xft.dpi:\t192\n", 2.0),
         ("Xcursor.size:\t24\nXft.dpi:\t120\nXft.hinting:\t1\n", 1.25),
@@ -68,14 +69,14 @@ def test_an_x_server_is_asked_for_its_resources(on, resources, scale):
     assert desktop_scale() == scale
 
 
-@pytest.mark.parametrize(("chosen", "scale"), [("2", 2.0), ("much", 1.5)])
+@each_case("chosen, scale", [("2", 2.0), ("much", 1.5)])
 def test_gdk_scale_goes_before_them(on, monkeypatch, chosen, scale):
     on("x11", "Xft.dpi: 144")
     monkeypatch.setenv("GDK_SCALE", chosen)
     assert desktop_scale() == scale
 
 
-@pytest.mark.parametrize("driver", ["cocoa", "wayland", "dummy", None])
+@each_case("driver", ["cocoa", "wayland", "dummy", None])
 def test_where_the_system_enlarges_windows_a_point_is_a_pixel(on, driver):
     on(driver, "Xft.dpi: 192")
     assert desktop_scale() == 1.0

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import pygame
-import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.dock import Dock, Panel
 from mars2d.window.viewpoint import Viewpoint
+from tests.cases import each_case
 from tests.window.written import painter
 
 SIZES = [(1280, 720, 1.0), (1920, 1080, 1.0), (1024, 768, 1.7), (800, 600, 1.0)]
@@ -73,9 +73,9 @@ def some(count):
     return panels
 
 
-@pytest.mark.parametrize("count", [1, 2, 3])
-@pytest.mark.parametrize("workspace", [SQUARE, WIDE, TALL], ids=["square", "wide", "tall"])
-@pytest.mark.parametrize("size", SIZES, ids=str)
+@each_case("count", [1, 2, 3])
+@each_case("workspace", [SQUARE, WIDE, TALL])
+@each_case("size", SIZES)
 def test_panels_cover_neither_the_arena_nor_each_other(size, workspace, count):
     *size, text = size
     seen = Seen(some(count), size, workspace, text)

@@ -15,6 +15,7 @@ from mars2d.window import driver as driver_module
 from mars2d.window import show
 from mars2d.window.driver import ARROWS, LETTERS, Driver
 from mars2d.world.teleop import Stick, command_of, ramped
+from tests.cases import each_case
 
 UP, DOWN, LEFT, RIGHT = (
     pygame.KSCAN_UP, pygame.KSCAN_DOWN, pygame.KSCAN_LEFT, pygame.KSCAN_RIGHT
@@ -56,8 +57,8 @@ def test_a_unicycle_drives_and_turns_left_where_the_stick_is_left():
     assert (v, omega) == pytest.approx((0.0, 1.5))
 
 
-@pytest.mark.parametrize("drive", [Unicycle(), Unicycle(wheel_semiaxis=0.3)])
-@pytest.mark.parametrize("stick", [Stick(1, 1), Stick(-1, 1), Stick(1, -1), Stick(0.3, 1)])
+@each_case("drive", [Unicycle(), Unicycle(wheel_semiaxis=0.3)])
+@each_case("stick", [Stick(1, 1), Stick(-1, 1), Stick(1, -1), Stick(0.3, 1)])
 def test_full_speed_leaves_the_wheels_what_they_need_to_turn(drive, stick):
     v, omega = command_of(drive, stick)
     b = drive.wheel_semiaxis
@@ -285,8 +286,8 @@ ROBOTS = [Robot(name=name, pose=(k, 0, 0)) for k, name in enumerate(["red", "blu
 GAME = Game({"pursuer": ["red"], "evader": ["green", "blue"]})
 
 
-@pytest.mark.parametrize(
-    ("who", "index"),
+@each_case(
+    "who, index",
     [("red", 0), ("blue", 1), ("2", 2), (2, 2), ("pursuer", 0), ("evader", 2)],
 )
 def test_a_robot_is_named_by_its_name_its_index_or_a_role(who, index):
@@ -311,8 +312,8 @@ def test_a_robots_own_name_comes_before_a_role():
     assert robots_named(Scenario(robots=robots, addons=[GAME]), "evader", "human =") == (3,)
 
 
-@pytest.mark.parametrize(
-    ("who", "words"),
+@each_case(
+    "who, words",
     [
         ("evadr", "human = evadr: there is no such robot or role; did you mean 'evader'?"),
         ("3", "human = 3: there is no such robot or role; known: blue, evader, green"),
@@ -386,8 +387,8 @@ def test_the_quickest_robot_of_a_person_crosses_the_arena_in_five_seconds():
     assert speed_by_hand(Scenario(robots=[creeping], stop_time=30)) == 2.0
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
+@each_case(
+    "arguments, words",
     [
         (["--human", "evadr"], "--human evadr: there is no such robot or role; did you mean"),
         (["--human", "evader"], "--human evader: driving by hand needs a window, and there is no"),

@@ -15,6 +15,7 @@ from mars2d.bodies.props import Box
 from mars2d.scenario import load_scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.editor import keys
+from tests.cases import each_case
 from tests.processes import PATIENCE, bare_environment, mars, wait_until
 from tests.window.drawing import near, team
 from tests.window.person import compare, differing, needs_screen
@@ -625,8 +626,8 @@ def test_the_command_draws_a_new_file(screen, tmp_path):
     assert len(load_scenario(tmp_path / "room.toml").robots) == 1
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
+@each_case(
+    "arguments, words",
     [
         (["nowhere/room.toml"], "there is no folder nowhere"),
         (["rndom_walk"], "did you mean 'random_walk'?"),

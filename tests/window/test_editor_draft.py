@@ -27,6 +27,7 @@ from mars2d.window.editor.sketch import Sketch
 from mars2d.window.editor.verdict import judge
 from mars2d.window.looks import Looks
 from mars2d.window.viewpoint import Viewpoint
+from tests.cases import each_case
 
 SQUARE = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))
 BOW = ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
@@ -46,7 +47,7 @@ def furnished():
     )
 
 
-@pytest.mark.parametrize("name", sorted(examples()))
+@each_case("name", sorted(examples()))
 def test_a_draft_of_an_example_is_that_scenario_again(name):
     scenario = open_experiment(name).scenario
     draft = Draft.of(scenario)
@@ -157,8 +158,8 @@ def test_a_robot_in_an_obstacle_and_one_at_a_wall():
     assert fault(draft)[0] == "robot0 starts in contact with wall 0"
 
 
-@pytest.mark.parametrize(
-    ("outline", "words"),
+@each_case(
+    "outline, words",
     [
         (BOW, "obstacle 1: the polygon crosses or touches itself at (0.5, 0.5)"),
         (((0, 0), (1, 0), (2, 0)), "obstacle 1 = ["),
@@ -279,7 +280,7 @@ def test_the_grid_follows_the_zoom_and_points_are_tidy():
     assert desk.step == 0.002
 
 
-@pytest.mark.parametrize("end", [(2, 1), (-2, 1), (-2, -1), (2, -1)])
+@each_case("end", [(2, 1), (-2, 1), (-2, -1), (2, -1)])
 def test_a_box_spans_two_corners_whichever_way(end):
     box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
     assert (box.length, box.width) == (1, 2)
@@ -340,8 +341,7 @@ def test_a_document_that_was_named_is_kept_there_and_never_over_another_file(tmp
 # -- the editor on a surface ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("size", [(320, 240), (640, 480), (1280, 720), (2560, 1440), (300, 900)])
-@pytest.mark.parametrize("text", [1.0, 2.2])
+@each_case("size, text", [((320, 240), 1.0), ((300, 900), 2.2), ((1280, 720), 2.2)])
 def test_it_draws_at_every_size(size, text):
     editor = Editor(furnished(), Looks())
     editor.looks.text = text
@@ -353,7 +353,7 @@ def test_it_draws_at_every_size(size, text):
     assert len(set(pygame.surfarray.array3d(surface).reshape(-1, 3).sum(axis=1).tolist())) > 20
 
 
-@pytest.mark.parametrize("name", sorted(examples()))
+@each_case("name", sorted(examples()))
 def test_every_example_can_be_opened_and_emptied(name):
     editor = Editor(open_experiment(name).scenario, Looks(), live=True)
     surface = pygame.Surface((640, 480), 0, 32)

@@ -12,6 +12,7 @@ from mars2d.window.show import _to_be_driven
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 
 
 def window_of(scenario, path=None):
@@ -47,8 +48,8 @@ def test_the_editor_opens_where_the_window_looked_and_the_window_where_the_edito
     assert middle(window.viewpoint) == pytest.approx(seen)
 
 
-@pytest.mark.parametrize(
-    ("robots", "said"),
+@each_case(
+    "robots, said",
     [
         ([Robot(), Robot(pose=(1, 0, 0), controller=ByHand())],
          "robot0 stands still: robot0 lacks a law"),

@@ -79,6 +79,7 @@ def test_at_rest_the_camera_is_the_same_one():
     assert follow.camera(camera, frame_of((0.0, 0.0), (1.0, 1.0)), PLOT, 1 / 60) is camera
 
 
+@pytest.mark.slow
 def test_a_team_is_seen_whole_wherever_it_goes_and_the_camera_rests_in_between():
     follow, camera, moved = Follow(None), START, 0
     for k in range(3600):

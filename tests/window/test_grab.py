@@ -15,6 +15,7 @@ from mars2d.output.raster.camera import Camera
 from mars2d.window import drags, grab
 from mars2d.window.drags import pull_of
 from mars2d.window.grab import Grab
+from tests.cases import each_case
 
 LEFT, RIGHT = pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT
 SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL
@@ -81,8 +82,8 @@ class Person:
 # -- what it is over -----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("place", "over", "words"),
+@each_case(
+    "place, over, words",
     [
         ((0.1, 0.05), 0, "red"),
         ((1.0, -0.14), 1, "blue"),
@@ -130,7 +131,7 @@ def test_nothing_is_shown_once_the_pointer_has_left_the_picture():
 # -- clicks ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("running", [True, False])
+@each_case("running", [True, False])
 def test_a_click_is_left_to_others_and_changes_nothing(running):
     person = Person(running=running)
     assert person.press(0, 0)
@@ -232,7 +233,7 @@ def test_the_pull_wins_against_drives_and_floors_and_stays_bounded():
     assert pull_of(SCENARIO.replace(workspace=huge), 0)[1] == 5.0
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_where_no_forces_act_it_says_what_to_do_instead_once_a_drag(physics):
     person = Person(SCENARIO.replace(physics=physics), running=True)
     person.press(0, 0)
@@ -327,7 +328,7 @@ def test_in_a_recording_it_is_said_and_it_springs_back():
 # -- turning -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("button", "mods"), [(RIGHT, 0), (LEFT, SHIFT)])
+@each_case("button, mods", [(RIGHT, 0), (LEFT, SHIFT)])
 def test_a_right_drag_or_one_with_shift_turns_a_body_to_the_pointer(button, mods):
     person = Person()
     person.press(0, 0, button, mods)

@@ -6,6 +6,7 @@ from math import atan2, hypot
 
 import pytest
 
+from tests.cases import each_case
 from tests.window.person import Driver, needs_screen
 
 pytestmark = needs_screen
@@ -117,7 +118,7 @@ def test_put_elsewhere_in_the_past_another_branch_begins(sit):
     assert person.settle()["props"][0][:2] == pytest.approx((-1, 0.5), abs=0.03)
 
 
-@pytest.mark.parametrize("key", ["Up", "w"])
+@each_case("key", ["Up", "w"])
 def test_keys_drive_a_robot_that_waits_for_its_driver(sit, key):
     person = sit(1.0, 1)
     assert person.state["paused"]

@@ -39,6 +39,7 @@ from mars2d.window.forceplot import draw_force
 from mars2d.window.inspector import Inspector, sensor_plots
 from mars2d.window.readout import contacts_of, dynamics_of, inbox, rounded, state_of
 from mars2d.window.sensorplot import history
+from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.window.written import Written, painter, pixels
 
@@ -201,7 +202,7 @@ def test_every_sensor_has_a_plot(world):
             assert (pygame.surfarray.array3d(surface) != before).any(), plot.sensor.key
 
 
-@pytest.mark.parametrize("reading", [0.0, True, np.inf, np.nan, np.full(5, np.nan), np.ones(50)])
+@each_case("reading", [0.0, True, np.inf, np.nan, np.full(5, np.nan), np.ones(50)])
 def test_readings_of_ones_own_have_a_plot(reading):
     class Own(Sensor):
         def read(self, robot, world, rng):
@@ -276,8 +277,8 @@ def test_an_impact_does_not_flatten_the_curve():
 # -- the column -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
-@pytest.mark.parametrize("size", [(316, 580), (200, 176), (316, 250), (800, 1300), (900, 200)])
+@each_case("theme", [LIGHT, DARK])
+@each_case("size", [(316, 580), (200, 176), (316, 250), (800, 1300), (900, 200)])
 def test_it_fits_into_what_there_is(world, size, theme):
     for body in range(5):
         inspector, surface = Inspector(painter(Layout.of((1280, 720)), theme), body), Written(size)
@@ -357,7 +358,7 @@ def test_it_takes_little_time(world):
     assert min(taken) < 0.002
 
 
-@pytest.mark.parametrize("width", [220, 300, 344])
+@each_case("width", [220, 300, 344])
 def test_the_numbers_of_a_row_stay_apart_however_narrow_it_is(width):
     layout = Layout.of((1280, 720))
     inspector = Inspector(painter(layout, LIGHT))

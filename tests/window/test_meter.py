@@ -13,6 +13,7 @@ from mars2d.core.materials import GRAVITY
 from mars2d.window.forcemeter import Meter, bound_of
 from mars2d.window.picking import body_at, next_body, selection_mark
 from mars2d.window.player import between
+from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.worlds import ELL
 
@@ -127,8 +128,8 @@ def crowded():
     ).frame
 
 
-@pytest.mark.parametrize(
-    ("point", "body"),
+@each_case(
+    "point, body",
     [((0, 0), 0), ((0.1, 0.1), 0), ((0.4, 0.14), 1), ((0, 1.19), 3), ((0.2, 0.5), None),
      ((0.0, 0.16), 0), ((0.0, 0.18), None)],
 )  # fmt: skip

@@ -7,9 +7,10 @@ import pytest
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.notes import STAYS, Notes, Progress, draw_progress
+from tests.cases import each_case
 from tests.window.written import THEMES, Written, painter, pixels
 
-SIZES = pytest.mark.parametrize("size", [(640, 480), (1280, 720), (2560, 1440)])
+SIZES = each_case("size", [(640, 480), (1280, 720), (2560, 1440)])
 LONG = (
     "The film can't be written to /home/somebody/films/of/robots.mp4: there is no space left. " * 4
 )
@@ -51,7 +52,7 @@ def test_a_note_is_seen_for_five_seconds_from_its_first_picture_on_and_fades():
     assert len(board.notes) == 0
 
 
-@pytest.mark.parametrize("kind", ["info", "warning", "error"])
+@each_case("kind", ["info", "warning", "error"])
 @THEMES
 def test_each_kind_has_its_colour(kind, theme):
     board = Board(theme)
@@ -96,7 +97,7 @@ def test_only_the_newest_few_are_shown():
 
 
 @SIZES
-@pytest.mark.parametrize("text", TEXT_SIZES)
+@each_case("text", [1.0, max(TEXT_SIZES)])
 def test_long_notes_are_wrapped_and_stay_within_the_picture(size, text):
     board = Board(LIGHT, size, text)
     for kind in ("info", "warning", "error"):
@@ -120,7 +121,7 @@ def test_a_word_longer_than_a_line_is_shortened():
 
 
 @SIZES
-@pytest.mark.parametrize("text", TEXT_SIZES)
+@each_case("text", TEXT_SIZES)
 def test_progress_says_what_and_how_far(size, text):
     layout = Layout.of(size, text=text, controls=True)
     surface = Written(size)

@@ -23,6 +23,7 @@ from mars2d.record.contact import CONTACT
 from mars2d.record.frame import Frame
 from mars2d.scenario.animation import Animation
 from mars2d.window.window import Window
+from tests.cases import each_case
 from tests.window.circling import Circling, circling_scenario
 from tests.window.written import pixels
 
@@ -106,8 +107,8 @@ def test_a_stroke_that_crosses_itself_is_equally_opaque():
     assert pixels(painted(scene)).min() == pytest.approx(127, abs=3)
 
 
-@pytest.mark.parametrize("angle", np.linspace(0, np.pi, 7))
-@pytest.mark.parametrize("width", [1.0, 1.6, 3.0])
+@each_case("angle", np.linspace(0, np.pi, 7))
+@each_case("width", [1.0, 1.6, 3.0])
 def test_a_line_is_as_wide_in_every_direction(angle, width):
     scene = Scene()
     end = 3 * np.array([np.cos(angle), np.sin(angle)])
@@ -124,7 +125,7 @@ def test_zoomed_in_far_a_line_keeps_its_direction():
     assert covered[90, 70] == 0
 
 
-@pytest.mark.parametrize("style", ["--", ":", "-."])
+@each_case("style", ["--", ":", "-."])
 def test_dashes_leave_gaps(style):
     whole, dashed = Scene(), Scene()
     whole.line([(-4, 0), (0, 0), (4, 0)], stroke="#000000", width=2)
@@ -143,7 +144,7 @@ def test_dashes_go_on_where_they_ended():
     assert grown[1][:, 0].tolist() == [10, 19]
 
 
-@pytest.mark.parametrize("marker", [".", "o", "x", "+", "*", "s"])
+@each_case("marker", [".", "o", "x", "+", "*", "s"])
 def test_each_marker_has_a_shape_of_its_own(marker):
     assert wake_style("style", marker) == marker
     scene = Scene()
@@ -208,12 +209,12 @@ def test_a_picture_shows_the_robots_where_they_are():
         assert pygame.Color(color)[:3] == surface.get_at((int(x), int(y)))[:3]
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (800, 600), (1920, 1080), (320, 240), (64, 48)])
+@each_case("size", [(1280, 720), (800, 600), (1920, 1080), (320, 240), (64, 48)])
 def test_pictures_come_in_any_size(size):
     assert paint_frame(frame(), size).get_size() == size
 
 
-@pytest.mark.parametrize(
+@each_case(
     "changed",
     [
         {"grid": False},
@@ -224,7 +225,6 @@ def test_pictures_come_in_any_size(size):
         {"wake_style": "o"},
         {"base_colors": ["red", "green"]},
     ],
-    ids=str,
 )
 def test_every_animation_field_changes_the_picture(changed):
     usual = paint_frame(frame())
@@ -246,7 +246,8 @@ def test_the_message_of_the_end_stands_in_a_banner():
     assert before.get_at((640, 710))[:3] == (255, 255, 255)
 
 
-@pytest.mark.parametrize("style", ["-", "--", "o", "o-", ":"])
+@pytest.mark.slow
+@each_case("style", ["-", "--", "o", "o-", ":"])
 def test_paths_that_grow_look_like_paths_drawn_at_once(style):
     source = Circling(circling_scenario(animation=Animation(wake_style=style)))
     artist = Artist()
@@ -325,8 +326,8 @@ def test_while_the_camera_moves_a_slow_picture_is_enlarged_and_then_drawn_anew(m
     assert differing(fresh, fine) == 0
 
 
-@pytest.mark.parametrize("size", [(1920, 1080), (1280, 720), (800, 600), (300, 200), (40, 30)])
-@pytest.mark.parametrize("fails_at", [None, 3])
+@each_case("size", [(1920, 1080), (1280, 720), (800, 600), (300, 200), (40, 30)])
+@each_case("fails_at", [None, 3])
 def test_the_window_draws_itself_at_any_size(size, fails_at):
     window = Window(Circling(rows=5, fails_at=fails_at), "max")
     for _ in range(10):
@@ -340,7 +341,7 @@ def test_the_window_draws_itself_at_any_size(size, fails_at):
 # -- arrows and forces ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("tip", [(3.0, 0.0), (2.1, 2.1), (-1.0, -2.5)])
+@each_case("tip", [(3.0, 0.0), (2.1, 2.1), (-1.0, -2.5)])
 def test_an_arrow_goes_from_its_tail_to_its_tip_with_its_width(tip):
     scene = Scene()
     scene.arrow((0, 0), tip, fill="#000000", width=3.0)

@@ -16,6 +16,7 @@ from mars2d.window.play import COUNTDOWN, game_of
 from mars2d.window.scores import Scores, Tally
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 from tests.window.person import needs_screen
 
 CATCH = """
@@ -218,8 +219,8 @@ def test_teams_have_scores_and_those_who_are_out_are_not_near(memory, tmp_path):
     assert window.game.distance(window.player.frame) == pytest.approx(4.0)
 
 
-@pytest.mark.parametrize("size", [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)])
-@pytest.mark.parametrize("text", TEXT_SIZES)
+@each_case("size", [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)])
+@each_case("text", TEXT_SIZES)
 def test_the_panel_stands_beside_the_arena_of_whoever_plays(memory, size, text):
     window = opened("corner_game", memory, [1], size, text)
     window.game.counting = 0.0
@@ -269,7 +270,7 @@ def play(open_window, tmp_path, monkeypatch):
 
 
 @needs_screen
-@pytest.mark.parametrize("way", ["key", "click"])
+@each_case("way", ["key", "click"])
 def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person = play(1.0, "corner_game")
     assert person.state["game"]["seats"] == []

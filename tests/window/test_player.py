@@ -14,6 +14,7 @@ from mars2d.sensors import Proximity, RangeFinder
 from mars2d.window import keys
 from mars2d.window.picking import sensed_by
 from mars2d.window.player import SPEEDS, Player, between
+from tests.cases import each_case
 from tests.window.circling import Circling, circling_scenario
 
 
@@ -37,7 +38,7 @@ def play(player, seconds, pictures_a_second=60):
         player.pass_time(1 / pictures_a_second)
 
 
-@pytest.mark.parametrize("speed", [0.5, 1, 3])
+@each_case("speed", [0.5, 1, 3])
 def test_simulated_time_is_speed_times_wall_time(speed):
     p = player(speed)
     play(p, 2.0)
@@ -161,7 +162,7 @@ def test_restart_goes_back_and_plays_on():
     assert p.frame.time == pytest.approx(0.2)
 
 
-@pytest.mark.parametrize("speed", [0, 1.0, "max"])
+@each_case("speed", [0, 1.0, "max"])
 def test_a_law_that_fails_stops_time_and_is_kept(speed):
     p = player(speed, fails_at=2)
     for _ in range(5):
@@ -175,7 +176,7 @@ def test_a_law_that_fails_stops_time_and_is_kept(speed):
     assert p.frame.iteration == 0
 
 
-@pytest.mark.parametrize("speed", [-1, "fast", float("nan"), True])
+@each_case("speed", [-1, "fast", float("nan"), True])
 def test_a_wrong_speed_is_an_error_that_names_it(speed):
     with pytest.raises(InputError, match="speed"):
         player(speed)
@@ -233,7 +234,7 @@ def test_with_a_robot_selected_only_its_sensors_are_seen():
     assert [i for i, _ in sensed_by(world.frame, 2).readings["proximity"]] == [0, 1]  # it has none
 
 
-@pytest.mark.parametrize("manual", [False, True])
+@each_case("manual", [False, True])
 def test_a_letter_with_ctrl_means_the_same_as_elsewhere_or_nothing(manual):
     known = set()
     for letter in "abcdefghijklmnopqrstuvwxyz":
@@ -250,8 +251,8 @@ def test_every_key_has_its_own_command():
     assert all(key.help and key.labels for key in (*keys.KEYS, *keys.MOUSE))
 
 
-@pytest.mark.parametrize(
-    ("name", "character", "action"),
+@each_case(
+    "name, character, action",
     [
         ("space", " ", "pause"), ("right", "", "step"), ("=", "=", "faster"), ("=", "+", "faster"),
         ("]", "+", "faster"), ("[+]", "+", "faster"), ("-", "-", "slower"), ("f1", "", "help"),
@@ -351,8 +352,8 @@ def test_where_a_restart_fails_it_is_told_at_the_newest_step():
     assert p.source.row == 20
 
 
-@pytest.mark.parametrize(
-    ("name", "action"),
+@each_case(
+    "name, action",
     [
         ("space", "step"), ("return", "step"), ("right", "step"), ("w", "step"), ("up", "step"),
         ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),

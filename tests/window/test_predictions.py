@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pygame
-import pytest
 
 from mars2d.core.deadline import Deadline
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
@@ -11,6 +10,7 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.predictions import Predictions
 from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 from tests.window.written import THEMES, Written, painter
 
 HEAD = """
@@ -160,7 +160,7 @@ def test_a_run_changed_by_hand_has_no_predictions_and_a_new_start_has(tmp_path):
 
 
 @THEMES
-@pytest.mark.parametrize("text", TEXT_SIZES)
+@each_case("text", TEXT_SIZES)
 def test_words_and_numbers_never_lie_on_each_other(tmp_path, theme, text):
     body = "".join(
         f"    yield Prediction('{name}', {value!r}, {value!r} + 1e-12, {tolerance!r}, '{unit}')\n"

@@ -20,6 +20,7 @@ from mars2d.window.notes import Notes
 from mars2d.window.player import Player
 from mars2d.window.saving import free_name, save_picture, save_python, start_film
 from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 from tests.processes import PATIENCE, bare_environment
 from tests.window.person import needs_screen
 
@@ -131,7 +132,7 @@ def test_a_listing_is_on_the_clipboard_of_a_window(screen, tmp_path):
 # -- films ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("suffix", [".mp4", ".gif"])
+@each_case("suffix", [".mp4", ".gif"])
 def test_a_film_goes_by_the_clock(suffix, tmp_path):
     clock = Clock()
     film = Filming(tmp_path / f"film{suffix}", clock)
@@ -148,7 +149,7 @@ def test_a_film_goes_by_the_clock(suffix, tmp_path):
         assert np.abs(frame[60, 80] - pygame.Color(color)[:3]).max() < 30, at
 
 
-@pytest.mark.parametrize("suffix", [".mp4", ".gif"])
+@each_case("suffix", [".mp4", ".gif"])
 def test_another_size_is_fitted_into_the_first(suffix, tmp_path):
     clock = Clock()
     film = Filming(tmp_path / f"film{suffix}", clock)
@@ -191,7 +192,7 @@ def test_pictures_that_come_too_fast_are_left_out_and_memory_stays(tmp_path, mon
     film.stop()
 
 
-@pytest.mark.parametrize("suffix", [".mp4", ".gif"])
+@each_case("suffix", [".mp4", ".gif"])
 def test_a_film_that_cannot_be_written_on_says_so(suffix, tmp_path):
     clock = Clock()
     film = Filming(tmp_path / f"film{suffix}", clock)

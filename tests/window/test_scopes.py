@@ -19,6 +19,7 @@ from mars2d.window.scopes import Scopes
 from mars2d.window.trace import Trace
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 from tests.window.person import PUSHING
 from tests.window.written import THEMES, Written, painter
 
@@ -37,7 +38,7 @@ def values_of(found):
     return [signal.values for signal in found]
 
 
-@pytest.mark.parametrize("what", [*WHATS, "momentum.each", "distance.crate"])
+@each_case("what", [*WHATS, "momentum.each", "distance.crate"])
 def test_a_trace_that_grows_is_as_one_that_is_read_at_once(timeline, what):
     trace = Trace(what, (0, 1))
     while timeline.row < 60:
@@ -174,7 +175,7 @@ class Scoped:
 
 
 @THEMES
-@pytest.mark.parametrize("size", [(316, 200), (316, 420), (200, 140), (900, 130)])
+@each_case("size", [(316, 200), (316, 420), (200, 140), (900, 130)])
 def test_words_of_plots_stay_apart_however_small_they_are(timeline, size, theme):
     scoped = Scoped(timeline, size, theme)
     for what in ("speed", "force", "energy"):
@@ -272,7 +273,7 @@ def test_a_window_that_remembers_its_scopes_shows_something(pushing):
     assert window.remembered["panels"] == ["scopes"]
 
 
-@pytest.mark.parametrize("kind", ["column", "function"])
+@each_case("kind", ["column", "function"])
 def test_a_mistake_stands_in_the_panel(timeline, kind):
     scoped = Scoped(timeline)
     scoped.scopes.switch("sped" if kind == "column" else lambda record: record.pose.nothing, ())

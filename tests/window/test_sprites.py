@@ -12,6 +12,7 @@ from mars2d.scenario.animation import Animation
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.window.source import Playback
 from mars2d.window.window import Window
+from tests.cases import each_case
 
 STEPS = 60
 
@@ -131,7 +132,8 @@ def pixels(surface):
     return pygame.surfarray.array3d(surface).astype(int)
 
 
-@pytest.mark.parametrize("situation", SITUATIONS, ids=lambda situation: situation.__name__)
+@pytest.mark.slow
+@each_case("situation", SITUATIONS)
 def test_what_is_kept_changes_no_pixel(record, situation):
     kept, plain = Viewer(record), Viewer(record, plain=True)
     for viewer in (kept, plain):

@@ -12,6 +12,7 @@ from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.slider import SpeedSlider, times
 from mars2d.window.timebar import TimeBar, TimeState
+from tests.cases import each_case
 from tests.window.written import THEMES, Written, painter, pixels
 
 RUNGS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
@@ -64,16 +65,16 @@ def test_the_ends_and_the_handle_have_their_times():
     assert Drawn(state(row=400)).surface.texts == ["0 s", "100 s"]  # the header says the time
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("text", TEXT_SIZES)
-@pytest.mark.parametrize("row", [0, 7, 200, 399, 400])
+@each_case("size", SIZES)
+@each_case("text", TEXT_SIZES)
+@each_case("row", [0, 7, 200, 399, 400])
 def test_its_words_do_not_touch_each_other(size, text, row):
     drawn = Drawn(state(row=row), size=size, text=text, pointer=(100, size[1] - 70))
     assert not drawn.surface.crowded()
     assert not drawn.surface.cut()
 
 
-@pytest.mark.parametrize("size", SIZES)
+@each_case("size", SIZES)
 def test_the_row_under_the_pointer_is_found(size):
     drawn = Drawn(state(), size=size)
     for row in (0, 1, 137, 400):
@@ -90,7 +91,7 @@ def test_before_it_is_drawn_and_without_room_there_is_no_row():
     assert narrow.bar.row_at(5) is None
 
 
-@pytest.mark.parametrize("size", SIZES)
+@each_case("size", SIZES)
 def test_the_area_to_press_is_at_least_24_pixels_high(size):
     drawn = Drawn(state(), size=size)
     x = round(drawn.bar.x_of(500))
@@ -135,9 +136,7 @@ def test_an_experiment_of_no_length_has_a_bar():
     assert Drawn(state(row=0, rows=0, last=0)).bar.row_at(600) == 0
 
 
-@pytest.mark.parametrize(
-    ("rows", "seconds"), [(0, 10), (90, 10), (99, 20), (1000, 200), (10_000, 2000)]
-)
+@each_case("rows, seconds", [(0, 10), (90, 10), (99, 20), (1000, 200), (10_000, 2000)])
 def test_an_endless_experiment_shows_a_round_time_that_grows(rows, seconds):
     endless = state(row=rows, rows=rows, last=10**13)
     assert endless.extent * endless.sampling_time == pytest.approx(seconds)
@@ -145,8 +144,8 @@ def test_an_endless_experiment_shows_a_round_time_that_grows(rows, seconds):
     assert Drawn(endless).bar.row_at(1e6) == rows
 
 
-@pytest.mark.parametrize(
-    ("dt", "row", "text"),
+@each_case(
+    "dt, row, text",
     [(0.05, 1, "0.05 s"), (1.0, 7, "7 s"), (0.025, 3, "0.075 s"), (0.5, 3, "1.5 s")],
 )
 def test_times_have_the_decimals_that_tell_rows_apart(dt, row, text):
@@ -167,8 +166,8 @@ class Slid:
         )
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("text", TEXT_SIZES)
+@each_case("size", SIZES)
+@each_case("text", TEXT_SIZES)
 def test_each_speed_is_found_where_it_is_shown(size, text):
     slid = Slid(1.0, size=size, text=text)
     for speed in (*RUNGS, inf):
@@ -187,8 +186,8 @@ def test_the_slider_is_logarithmic():
     assert slid.slider.x_of(0.0) == slid.slider.x_of(0.1)
 
 
-@pytest.mark.parametrize(
-    ("speed", "reached", "texts"),
+@each_case(
+    "speed, reached, texts",
     [
         (1.0, None, ["1x"]),
         (1.0, 0.99, ["1x"]),
@@ -203,9 +202,9 @@ def test_the_speed_stands_beside_it_and_what_is_reached(speed, reached, texts):
     assert Slid(speed, reached).surface.texts == texts
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("text", TEXT_SIZES)
-@pytest.mark.parametrize(("speed", "reached"), [(100.0, 12.3), (0.0, None), (inf, 340.0)])
+@each_case("size", SIZES)
+@each_case("text", TEXT_SIZES)
+@each_case("speed, reached", [(100.0, 12.3), (0.0, None), (inf, 340.0)])
 def test_its_words_are_whole_at_any_size(size, text, speed, reached):
     slid = Slid(speed, reached, size=size, text=text)
     assert times(speed) in slid.surface.texts
@@ -225,7 +224,7 @@ def test_over_it_the_pointers_speed_is_shown():
     assert "20x" not in Slid(1.0, pointer=(pointer[0], 5)).surface.texts
 
 
-@pytest.mark.parametrize("size", SIZES)
+@each_case("size", SIZES)
 def test_the_slider_can_be_hit_and_is_not_the_time_bar(size):
     slid = Slid(1.0, size=size)
     x = round(slid.slider.x_of(1.0))
@@ -253,7 +252,7 @@ def zoomed(shown, notches=8, row=300, **options):
     return drawn
 
 
-@pytest.mark.parametrize("size", SIZES)
+@each_case("size", SIZES)
 def test_a_zoom_keeps_the_row_under_the_pointer_and_rows_are_wider(size):
     drawn = Drawn(state(), size=size)
     x = drawn.bar.x_of(300)

@@ -16,6 +16,7 @@ from mars2d.core.errors import InputError
 from mars2d.window import keys
 from mars2d.window.display import display_available
 from mars2d.window.window import Window
+from tests.cases import each_case
 from tests.processes import HIDDEN, PATIENCE
 from tests.window.circling import Circling
 from tests.window.person import (
@@ -374,7 +375,7 @@ def test_without_a_display_the_error_says_what_to_do_instead(no_display):
         Window(Circling(), 1).run()
 
 
-@pytest.mark.parametrize("driver", ["dummy", "offscreen"])
+@each_case("driver", ["dummy", "offscreen"])
 def test_a_driver_that_shows_nothing_is_no_display(monkeypatch, driver):
     monkeypatch.setenv("SDL_VIDEODRIVER", driver)
     assert not display_available()

@@ -16,6 +16,7 @@ from mars2d.window.display import Preferences
 from mars2d.window.driftplot import DriftPlot
 from mars2d.window.player import Player
 from mars2d.window.trio import Trio
+from tests.cases import each_case
 from tests.window.person import Driver, differing, needs_screen
 from tests.window.written import Written, painter
 
@@ -112,9 +113,9 @@ def test_an_error_names_the_physics_and_the_others_have_gone_on(tmp_path):
 # -- the plot -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("theme", [LIGHT, DARK])
-@pytest.mark.parametrize("text", TEXT_SIZES)
-@pytest.mark.parametrize("width", [520, 756, 1236])
+@each_case("theme", [LIGHT, DARK])
+@each_case("text", TEXT_SIZES)
+@each_case("width", [520, 756, 1236])
 def test_words_of_the_plot_never_lie_on_each_other(theme, text, width):
     layout = Layout.of((1280, 720), text=text, controls=True)
     surface, plot = Written((width, 220)), DriftPlot()
@@ -133,8 +134,8 @@ def test_runs_that_agree_say_so():
     assert "the three runs agree" in surface.texts
 
 
-@pytest.mark.parametrize("size", [(800, 600), (1024, 768), (1280, 720)])
-@pytest.mark.parametrize("text", [1.0, 1.7])
+@each_case("size", [(800, 600), (1024, 768), (1280, 720)])
+@each_case("text", [1.0, 1.7])
 def test_the_arenas_have_the_same_width_and_lie_above_the_plot(size, text):
     window = CompareWindow(trio_of("push_box"), 1, size, Preferences(text=text))
     window.draw(Written(size))
@@ -247,6 +248,7 @@ def test_the_command_opens_a_window_and_prints_the_table(screen, tmp_path):
     assert not list(tmp_path.iterdir()), "neither picture nor film"
 
 
+@pytest.mark.slow
 def test_without_a_display_it_makes_a_picture_and_a_film(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("DISPLAY", raising=False)

@@ -3,13 +3,13 @@
 from itertools import combinations
 
 import pygame
-import pytest
 
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import DARK, LIGHT
+from tests.cases import each_case
 
-THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+THEMES = each_case("theme", [LIGHT, DARK])
 
 
 class Written(pygame.Surface):

@@ -21,12 +21,13 @@ from mars2d.core.extras import pip_line
 from mars2d.output import formats
 from mars2d.output.formats.columns import KEYWORDS, MAX_NAME, plain_names
 from mars2d.output.formats.header import as_text
+from tests.cases import each_case
 from tests.output.formats.records import FORMATS, cut_to, everything, records, refused
 
-each_format = pytest.mark.parametrize("suffix", FORMATS)
+each_format = each_case("suffix", FORMATS)
 
 
-@pytest.mark.parametrize("suffix", formats.FORMATS)
+@each_case("suffix", formats.FORMATS)
 def test_a_formats_module_has_what_its_line_in_the_table_says(suffix):
     format_ = formats.FORMATS[suffix]
     module = import_module(f"mars2d.output.formats.{format_.module}")
@@ -60,7 +61,7 @@ def test_a_record_with_everything_comes_back_to_the_last_bit(suffix, tmp_path):
 
 
 @each_format
-@pytest.mark.parametrize("rows", [0, 1, 2])
+@each_case("rows", [0, 1, 2])
 def test_a_record_of_few_rows_comes_back(suffix, rows, tmp_path):
     record = cut_to(everything(), rows)
     again = mars2d.load(record.save(tmp_path / f"run{suffix}"))
@@ -93,7 +94,7 @@ def test_names_for_other_programs_are_plain_and_differ(names):
 
 
 @each_format
-@pytest.mark.parametrize(
+@each_case(
     "content",
     [b"", b"hello", b"PK\x03\x04", b"\x93NUMPY", b"\x80\x04K\x01.", bytes(1000), b"CDF\x01",
      b"time,body\n1,2\n", b'"', b"\xff\xfe\x00", b"CDF\x02" + 99 * b"\xff", b"[" * 10**6],
@@ -104,7 +105,7 @@ def test_a_foreign_file_is_refused(suffix, content, tmp_path):
     refused(path, "not a record of MARS2D, or damaged")
 
 
-@pytest.mark.parametrize("path", [None, 3, b"run.npz", "run\0.npz", ["run.npz"]])
+@each_case("path", [None, 3, b"run.npz", "run\0.npz", ["run.npz"]])
 def test_what_is_no_name_of_a_file_is_refused(path):
     for call in (mars2d.load, everything().save):
         with pytest.raises(InputError, match=r"expected the name of a file, such as 'run.npz'"):
@@ -126,7 +127,7 @@ def test_a_misspelt_name_is_answered_with_the_nearest_one(suffix, tmp_path):
 
 
 @each_format
-@pytest.mark.parametrize("other", FORMATS)
+@each_case("other", FORMATS)
 def test_a_record_under_a_wrong_name_is_refused(suffix, other, tmp_path):
     if suffix != other:
         path = tmp_path / f"run{other}"
@@ -164,7 +165,7 @@ def test_a_file_with_a_flipped_bit_is_refused_or_unharmed(suffix, tmp_path):
 
 
 @each_format
-@pytest.mark.parametrize(("version", "words"), [(9, "a newer"), (1, "an older")])
+@each_case("version, words", [(9, "a newer"), (1, "an older")])
 def test_a_file_of_another_version_says_so(suffix, version, words, tmp_path):
     path = everything().save(tmp_path / f"run{suffix}")
     _rewrite_header(path, {"format": version, "versions": {"mars2d": "7.7"}, "scenario": "gone"})
@@ -172,7 +173,7 @@ def test_a_file_of_another_version_says_so(suffix, version, words, tmp_path):
 
 
 @each_format
-@pytest.mark.parametrize(
+@each_case(
     "change",
     [
         {"format": "1"}, {"format": None}, {"scenario": None}, {"scenario": {"type": "Robot"}},
@@ -188,7 +189,7 @@ def test_a_header_that_makes_no_sense_is_refused(suffix, change, tmp_path):
 
 
 @each_format
-@pytest.mark.parametrize(
+@each_case(
     "change",
     [
         {"format": True}, {"format": 3.0}, {"format": float("nan")}, {"seed": 2**63},
@@ -202,8 +203,8 @@ def test_a_header_that_no_run_has_is_refused(suffix, change, tmp_path):
     refused(path)
 
 
-@pytest.mark.parametrize(
-    ("number", "change"),
+@each_case(
+    "number, change",
     [
         (0, {"body": 5}), (0, {"body": -1}), (0, {"body": "robot0"}), (0, {"body": True}),
         (0, {"pose": [1, 2]}), (0, {"pose": [1, 2, float("nan")]}), (0, {"pose": None}),
@@ -221,7 +222,7 @@ def test_what_cannot_have_been_done_to_a_run_is_refused(number, change, tmp_path
     refused(path, "not a record of MARS2D, or damaged")
 
 
-@pytest.mark.parametrize(
+@each_case(
     "column",
     [["<f8", [-1, 3, 3]], ["<f8", [3, 3]], ["|O", [21, 3, 3]], ["<f8", "x"], 5, None],
 )  # fmt: skip
@@ -295,7 +296,7 @@ EDITS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("edit", "said"), EDITS, ids=[said for _, said in EDITS])
+@each_case("edit, said", EDITS)
 @each_format
 def test_an_edit_of_a_header_is_refused_and_named(suffix, edit, said, tmp_path):
     path = everything().save(tmp_path / f"run{suffix}")
@@ -303,7 +304,7 @@ def test_an_edit_of_a_header_is_refused_and_named(suffix, edit, said, tmp_path):
     refused(path, f"damaged: {said}.*changed since it was saved")
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop"])
+@each_case("physics", ["contact", "stop"])
 def test_an_edit_of_the_physics_is_refused(physics, tmp_path):
     path = everything().save(tmp_path / "run.npz")
     header = _header(path)
@@ -323,7 +324,7 @@ def test_without_its_check_sums_a_header_is_refused(tmp_path):
     refused(path, "damaged")
 
 
-@pytest.mark.parametrize("change", [("robot1", "robot9"), ("0.1,", "0.2,")])
+@each_case("change", [("robot1", "robot9"), ("0.1,", "0.2,")])
 def test_a_table_whose_bodies_or_times_were_mixed_up_is_refused(change, tmp_path):
     scenario = Scenario(robots=[Robot(), Robot(pose=(2, 0, 0))], stop_time=0.3)
     path = mars2d.run(scenario, control=lambda world: [[0.1] * 2, [0] * 2]).save(tmp_path / "r.csv")
@@ -333,7 +334,7 @@ def test_a_table_whose_bodies_or_times_were_mixed_up_is_refused(change, tmp_path
     refused(path, "damaged")
 
 
-@pytest.mark.parametrize("suffix", FORMATS)
+@each_case("suffix", FORMATS)
 def test_a_flipped_bit_is_refused_or_changes_nothing_that_is_read(suffix, tmp_path):
     """What only other programs read, for example names of units, may change."""
     path = everything().save(tmp_path / f"run{suffix}")
@@ -445,7 +446,7 @@ def test_exports_are_written_for_others_and_not_read_back(tmp_path):
             mars2d.load(everything().save(tmp_path / name))
 
 
-@pytest.mark.parametrize("suffix", FORMATS)
+@each_case("suffix", FORMATS)
 def test_a_file_larger_than_asked_for_is_refused_and_told_how_to_read(suffix, tmp_path):
     path = everything().save(tmp_path / f"run{suffix}")
     text = refused(path, "holds, or claims to hold, .* more than the 200 bytes", largest=200)

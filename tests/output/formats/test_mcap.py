@@ -31,6 +31,7 @@ from mars2d.record.message import MESSAGE
 from mars2d.scenario import serialize
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import simulate
+from tests.cases import each_case
 from tests.output.formats.records import cut_to, everything
 
 pytest.importorskip("mcap")
@@ -76,7 +77,7 @@ def unclosed(name: str, path: Path, until: float = 8.0) -> Record:
     return world.record
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@each_case("name", EXAMPLES)
 def test_a_log_holds_the_same_bits_as_the_record_of_the_run(name, tmp_path) -> None:
     record = run(name, tmp_path / "run.mcap")
     without = simulate(open_experiment(name, {"stop_time": 8.0}), 1).record
@@ -87,7 +88,7 @@ def test_a_log_holds_the_same_bits_as_the_record_of_the_run(name, tmp_path) -> N
     assert serialize.from_description(read.scenario) == serialize.from_description(other.scenario)
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@each_case("name", EXAMPLES)
 def test_a_record_is_saved_as_a_log_and_stays_the_same(name, tmp_path) -> None:
     record = simulate(open_experiment(name, {"stop_time": 8.0}), 1).record
     first = mars2d.load(record.save(tmp_path / "first.mcap"))
@@ -128,7 +129,7 @@ def test_what_no_run_gives_is_not_written_as_a_log_that_could_not_be_read(tmp_pa
     assert mars2d.load(first.save(tmp_path / "run.mcap")).digest == first.digest
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@each_case("name", EXAMPLES)
 def test_a_log_that_nobody_closed_has_all_rows(name, tmp_path) -> None:
     record = unclosed(name, tmp_path / "run.mcap")
     read = mars2d.load(tmp_path / "run.mcap")
@@ -342,7 +343,7 @@ def test_ctrl_c_ends_a_log_as_it_ends_a_run(tmp_path) -> None:
     assert mars2d.load(tmp_path / "run.mcap").over_message == "Interrupted by Ctrl-C"
 
 
-@pytest.mark.parametrize("suffix", [".npz", ".mcap"])
+@each_case("suffix", [".npz", ".mcap"])
 def test_run_takes_the_name_of_a_record(suffix, tmp_path) -> None:
     path = tmp_path / f"run{suffix}"
     record = mars2d.run("random_walk", stop_time=5, record=path)
@@ -476,6 +477,7 @@ def test_a_full_disk_ends_the_run_and_leaves_a_file_that_can_be_read(tmp_path) -
         subprocess.run(["umount", "-l", folder], check=True)
 
 
+@pytest.mark.slow
 def test_a_file_that_may_not_grow_ends_the_run(tmp_path, child) -> None:
     path = tmp_path / "run.mcap"
     code = (

@@ -11,6 +11,7 @@ import pytest
 
 import mars2d
 from mars2d.output.formats.header import as_text
+from tests.cases import each_case
 from tests.output.formats.records import everything, refused
 
 
@@ -64,7 +65,7 @@ def _rewrite(source, target, changes: dict[str, bytes | None]) -> None:
                 new.writestr(name, content)
 
 
-@pytest.mark.parametrize(
+@each_case(
     "part",
     ["pose.npy", "time.npy", "header.npy", "contact:time.npy", "contact:slip.npy",
      "sensor:x.npy", "prop_pose.npy", "effort.npy"],
@@ -99,7 +100,7 @@ def _encoded(header) -> bytes:
     )
 
 
-@pytest.mark.parametrize("key", ["format", "scenario", "seed", "digest", "finished"])
+@each_case("key", ["format", "scenario", "seed", "digest", "finished"])
 def test_a_header_without_an_entry_is_refused(record, tmp_path, key):
     good = record.save(tmp_path / "good.npz")
     header = _header(good)
@@ -108,7 +109,7 @@ def test_a_header_without_an_entry_is_refused(record, tmp_path, key):
     refused(tmp_path / "bad.npz", "damaged")
 
 
-@pytest.mark.parametrize("header", [[], 5, None, "x"])
+@each_case("header", [[], 5, None, "x"])
 def test_a_header_of_another_kind_is_refused(record, tmp_path, header):
     good = record.save(tmp_path / "good.npz")
     _rewrite(good, tmp_path / "bad.npz", {"header.npy": _encoded(header)})

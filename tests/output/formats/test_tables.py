@@ -18,6 +18,7 @@ from mars2d import Holonomic, InputError, Robot, Scenario
 from mars2d.bodies import Car, Differential
 from mars2d.record.message import STATUS, as_text
 from mars2d.sensors import Pose, RangeFinder
+from tests.cases import each_case
 from tests.output.formats.records import cut_to, everything, refused
 from tests.output.formats.test_mat import needs_octave, octave
 
@@ -76,8 +77,8 @@ def test_a_sensor_called_as_a_column_is_has_a_column_of_its_own():
     assert np.array_equal(frame["a_1_"], -record.effort[:, 2])
 
 
-@pytest.mark.parametrize(
-    ("drives", "units"),
+@each_case(
+    "drives, units",
     [
         ([Holonomic(), Holonomic(max_force=2)], ("m/s", "m/s")),
         ([Car()], ("m/s", "rad")),
@@ -118,7 +119,7 @@ def test_a_frame_of_messages_has_texts_and_words():
     assert frame["receiver_name"].tolist() == [NAMES[k] for k in record.messages["receiver"]]
 
 
-@pytest.mark.parametrize("table", ["bodies", "contacts", "messages"])
+@each_case("table", ["bodies", "contacts", "messages"])
 def test_a_record_without_rows_has_tables_without_rows(table):
     frame = cut_to(everything(), 0).to_frame(table)
     assert len(frame) == 0

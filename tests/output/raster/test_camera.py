@@ -6,6 +6,7 @@ import pytest
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import label, spacing, ticks
 from mars2d.output.raster.strokes import clip_lines, clip_polygon, simplified
+from tests.cases import each_case
 
 
 def test_up_in_the_world_is_up_on_the_screen():
@@ -19,7 +20,7 @@ def test_pixels_and_metres_are_inverse():
     np.testing.assert_allclose(camera.to_world(camera.to_pixels(points)), points, atol=1e-9)
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (720, 1280), (800, 600)])
+@each_case("size", [(1280, 720), (720, 1280), (800, 600)])
 def test_fit_shows_all_within_the_margins_and_touches_two_of_them(size):
     margins = (50, 60, 70, 80)
     camera = Camera.fit((-3, 7, 2, 6), size, margins)
@@ -52,8 +53,8 @@ def test_view_is_what_the_corners_show():
     assert Camera(scale=10.0, x=0.0, y=100.0).view((200, 100)) == (0, 20, 0, 10)
 
 
-@pytest.mark.parametrize(
-    ("scale", "expected"), [(50, 1.0), (40, 2.0), (21, 2.0), (9, 5.0), (500, 0.1), (0.05, 1000.0)]
+@each_case(
+    "scale, expected", [(50, 1.0), (40, 2.0), (21, 2.0), (9, 5.0), (500, 0.1), (0.05, 1000.0)]
 )
 def test_grid_lines_are_1_2_or_5_apart(scale, expected):
     assert spacing(scale, 42) == pytest.approx(expected)

@@ -6,10 +6,11 @@ import pygame
 import pytest
 
 from mars2d.output.raster.layout import TEXT_SIZES, Layout, interface_scale
+from tests.cases import each_case
 
 SIZES = [(640, 480), (800, 600), (1280, 720), (1920, 1080), (2560, 1440), (700, 1200)]
-every_size = pytest.mark.parametrize("size", SIZES)
-every_text = pytest.mark.parametrize("text", TEXT_SIZES)
+every_size = each_case("size", SIZES)
+every_text = each_case("text", TEXT_SIZES)
 
 
 def parts(layout):
@@ -42,7 +43,7 @@ def test_text_is_as_large_as_was_asked_for_where_there_is_room():
     assert interface_scale((640, 480), 2.2) < 2.2 * interface_scale((640, 480))
 
 
-@pytest.mark.parametrize("size", [(1280, 720), (1920, 1080), (960, 600)])
+@each_case("size", [(1280, 720), (1920, 1080), (960, 600)])
 def test_pictures_have_no_time_bar_and_are_laid_out_as_they_were(size):
     layout = Layout.of(size)
     assert layout.timebar.size[1] == layout.slider.size[0] == layout.tools.size[0] == 0
@@ -51,7 +52,7 @@ def test_pictures_have_no_time_bar_and_are_laid_out_as_they_were(size):
 
 
 @every_text
-@pytest.mark.parametrize("scale", [1.25, 2.0, 3.0])
+@each_case("scale", [1.25, 2.0, 3.0])
 def test_on_a_sharp_screen_everything_is_as_large_as_on_another_one(scale, text):
     once = Layout.of((1280, 720), text=text, controls=True)
     sharp = Layout.of(
@@ -62,7 +63,7 @@ def test_on_a_sharp_screen_everything_is_as_large_as_on_another_one(scale, text)
         assert [round(scale * side) for side in a] == pytest.approx(list(b), abs=4)
 
 
-@pytest.mark.parametrize("size", [(16, 16), (60, 40), (200, 100), (3000, 60)])
+@each_case("size", [(16, 16), (60, 40), (200, 100), (3000, 60)])
 @every_text
 def test_the_smallest_surfaces_break_nothing(size, text):
     layout = Layout.of(size, 400.0, text=text, controls=True)

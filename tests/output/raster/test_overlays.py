@@ -24,6 +24,7 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import DARK, LIGHT
 from mars2d.record.frame import Frame
 from mars2d.scenario.neighbours import Graph, Neighbourhood, Within
+from tests.cases import each_case
 
 SIZE = (640, 480)
 CAMERA = Camera(80.0, 320.0, 240.0)
@@ -68,7 +69,7 @@ def test_what_stands_or_creeps_has_no_arrow_and_what_flies_a_bounded_one():
     assert arrow.tip[0] - arrow.tail[0] == pytest.approx(speed_scale(frame.scenario).longest)
 
 
-@pytest.mark.parametrize("omega", [1.0, -2.0, 100.0])
+@each_case("omega", [1.0, -2.0, 100.0])
 def test_an_arc_goes_from_the_heading_to_that_of_a_second_later(omega):
     (arc, head) = velocities(frame_of([(1, 2, 0.5)], (0, 0, omega))).shapes
     assert isinstance(arc, Line)
@@ -98,7 +99,7 @@ def test_in_a_crowd_those_that_turn_the_most_have_arcs():
     assert sum(isinstance(shape, Arrow) and shape.stroke is None for shape in shapes) > 100
 
 
-@pytest.mark.parametrize("scale", [20.0, 80.0, 150.0, 333.0])
+@each_case("scale", [20.0, 80.0, 150.0, 333.0])
 def test_the_legends_lie_side_by_side(scale):
     scenario, plot = frame_of([(0, 0, 0)]).scenario, pygame.Rect(0, 0, 1280, 600)
     camera, seen = Camera(scale, 320.0, 240.0), {}
@@ -114,7 +115,7 @@ def test_the_legends_lie_side_by_side(scale):
     assert len(np.flatnonzero(np.diff(both.astype(int)))) == 4  # with a gap between them
 
 
-@pytest.mark.parametrize(("size", "rows"), [((1280, 600), 1), ((320, 400), 1), ((280, 400), 0)])
+@each_case("size, rows", [((1280, 600), 1), ((320, 400), 1), ((280, 400), 0)])
 def test_legends_take_a_quarter_of_the_height_at_most(size, rows):
     surface = pygame.Surface(size, 0, 32)
     scenario, camera = frame_of([(0, 0, 0)]).scenario, Camera(80.0, 100.0, 240.0)
@@ -214,7 +215,7 @@ def test_who_is_a_neighbour_is_asked_once_a_control_step():
 # -- layers ---------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("layer", ["names", "velocities", "neighbours"])
+@each_case("layer", ["names", "velocities", "neighbours"])
 def test_each_layer_is_seen_when_it_is_on(layer):
     places = [(-1, 0, 0), (0, 0, 0)]
     frame = frame_of(places, (0.2, 0.1, 0.5), neighbours=Within(2))

@@ -26,6 +26,7 @@ from mars2d.output.raster.theme import (
     mixed,
     on_dark,
 )
+from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.window.written import THEMES, pixels
 
@@ -35,8 +36,8 @@ SEEN = 3.0
 TONES = ("running", "waiting", "past", "hand", "error")
 
 
-@pytest.mark.parametrize(
-    ("color", "ground", "expected"),
+@each_case(
+    "color, ground, expected",
     [("#000000", "#ffffff", 21.0), ("#777777", "#ffffff", 4.48), ("#0000ff", "#000000", 2.44)],
 )
 def test_contrast_is_that_of_wcag(color, ground, expected):
@@ -45,14 +46,14 @@ def test_contrast_is_that_of_wcag(color, ground, expected):
 
 
 @THEMES
-@pytest.mark.parametrize("ink", ["ink", "text", "muted"])
-@pytest.mark.parametrize("ground", ["page", "paper", "bar", "plate"])
+@each_case("ink", ["ink", "text", "muted"])
+@each_case("ground", ["page", "paper", "bar", "plate"])
 def test_words_can_be_read(theme, ink, ground):
     assert contrast(getattr(theme, ink), getattr(theme, ground)) >= READABLE
 
 
 @THEMES
-@pytest.mark.parametrize("kind", TONES)
+@each_case("kind", TONES)
 def test_what_the_clock_does_can_be_read(theme, kind):
     tone = getattr(theme, kind)
     for ground in (tone.pale, theme.bar, theme.plate):
@@ -110,17 +111,17 @@ def test_opacity_is_kept():
     assert DARK.shade("#ffffffe6") == DARK.paper + "e6"
 
 
-@pytest.mark.parametrize("color", [*PALETTE, THEORY, INK, "#a3003c", "#c92a2a", "#333333"])
+@each_case("color", [*PALETTE, THEORY, INK, "#a3003c", "#c92a2a", "#333333"])
 def test_words_of_a_scene_can_be_read(color):
     assert contrast(DARK.shade(color), DARK.paper) >= READABLE
 
 
-@pytest.mark.parametrize("name", [name for name in _NAMED if _NAMED[name] != "#ffffff"])
+@each_case("name", [name for name in _NAMED if _NAMED[name] != "#ffffff"])
 def test_each_colour_with_a_name_is_seen(name):
     assert contrast(DARK.shade(_NAMED[name]), DARK.paper) >= SEEN
 
 
-@pytest.mark.parametrize("material", MATERIAL_COLORS)
+@each_case("material", MATERIAL_COLORS)
 def test_the_edge_of_a_prop_is_seen(material):
     color = MATERIAL_COLORS[material]
     assert contrast(DARK.shade(prop_edge(color)), DARK.paper) >= SEEN
@@ -179,7 +180,7 @@ def all_shapes(color):
     return scenes
 
 
-@pytest.mark.parametrize("kind", all_shapes("#000000"))
+@each_case("kind", all_shapes("#000000"))
 def test_each_kind_of_shape_follows_the_theme(kind):
     scene = all_shapes("#0072b2")[kind]
     assert painted(scene, LIGHT)[50, 50].tolist() == [0x00, 0x72, 0xB2]

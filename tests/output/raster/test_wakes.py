@@ -55,6 +55,7 @@ def drawn_forward(run, row):
     return drawn(stage, frame_at(run, row))
 
 
+@pytest.mark.slow
 def test_rows_at_random_look_as_if_they_were_played_to(run):
     stage = Stage(Painter(), MEMORY)
     rng = np.random.default_rng(0)
