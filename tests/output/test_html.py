@@ -14,7 +14,7 @@ from mars2d.addons import Communication
 from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.scene import Scene
-from mars2d.output.pages.replay import page, save_html
+from mars2d.output.pages.replay import page
 from mars2d.record.rows import COLUMNS
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.sensors.base import Sensor
@@ -293,10 +293,3 @@ def test_a_record_without_rows_has_no_replay():
     empty = replace(record, **{name: getattr(record, name)[:0] for name in COLUMNS})
     with pytest.raises(InputError, match="no rows"):
         page(empty)
-
-
-def test_a_replay_that_cannot_be_written_is_one_clear_error(tmp_path):
-    record = mars2d.run(Scenario(robots=1, stop_time=0.1), control=circles)
-    assert save_html(record, tmp_path / "run.html").read_text(encoding="utf-8") == page(record)
-    with pytest.raises(InputError, match=r"run\.html: can't be written: No such file"):
-        record.save_html(tmp_path / "nowhere" / "run.html")

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import re
 import shlex
 import shutil
-import signal
 import subprocess
-import sys
-import time
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -31,8 +27,7 @@ from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
 from tests.cases import each_case
-from tests.faults.commands import started
-from tests.processes import PATIENCE, mars, wait_until
+from tests.processes import mars
 
 FAILS = """
 from mars2d import Prediction, Scenario
@@ -333,13 +328,6 @@ def test_what_can_not_be_done_is_said_in_one_line(paper, arguments, words):
     assert Path("file.txt").read_text() == "a file"
 
 
-@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="needs a folder nobody can write")
-def test_a_folder_that_can_not_be_written_is_known_before_the_first_run(paper):
-    code, out, err = paper("/proc/figures")
-    assert (code, out) == (2, "")
-    assert "/proc/figures: can't be written" in err
-
-
 def test_a_folder_of_which_nothing_is_left_but_the_pictures_is_still_its_own(tmp_path):
     for name in FIGURES[0].files:
         (tmp_path / name).write_bytes(b"")
@@ -457,53 +445,6 @@ def test_what_comes_out_does_not_depend_on_the_number_of_processes(tmp_path):
         assert {number for _, *active in seen for number in active} == {2, 3, 4}
     assert made[0] == made[1]
     assert len(made[0][0]) == 6
-
-
-def is_group(number):
-    """Return whether a group of processes has members."""
-    try:
-        os.killpg(number, 0)
-    except ProcessLookupError:
-        return False
-    return True
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child there")
-@pytest.mark.parametrize(
-    "only", [pytest.param("2,4,7", marks=pytest.mark.soak), "7"]
-)  # in processes of their own, and in one
-def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
-    folder = tmp_path / "out"
-    child = subprocess.Popen(
-        [sys.executable, "-m", "mars2d", "paper", str(folder), "--only", only],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
-    )  # fmt: skip
-    while not list(folder.glob("*.pdf")):
-        assert child.poll() is None
-        time.sleep(0.002)  # not wait_until: it may end soon after
-    os.killpg(child.pid, signal.SIGINT)  # as a terminal does: to all of them
-    out, err = child.communicate(timeout=PATIENCE)
-    assert child.returncode == 130
-    assert err == "mars2d: interrupted\n"
-    assert re.search(r"figure 7 .* not made\n", out)
-    assert f"page: {folder / 'index.html'}" in out
-    found = Page((folder / "index.html").read_text(encoding="utf-8"))
-    assert re.search(r"Broken off: figures? .*7 (was|were) not made\.", found.words())
-    check_numbers(folder)
-    assert not list(folder.glob("fig7*"))  # nor half a picture
-    wait_until(lambda: not is_group(child.pid))  # no worker is left behind
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-def test_no_process_outlives_it_however_it_ends(tmp_path, number):
-    command = started(tmp_path, "paper", "out", "--only", "2,4,7")
-    wait_until(lambda: [*(tmp_path / "out").glob("*.pdf")])
-    os.kill(command.pid, number)
-    assert command.end().code == (130 if number == signal.SIGTERM else -number)
-    assert command.left() == []
 
 
 # -- formulas, and the browser ----------------------------------------------------------------

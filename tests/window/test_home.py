@@ -190,10 +190,10 @@ def test_looks_are_remembered_and_what_is_asked_for_counts_more(memory):
     assert Memory().panels == ["scopes"]
 
 
-@pytest.mark.parametrize(
-    "text", ["", "[]", "{", '{"dark": 3, "text": "big", "size": 8, "recent": [1]}', "\0"]
-)
-def test_a_memory_that_was_spoilt_is_empty(memory, tmp_path, text):
+@each_case("text", ["", "[]", "{", '{"dark": 3, "text": "big", "size": 8, "recent": [1]}', "\0"])
+def test_a_memory_that_was_spoilt_is_empty(monkeypatch, tmp_path, text):
+    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
+    memory = Memory()
     (tmp_path / "memory").mkdir()
     (tmp_path / "memory" / "windows.json").write_text(text)
     assert (Memory().preferences(), Memory().size, Memory().recent) == (Preferences(), SIZE, [])
