@@ -2,8 +2,6 @@
 
 import builtins
 import itertools
-import subprocess
-import sys
 
 import numpy as np
 import pygame
@@ -214,13 +212,6 @@ def test_a_film_of_one_row_is_one_frame():
 def test_rates_must_be_positive_numbers(speed, fps):
     with pytest.raises(InputError, match="expected a number > 0"):
         film_rows([0, 1], speed, fps)
-
-
-def test_the_film_module_is_imported_without_pygame():
-    code = (
-        "import sys, mars2d.output.films.film;assert not {'pygame', 'av', 'PIL'} & set(sys.modules)"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 # -- films of records -----------------------------------------------------------------------------

@@ -74,6 +74,7 @@ def test_any_bits_come_back(record, tmp_path_factory):
         assert (again.contents, again.seed) == (record.contents, record.seed)
 
 
+@settings(max_examples=15)
 @given(names=st.lists(st.text(), unique=True))
 def test_names_for_other_programs_are_plain_and_differ(names):
     plain = plain_names([*names, 70 * "a", 70 * "a" + "b", *KEYWORDS])

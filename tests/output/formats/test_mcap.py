@@ -427,6 +427,7 @@ def test_a_run_that_is_killed_loses_no_finished_step(tmp_path) -> None:
     check_kills(6, tmp_path)
 
 
+@pytest.mark.slow
 def test_a_run_that_is_killed_while_it_is_packed_keeps_all(tmp_path, child) -> None:
     path = tmp_path / "run.mcap"
     code = (
