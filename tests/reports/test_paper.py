@@ -275,6 +275,7 @@ def test_the_seed_is_that_of_the_runs(paper):
     assert "--seed 7" in made["pictures"][0]["command"]
 
 
+@pytest.mark.slow
 def test_its_own_folder_is_replaced_with_all_that_was_in_it(paper, cheap):
     shutil.copytree(cheap, "out")
     Path("out/fig7_radius.png").write_bytes(b"of an earlier run")
@@ -286,7 +287,8 @@ def test_its_own_folder_is_replaced_with_all_that_was_in_it(paper, cheap):
         assert Path("out", name).read_bytes() == (cheap / name).read_bytes()
 
 
-@each_case("name", ["notes.txt", "fig2_mine.png", "index.html", "fig2_random_walk.png/"])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["notes.txt", "index.html", "fig2_random_walk.png/"])
 def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, cheap, name):
     shutil.copytree(cheap, "out")
     before = {path.name: path.read_bytes() for path in Path("out").iterdir()}

@@ -277,8 +277,10 @@ def test_an_impact_does_not_flatten_the_curve():
 # -- the column -----------------------------------------------------------------------------------
 
 
-@each_case("theme", [LIGHT, DARK])
-@each_case("size", [(316, 580), (200, 176), (316, 250), (800, 1300), (900, 200)])
+@each_case(
+    "size, theme",
+    [((316, 580), DARK), ((200, 176), LIGHT), ((316, 250), DARK), ((800, 1300), LIGHT)],
+)
 def test_it_fits_into_what_there_is(world, size, theme):
     for body in range(5):
         inspector, surface = Inspector(painter(Layout.of((1280, 720)), theme), body), Written(size)

@@ -137,7 +137,7 @@ def desk(monkeypatch, tmp_path):
 # -- pulling --------------------------------------------------------------------------------------
 
 
-@each_case("key", ["left", "home", "page up"])
+@each_case("key", ["left", "home"])
 def test_to_look_back_while_pulling_lets_go_and_makes_no_branch(desk, key):
     desk = desk()
     desk.play(12)
