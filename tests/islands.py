@@ -12,10 +12,11 @@ import pytest
 
 from mars2d import Scenario
 from mars2d.physics import translation
-from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.island import Island
 from mars2d.physics.islands.mover import Mover
 from mars2d.physics.islands.pair import Wall
+from mars2d.physics.islands.piece import Piece
 
 FIND_TESTS = f"import sys; sys.path.append({str(Path(__file__).parents[1])!r})\n"
 """Code by which a process of its own finds these tests, after the package that is installed."""
@@ -91,9 +92,10 @@ def place(body: Body, position: complex, angle: float = 0.0) -> None:
     body.locate()
 
 
-def let_move(body: Body, velocity: complex, spin: float = 0.0, bend: float = 0.0) -> None:
-    """Let a body have a velocity that turns by `bend` m/s^2 at most."""
-    body.vx, body.vy, body.spin, body.bend = velocity.real, velocity.imag, spin, bend
+def let_move(body: Body, velocity: complex, spin: float = 0.0, acceleration: float = 0.0) -> None:
+    """Let a body have a velocity that changes by `acceleration` m/s^2 at most."""
+    body.vx, body.vy, body.spin = velocity.real, velocity.imag, spin
+    body.acceleration = acceleration
 
 
 def states_of(bodies: Sequence[Body]) -> np.ndarray:

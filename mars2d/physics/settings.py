@@ -25,16 +25,16 @@ ITERATIONS_JOINTS = 31  # with joints: several may hold the same bodies
 With an even number it can end with none each time, and bodies go through each other.
 """
 
-TOIL = 5
+ITERATION_FACTOR = 5
 """How many times as many iterations an island has while bodies are too deep in each other. Odd."""
 
-MEND_RATE = 6.32163094
+BIAS_RATE = 6.32163094
 """The rate at which overlap beyond the slop decays, 1/s: to 0.9 in a sixtieth of a second."""
 
-JOINT_MEND_RATE = 356.674944
+JOINT_BIAS_RATE = 356.674944
 """That of a joint's error, 1/s: 30 % of it go in 1 ms."""
 
-TAUT = 1e-6
+ROPE_TOLERANCE = 1e-6
 """By how much the solver's rope is shorter than said, metres: so it pulls once it is straight."""
 
 # -- substeps -----------------------------------------------------------------------------------
@@ -49,7 +49,7 @@ The solver begins with what they did in the substep before. Where the next one h
 than that, they start again.
 """
 
-PRESSED = 0.25
+PRELOAD = 0.25
 """How deep bodies that press against each other overlap at least, in parts of the slop."""
 
 PUSH_DEPTH = 0.15
@@ -67,17 +67,17 @@ MEETING = 1 / 256
 It has gathered speed over this way too: as small a part of it as substeps allow.
 """
 
-BLOW = 1 / 16
+IMPACT_DEPTH = 1 / 16
 """How deep bodies may be in each other when they hit and no drive pushes, in parts of the slop.
 
 What has turned about the other since they touched is hit along another normal than at the touch:
 the blow changes the angular momentum of both by as much.
 """
 
-STRAINED = 0.9
+OVERLOAD = 0.9
 """How deep it is, in parts of how deep bodies may enter, where more pushes add up than thought."""
 
-STRAIN_GROWTH, STRAIN_FADE = 2.0, 0.98
+LOAD_GROWTH, LOAD_DECAY = 2.0, 0.98
 """The factor by which that number changes in a substep that finds them so deep, and in another."""
 
 STRETCH = 1 / 15
@@ -86,13 +86,13 @@ STRETCH = 1 / 15
 The solver draws it in again, and what it pulls at bounces by that much more than nothing.
 """
 
-BENT = 0.75
+JOINT_TOLERANCE = 0.75
 """How far a joint may be pulled apart in one substep, in parts of the stretch allowed."""
 
 SWING = 0.05
 """The longest substep, in periods of a spring over 2 pi."""
 
-MEND = 2.0
+SEAM_DEPTH = 2.0
 """How deep in a wall, in parts of the overlap allowed, a corner may be that a seam lets in.
 
 At the seam of two walls the engine's contact may point along one of them. It is then that of the
@@ -101,7 +101,7 @@ wall's face and the body's corners in it, up to this depth.
 
 # -- surfaces -----------------------------------------------------------------------------------
 
-STICKS = 1e-3
+STICK_SPEED = 1e-3
 """The speed along each other below which two surfaces stick rather than slide, m/s.
 
 Static friction holds up to there. Models of friction use a like speed to tell both apart, as D.

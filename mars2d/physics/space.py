@@ -18,7 +18,7 @@ from pymunk._chipmunk_cffi import ffi, lib
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.plane import WITHIN, Outline, Point, edges_of
-from mars2d.physics.islands.chipmunk import bodies_are_as_thought, frame_of
+from mars2d.physics.islands.chipmunk import frame_of
 from mars2d.physics.rays import BODY, POSE, SIGHT, Rays, end_bars
 from mars2d.scenario.scenario import Scenario
 
@@ -61,8 +61,7 @@ class Space:
         self._rays = Rays(space, shapes | walls)
         self._poses = np.zeros((len(self._bodies) + 1 + len(self.obstacles), 3))
         self._buffer = batch.Buffer()
-        known = bodies_are_as_thought()
-        self._frames = [np.frombuffer(frame_of(body._body)) for body in self._bodies if known]
+        self._frames = [np.frombuffer(frame_of(body._body)) for body in self._bodies]
         return space
 
     def _body(
@@ -104,7 +103,7 @@ class Space:
         x, y, theta = self._poses[: len(self._bodies)].T
         c, s = cosines_sines(theta)
         rows = np.column_stack([c, s, -s, c, x, y])
-        for frame, row in zip(self._frames, rows, strict=False):
+        for frame, row in zip(self._frames, rows, strict=True):
             frame[:] = row
 
     @property

@@ -53,7 +53,7 @@ def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) ->
         module.Accuracy(accuracy),
         module.Glide(*(part.tolist() for part in _quadrature(20))),
         bodies,
-        _walls(module, scenario, accuracy["mend"]),
+        _walls(module, scenario, accuracy["seam_depth"]),
         [_tie(module, tie, bodies) for tie in scenario.ties],
         set(scenario.joined),
         _surfaces(module, scenario, bodies),
@@ -72,26 +72,23 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bo
     ]  # fmt: skip
     body = module.Body(number, isinstance(part, Robot), pieces, _values(rigid.surface))
     what: dict[str, Any] = {
-        "mass": inertia.mass, "moment": inertia.moment, "lead": rigid.lead, "radius": radius,
+        "mass": inertia.mass, "moment": inertia.moment, "com": rigid.lead, "radius": radius,
         "offset_x": x, "offset_y": y, "is_disc": rigid.is_disc and not (x or y),
     }  # fmt: skip
     if isinstance(part, Prop):
-        what |= {
+        body.describe(what | {
             "grip": part.ground_friction * inertia.mass * GRAVITY,
-            "rest_grip": part.resting_friction * inertia.mass * GRAVITY,
-            "lever": shape.lever,
-        }
+            "rest_grip": part.resting_friction * inertia.mass * GRAVITY, "lever": shape.lever,
+        })  # fmt: skip
     else:
         drive = part.drive
-        what |= {
-            "force": drive.max_force, "torque": drive.max_torque, "rim": radius,
+        body.describe(what)
+        body.describe_drive({
+            "force": drive.max_force, "torque": drive.max_torque,
             "in_robot_frame": drive.frame == "robot", "limited": drive.force_limited and forces,
             "no_load_speed": 1e300 if drive.no_load_speed is None else drive.no_load_speed,
-            "grips": [
-                1e300 if grip is None else grip * inertia.mass * GRAVITY for grip in drive.grips
-            ],
-        }  # fmt: skip
-    body.describe(what)
+            "grips": [1e300 if g is None else g * inertia.mass * GRAVITY for g in drive.grips],
+        })  # fmt: skip
     body.move([float(number) for number in (*rigid.pose, *rigid.velocity)], False)
     return body
 
@@ -154,7 +151,7 @@ def _surfaces(module: Any, scenario: Scenario, bodies: Sequence[Any]) -> Any:
         [module.Surface(*_skin(body.surface)) for body in scenario.bodies],
         [module.Surface(*skin) for skin in of_walls],
         (RULES.index(scenario.friction_rule), RULES.index(scenario.restitution_rule)),
-        settings.STICKS,
+        settings.STICK_SPEED,
         _pairs(scenario),
     )
 
@@ -227,32 +224,32 @@ def _accuracy(scenario: Scenario) -> dict[str, float]:
         "max_overlap": float(overlap),
         "entry": entry,
         "slop": slop,
-        "mend_rate": settings.MEND_RATE,
-        "joint_mend_rate": settings.JOINT_MEND_RATE,
+        "bias_rate": settings.BIAS_RATE,
+        "joint_bias_rate": settings.JOINT_BIAS_RATE,
         "swaying": settings.SWAYING,
-        "pressed": settings.PRESSED * slop,
+        "preload": settings.PRELOAD * slop,
         "closed": min(settings.CLOSED, settings.MEETING * slop),
         "touch": settings.MEETING * slop,
-        "blow": settings.BLOW * slop,
+        "impact_depth": settings.IMPACT_DEPTH * slop,
         "turned": settings.TURNED * overlap * max(1.0, overlap / settings.DEFAULT_OVERLAP),
         "growth": settings.GROWTH,
         "linger": settings.LINGER,
         "slack": settings.SLACK,
-        "taut": settings.TAUT,
+        "rope_tolerance": settings.ROPE_TOLERANCE,
         "stretch": settings.STRETCH * entry,
-        "give": settings.BENT * settings.STRETCH * entry,
+        "joint_tolerance": settings.JOINT_TOLERANCE * settings.STRETCH * entry,
         "push_depth": settings.PUSH_DEPTH * overlap,
         "push_room": settings.PUSH_ROOM * overlap,
-        "strained": settings.STRAINED * entry,
-        "strain_growth": settings.STRAIN_GROWTH,
-        "strain_fade": settings.STRAIN_FADE,
-        "toil": settings.TOIL,
+        "overload": settings.OVERLOAD * entry,
+        "load_growth": settings.LOAD_GROWTH,
+        "load_decay": settings.LOAD_DECAY,
+        "iteration_factor": settings.ITERATION_FACTOR,
         "spring_step": min(springs, default=1e300),
         "iterations": settings.ITERATIONS,
         "iterations_unequal": settings.ITERATIONS_UNEQUAL,
         "iterations_ties": settings.ITERATIONS_JOINTS,
-        "graze": min(settings.SLOP, thinnest / 32),
-        "mend": min(settings.MEND * overlap, thinnest / 2),
+        "grazing_depth": min(settings.SLOP, thinnest / 32),
+        "seam_depth": min(settings.SEAM_DEPTH * overlap, thinnest / 2),
     }
 
 
@@ -312,7 +309,7 @@ def _translated(
     world_first = attached.b < 0  # it is a that turns against the world
     match constraint:
         case MaxDistance(length=length):
-            return chipmunk.SLIDE, False, (0.0, float(length) - settings.TAUT, 0.0)
+            return chipmunk.SLIDE, False, (0.0, float(length) - settings.ROPE_TOLERANCE, 0.0)
         case FixedDistance(length=length):
             return chipmunk.PIN, False, (float(length), 0.0, 0.0)
         case SpringDamper(length=length, stiffness=k, damping=c):

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.arithmetic import angle_of, norm, norms
+from mars2d.core.arithmetic import angle_of, norm
 from mars2d.core.plane import Outline, Point, edges_of
 
 MEET = 1e-6
@@ -24,9 +24,6 @@ MEET = 1e-6
 
 FEW = 48
 """Up to this number of walls, all pairs are looked at."""
-
-MOST_CELLS = 1e6
-"""About the most cells in which walls are looked for."""
 
 Float = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -154,35 +151,11 @@ def _near(points: Float, starts: Float, ends: Float) -> tuple[Whole, Whole]:
     m, n = len(points), len(starts)
     if n <= FEW:
         return np.repeat(np.arange(m), n), np.tile(np.arange(n), m)
-    low = np.minimum(starts.min(axis=0), ends.min(axis=0))
-    wide, high = np.maximum(starts.max(axis=0), ends.max(axis=0)) - low
-    far = norms(*(ends - starts).T)
-    size = min(max((wide * high / n) ** 0.5, (wide + high) / n), 4 * float(np.median(far)))
-    size = max(size, far.sum() / MOST_CELLS, 1e3 * MEET)
-    rows = int(high / size) + 4
+    import shapely
 
-    def cells(xy: Float) -> Whole:
-        column, row = np.floor((xy - low) / size).astype(np.int64).T + 1
-        return np.asarray(column * rows + row)
-
-    where = cells(points)
-    order = np.argsort(where, kind="stable")
-    known = where[order]
-    # pieces of lines shorter than a cell lie in those in which the corners of their boxes do
-    parts = 1 + (far / (0.9 * size)).astype(np.intp)
-    line = np.repeat(np.arange(n), parts)
-    share = (np.arange(len(line)) - np.repeat(np.cumsum(parts) - parts, parts))[:, None]
-    step = ((ends - starts) / parts[:, None])[line]
-    first, last = starts[line] + share * step, starts[line] + (share + 1) * step
-    least, most = np.minimum(first, last) - 2 * MEET, np.maximum(first, last) + 2 * MEET
-    boxes = [np.column_stack([x[:, 0], y[:, 1]]) for x in (least, most) for y in (least, most)]
-    passed = np.concatenate([cells(box) for box in boxes])
-    begin, end = (np.searchsorted(known, passed, side) for side in ("left", "right"))
-    some = end > begin
-    key, at = np.unique((passed * n + np.tile(line, 4))[some], return_index=True)
-    begin, count = begin[some][at], (end - begin)[some][at]
-    chosen = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count - begin, count)
-    return order[chosen], np.repeat(key % n, count)
+    tree = shapely.STRtree(shapely.linestrings(np.stack([starts, ends], axis=1)))
+    which, line = tree.query(shapely.points(points), predicate="dwithin", distance=2 * MEET)
+    return which, line
 
 
 def _met(wall: Wall, walls: Sequence[Wall], meetings: tuple[list[int], list[int]]) -> Wall:

@@ -1,4 +1,4 @@
-"""Worker processes: each does one task at a time, and one that dies is replaced.
+"""Worker processes: a pool that is made anew when one of them dies.
 
 Tasks and results travel as bytes, so that anything that can't be pickled or found on the other
 side is reported for its own task and does not harm the pool.
@@ -6,19 +6,19 @@ side is reported for its own task and does not harm the pool.
 
 from __future__ import annotations
 
-import atexit
+import faulthandler
 import multiprocessing
 import os
 import pickle
 import signal
 import sys
 import threading
-import time
-from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from functools import lru_cache
-from multiprocessing.connection import Connection, wait
+from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from mars2d.core.errors import InputError, shown
@@ -30,20 +30,11 @@ R = TypeVar("R")
 
 SPAWN = multiprocessing.get_context("spawn")
 
-UNGUARDED_EXIT_CODE = 79
-"""The exit code of a worker that reaches, while importing its script, the call that started it."""
-
-MAX_FAILED_STARTS = 3
-"""How many workers in a row may be killed before they have begun."""
-
 BREAKING_OFF = 6.0
 """How long a task may take to end by itself at its limit, before its process is ended, seconds."""
 
 LOOK = 0.5
-"""The time between two looks at tasks with a limit, seconds."""
-
-END_TIMEOUT = 2.0
-"""How long workers may take to end when they are told to, seconds."""
+"""The time between two looks for results, seconds; Ctrl-C waits for it, on Windows."""
 
 
 # -- attempts --------------------------------------------------------------------------------------
@@ -137,215 +128,93 @@ def leave_if_imported_again() -> None:
     workers without end. The parent process recognizes the exit code and explains the mistake.
     """
     if getattr(multiprocessing.current_process(), "_inheriting", False):
-        raise SystemExit(UNGUARDED_EXIT_CODE)
+        raise SystemExit(1)
 
 
 def done_by_processes(
     function: Callable[[T], R], tasks: Sequence[T], count: int, limit: float | None = None
 ) -> Iterator[tuple[int, R | Failure]]:
-    """Do the tasks in `count` processes; yield as `mars2d.study.work.each_done` does."""
-    known, order, left = packed(function), _Order(len(tasks)), len(tasks)
-    crew = _Crew()
+    """Do the tasks in `count` processes; yield as `mars2d.study.work.each_done` does.
+
+    The tasks that run when a process dies are done once more, alone; so the one to blame is known.
+    """
+    known, doubtful, blamed = packed(function), list[int](), list[int]()
+    yield from _done(known, tasks, range(len(tasks)), min(count, len(tasks)), limit, doubtful)
+    yield from _done(known, tasks, doubtful, 1, limit, blamed)
+    late = "" if limit is None else f", perhaps in code in C at the time limit of {limit:g} s"
+    for index in blamed:
+        yield index, Failure(f"the process that ran it ended, twice{late}")
+
+
+def _done(
+    function: bytes,
+    tasks: Sequence[Any],
+    which: Iterable[int],
+    count: int,
+    limit: float | None,
+    lost: list[int],
+) -> Iterator[tuple[int, Any]]:
+    """Do tasks in `count` processes, and yield results; add to `lost` those that a death ended."""
+    left, running, pool = iter(which), dict[Future[bytes], int](), None
+    end = None if limit is None else limit + BREAKING_OFF
+    following = next(left, None)
     try:
-        crew.start(min(count, left))
-        while left:
-            done = []
-            for index, returned in crew.wait(limit):
-                if isinstance(returned, bytes):
-                    done.append((index, unpacked(returned)))
-                elif isinstance(returned, _TooLong):
-                    done.append((index, Failure(returned)))
-                elif not order.once_more(index):
-                    failure = Failure(f"the process that ran it {returned}, twice")
-                    done.append((index, failure))
-            for worker in crew.idle():
-                following = order.next(alone=not crew.busy())
-                if following is not None:
-                    worker.give(following, known, packed(tasks[following]))
-            left -= len(done)
-            yield from done  # while the others go on
+        while following is not None or running:
+            pool = pool or _started(count)
+            while following is not None and len(running) < count:
+                task = packed(tasks[following])
+                running[_submitted(pool, _attempt_within, end, function, task)] = following
+                following = next(left, None)
+            for future in wait(running, LOOK, FIRST_COMPLETED).done:
+                index = running.pop(future)
+                if isinstance(future.exception(), BrokenProcessPool):
+                    lost += [index, *running.values()]
+                    running.clear()
+                    _end(pool)
+                    pool = None
+                    break
+                yield index, unpacked(future.result())
     finally:
-        crew.end()
+        if pool is not None:
+            _end(pool)
 
 
-class _TooLong(str):
-    """The message about a task whose process was ended at its limit."""
+def _started(count: int) -> ProcessPoolExecutor:
+    """Return a pool whose first process has begun. Raises InputError if it can't."""
+    pool = ProcessPoolExecutor(count, SPAWN, _begin)
+    try:
+        _submitted(pool, os.getpid).result()
+    except OSError as error:
+        raise InputError(f"workers={count}: none could be started: {error.strerror}") from error
+    except BrokenProcessPool:
+        _end(pool)
+        raise InputError(
+            "a worker process ended before it had begun: each imports the script that "
+            "runs the study, which must be a file that can be imported: put what runs many runs "
+            'under `if __name__ == "__main__":`'
+        ) from None
+    except BaseException:
+        _end(pool)
+        raise
+    return pool
 
 
-class _Order:
-    """The order of tasks: each in turn, then, one by one, those whose worker died."""
-
-    def __init__(self, count: int) -> None:
-        self._fresh = iter(range(count))
-        self._again: deque[int] = deque()
-        self._ended: set[int] = set()
-
-    def next(self, *, alone: bool) -> int | None:
-        """Return the next task, or None; alone: whether no other task is running."""
-        index = next(self._fresh, None)
-        if index is None and self._again and alone:
-            return self._again.popleft()
-        return index
-
-    def once_more(self, index: int) -> bool:
-        """Note that a task's worker died; return whether the task is tried once more."""
-        first = index not in self._ended
-        if first:
-            self._ended.add(index)
-            self._again.append(index)
-        return first
+def _submitted(pool: ProcessPoolExecutor, call: Callable[..., R], *arguments: Any) -> Future[R]:
+    """Submit a call, for which a process may be started; a broken pool's future says so."""
+    try:
+        with _deaf(), _one_thread():
+            return pool.submit(call, *arguments)
+    except BrokenProcessPool as error:
+        broken: Future[R] = Future()
+        broken.set_exception(error)
+        return broken
 
 
-class _Worker:
-    """A process that does one task at a time."""
-
-    def __init__(self) -> None:
-        self.connection, theirs = SPAWN.Pipe()
-        self.process = SPAWN.Process(target=_serve, args=(theirs,))
-        try:
-            with _deaf(), _one_thread():
-                self.process.start()
-        finally:
-            theirs.close()
-        self.ready = False
-        self.task: int | None = None
-        self.spent = 0.0  # how long its task has taken, seconds
-
-    def give(self, index: int, function: bytes, task: bytes) -> None:
-        """Send a task; a worker that has died in the meantime will be blamed on this task."""
-        self.task, self.spent = index, 0.0
-        with suppress(OSError):
-            self.connection.send_bytes(function)
-            self.connection.send_bytes(task)
-
-    def message(self) -> bytes | None:
-        """Return the message that it has sent, or None if it has died."""
-        with suppress(EOFError, OSError):
-            if self.connection.poll():
-                return self.connection.recv_bytes()
-        return None
-
-    def tell_to_end(self) -> None:
-        """Close the connection, which ends an idle worker, and send a busy one a signal."""
-        self.connection.close()
-        if self.task is not None or not self.ready:
-            self.process.terminate()
-
-    def has_ended(self) -> bool:
-        """Return whether it has ended, even if processes that it has started hold its pipes."""
-        return self.process.exitcode is not None
-
-    def how_ended(self, until: float) -> str:
-        """Wait for its end until a time of the monotonic clock, then kill it; say how it ended."""
-        try:
-            self.process.join(max(0.0, until - time.monotonic()))
-        finally:
-            self.process.kill()
-        self.process.join()
-        code = self.process.exitcode or 0
-        if code >= 0:
-            return f"ended with exit code {code}"
-        why = ", perhaps for lack of memory" if code == -9 else ""
-        return f"was killed by {signal.Signals(-code).name}{why}"
-
-
-class _Crew:
-    """All workers; a new one takes the place of each that dies."""
-
-    def __init__(self) -> None:
-        self._workers: list[_Worker] = []
-        self._failed_starts = 0
-
-    def start(self, count: int) -> None:
-        """Start `count` processes."""
-        atexit.register(self.end)  # before multiprocessing waits for them there
-        for started in range(count):
-            try:
-                self._workers.append(_Worker())
-            except OSError as error:
-                why = f"only {started} processes could be started: {error.strerror}"
-                raise InputError(f"workers={count}: {why}") from error
-
-    def end(self) -> None:
-        """End all processes at the same time, and kill those that take over `END_TIMEOUT`."""
-        atexit.unregister(self.end)
-        for worker in self._workers:
-            worker.tell_to_end()
-        until = time.monotonic() + END_TIMEOUT
-        try:
-            for worker in self._workers:
-                worker.how_ended(until)
-        finally:
-            for worker in self._workers:
-                worker.process.kill()
-
-    def idle(self) -> list[_Worker]:
-        """Return the workers that wait for a task."""
-        return [worker for worker in self._workers if worker.ready and worker.task is None]
-
-    def busy(self) -> bool:
-        """Return whether any worker is doing a task."""
-        return any(worker.task is not None for worker in self._workers)
-
-    def wait(self, limit: float | None = None) -> list[tuple[int, bytes | str]]:
-        """Wait for news; return (index of a task, its result or how its worker died, in words).
-
-        limit: seconds after which the worker of a task is ended.
-        """
-        ends = [end for each in self._workers for end in (each.connection, each.process.sentinel)]
-        start = time.monotonic()
-        heard = set(wait(ends, LOOK))
-        heard |= {each.process.sentinel for each in self._workers if each.has_ended()}
-        found = [] if limit is None else self._late(limit, time.monotonic() - start)
-        for place, worker in enumerate(self._workers):
-            if worker.connection not in heard and worker.process.sentinel not in heard:
-                continue
-            index, message = worker.task, worker.message()
-            how = "" if message is not None else self._replace(place)
-            worker.task, worker.ready = None, True
-            self._failed_starts = 0 if message is not None else self._failed_starts
-            if index is not None:
-                found.append((index, how if message is None else message))
-        return found
-
-    def _late(self, limit: float, passed: float) -> list[tuple[int, bytes | str]]:
-        """End the workers whose task takes too long, and return the tasks.
-
-        passed: seconds since the last look. One that comes late, as after a pause of the whole
-        program, counts as one look.
-        """
-        found: list[tuple[int, bytes | str]] = []
-        for place, worker in enumerate(self._workers):
-            if worker.task is None:
-                continue
-            worker.spent += min(passed, 2 * LOOK)
-            if worker.spent > limit + BREAKING_OFF and not worker.connection.poll():
-                said = f"took longer than {limit:g} s, in code that nothing interrupts"
-                found.append((worker.task, _TooLong(said)))
-                worker.process.kill()
-                self._replace(place)
-        return found
-
-    def _replace(self, place: int) -> str:
-        """Replace a worker that has died; say how it did. Raises InputError if none can begin."""
-        worker = self._workers[place]
-        worker.tell_to_end()
-        how = worker.how_ended(time.monotonic() + END_TIMEOUT)
-        if not worker.ready:
-            self._failed_starts += 1
-            code = worker.process.exitcode or 0
-            if code == UNGUARDED_EXIT_CODE:
-                raise InputError(
-                    "a script that starts worker processes is imported by each of them: put what "
-                    'runs many runs under `if __name__ == "__main__":`'
-                )
-            if code >= 0 or self._failed_starts == MAX_FAILED_STARTS:
-                raise InputError(
-                    f"a worker process {how} before it had begun, see above: each worker imports "
-                    "the script that runs the study, which must be a file that can be imported"
-                )
-        self._workers[place] = _Worker()
-        return how
+def _end(pool: ProcessPoolExecutor) -> None:
+    """End the processes of a pool, whatever they do."""
+    for process in [*(pool._processes or {}).values()]:  # public as kill_workers from 3.14 on
+        process.kill()
+    pool.shutdown(cancel_futures=True)
 
 
 @contextmanager
@@ -380,16 +249,22 @@ def _one_thread() -> Iterator[None]:
 # -- inside a worker -------------------------------------------------------------------------------
 
 
-def _serve(connection: Connection) -> None:
-    """Do tasks, in a process of its own, until the connection closes."""
+def _begin() -> None:
+    """Begin a worker: Ctrl-C is its parent's business, and it ends with its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    with suppress(EOFError, BrokenPipeError, ConnectionResetError):
-        connection.send_bytes(b"")
-        while True:
-            returned = attempt_packed(connection.recv_bytes(), connection.recv_bytes())
+
+
+def _attempt_within(seconds: float | None, function: bytes, task: bytes) -> bytes:
+    """Do as `attempt_packed`; after some seconds this process is ended, even within C code."""
+    with Path(os.devnull).open("w") as nothing:
+        if seconds is not None:
+            faulthandler.dump_traceback_later(seconds, exit=True, file=nothing)
+        try:
+            return attempt_packed(function, task)
+        finally:
+            faulthandler.cancel_dump_traceback_later()
             sys.stdout.flush()
-            connection.send_bytes(returned)
 
 
 def _end_with_parent() -> None:

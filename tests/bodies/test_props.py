@@ -140,9 +140,9 @@ def threshold(robots, prop: Prop, low: float, high: float) -> float:
     ("force", "prop", "x"),
     [
         (5, Box(), -0.351),
-        pytest.param(5, Box(mass=2.5), -0.351, marks=pytest.mark.soak),
+        pytest.param(5, Box(mass=2.5), -0.351, marks=pytest.mark.nightly),
         (3, Puck(), -0.251),
-        pytest.param(4, Solid(ELL), -0.371, marks=pytest.mark.soak),
+        pytest.param(4, Solid(ELL), -0.371, marks=pytest.mark.nightly),
     ],
     ids=["box", "heavy box", "puck", "ell"],
 )

@@ -386,7 +386,7 @@ def test_any_scenario_is_refused_or_runs_finite_in_its_walls_and_in_bounds(data,
     check(data, rng_seed, plain)
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("batch", range(20))
 def test_thousands_of_scenarios_are_refused_or_run(batch):
     @seed(batch)

@@ -106,6 +106,7 @@ def test_a_wheel_of_the_source_distribution_brings_the_engine_compiled(project, 
     assert "its sources have changed" in engine_of(site)
 
 
+@pytest.mark.nightly
 @compiles
 def test_a_wheel_that_is_built_twice_has_the_same_bytes(project, tmp_path):
     again = shutil.copytree(project, tmp_path / "another" / "folder")
@@ -119,6 +120,7 @@ def test_a_wheel_is_built_without_a_compiler_as_well(project):
     assert "was not compiled" in engine_of(unpacked(wheel))
 
 
+@pytest.mark.nightly
 def test_a_compiler_that_hangs_is_ended_and_the_wheel_is_built_without_it(project):
     hook = project / "hatch_build.py"
     hook.write_text(hook.read_text().replace("LONGEST = 900", "LONGEST = 5"))
@@ -131,6 +133,7 @@ def test_a_compiler_that_hangs_is_ended_and_the_wheel_is_built_without_it(projec
         wait_until(lambda pid=pid: not running(int(pid.stem)))
 
 
+@pytest.mark.nightly
 def test_nothing_is_compiled_where_the_environment_says_so(project):
     wheel, printed = built(project, "wheel", MARS2D_PLAIN="1")
     assert wheel.name.endswith("none-any.whl")
@@ -141,6 +144,7 @@ def test_nothing_is_compiled_where_the_environment_says_so(project):
     assert all(link.startswith("https://") for link in links)
 
 
+@pytest.mark.nightly
 @compiles
 def test_an_editable_install_has_the_engine_compiled_beside_its_sources(project):
     pytest.importorskip("editables")

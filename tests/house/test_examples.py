@@ -95,7 +95,7 @@ def test_an_example_goes_its_golden_way_and_where_digests_are_pinned_has_its_own
     assert Golden.read(name).excess(record) < 1
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_older_processors_give_the_same_digests():
     """numpy picks its routines by processor; here those of older ones, as far as there are any."""
     from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__

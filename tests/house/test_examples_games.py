@@ -153,7 +153,7 @@ def test_two_matches_of_the_corner_game_end_as_the_example_says(pursuer, evader,
         assert len(hunt(pursuer, evader, mu, seed)[0].captures) == captures // 10
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_all_matches_of_the_corner_game_end_as_the_example_says():
     for (pursuer, evader), counts in claimed().items():
         for mu, count in zip([0.8, 0.85, 0.9, 0.95, 1.0], counts, strict=True):

@@ -226,7 +226,7 @@ def test_the_first_victim_is_the_one_in_whose_cell_the_predator_appears():
         assert result.captures[0].evader == inside.index(True) + 1
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_the_risk_of_one_is_one_over_the_number():
     for number in (4, 8, 16):
         runs = 120

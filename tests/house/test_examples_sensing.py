@@ -51,7 +51,7 @@ def test_options_that_an_example_can_not_be_run_with_are_refused_by_name(name, o
         open_experiment(name, options)
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize("name", ["braitenberg", "wall_follower", "dead_reckoning"])
 def test_other_seeds_agree_too(name, seed):
     _, predictions = predicted(name, seed=seed)

@@ -27,7 +27,7 @@ def costs(record, rows):
     return [voronoi.of(record.frame(row)).cost for row in rows]
 
 
-@pytest.mark.parametrize("holonomic", [pytest.param(False, marks=pytest.mark.soak), True])
+@pytest.mark.parametrize("holonomic", [pytest.param(False, marks=pytest.mark.nightly), True])
 def test_in_a_square_the_cost_never_rises_and_robots_end_at_their_centroids(holonomic):
     record, found = predicted("coverage_square", holonomic=holonomic)
     assert [each.name for each in found.values() if not each.ok] == []
@@ -56,7 +56,7 @@ def test_the_checks_see_a_robot_that_stands_still(name):
 
 
 @pytest.mark.parametrize(
-    "options", [pytest.param({"k": 0.1}, marks=pytest.mark.soak), {"stop_time": 5.0}]
+    "options", [pytest.param({"k": 0.1}, marks=pytest.mark.nightly), {"stop_time": 5.0}]
 )
 @pytest.mark.parametrize("name", ["coverage_square", "coverage_circle"])
 def test_of_robots_that_are_still_on_their_way_only_H_is_checked(name, options):

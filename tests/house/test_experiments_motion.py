@@ -120,7 +120,7 @@ def test_robots_circle_a_beacon_that_has_moved_evenly_and_to_the_left():
     assert all(robot.sees == "sensors" for robot in record.scenario.robots)
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_on_a_wide_circle_they_keep_their_distance_and_leave_one_gap():
     record, checks = outcome("circular_motion", radius=0.85)
     apart = degrees(2 * asin(1.05 / 1.7))

@@ -48,7 +48,7 @@ def test_capture_begins_where_the_cycle_gets_as_narrow_as_a_robot(mu, winner):
 
 
 @pytest.mark.parametrize(
-    "name", ["pursuit_corners", pytest.param("pursuit_voronoi", marks=pytest.mark.soak)]
+    "name", ["pursuit_corners", pytest.param("pursuit_voronoi", marks=pytest.mark.nightly)]
 )
 def test_the_checks_see_a_pursuer_that_is_slower_than_it_should_be(name):
     experiment = open_experiment(name)
@@ -113,7 +113,7 @@ def test_the_pursuer_of_the_paper_catches_at_0_8_after_about_98_seconds():
     assert all(p.ok for p in predictions)
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_it_does_so_from_other_starts_too():
     rng = np.random.default_rng(1)
     starts = [at for at in rng.uniform(-4.5, 4.5, (12, 2)) if hypot(*(at + 4.5)) > 2][:4]
@@ -122,7 +122,7 @@ def test_it_does_so_from_other_starts_too():
         assert 45 < outcome.capture_time < 101, record.over_message
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_it_does_not_at_0_7():
     assert played("pursuit_voronoi", ratio=0.7, stop_time=150)[1].winner == "evader"
 

@@ -124,6 +124,6 @@ def test_golden_paths_hold_on_a_platform_that_rounds_otherwise(tmp_path):
     check_elsewhere(tmp_path, SHORT)
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_all_golden_paths_hold_on_a_platform_that_rounds_otherwise(tmp_path):
     check_elsewhere(tmp_path, tuple(DIGESTS))

@@ -28,13 +28,13 @@ def rows(section: str) -> dict[str, float]:
 
 
 LONG = {"friction_threshold"}
-"""Facts that take seconds to measure: `pytest -m soak`."""
+"""Facts that take seconds to measure: `pytest -m nightly`."""
 
 
 @pytest.mark.parametrize(
     "fact",
     [
-        pytest.param(f, id=f.__name__, marks=[pytest.mark.soak] if f.__name__ in LONG else [])
+        pytest.param(f, id=f.__name__, marks=[pytest.mark.nightly] if f.__name__ in LONG else [])
         for f in make_theory.FACTS
     ],
 )
@@ -47,7 +47,7 @@ def test_a_fact_of_the_page_holds(fact):
         assert stated[prediction.name] == pytest.approx(prediction.predicted, rel=1e-4, abs=1e-12)
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_what_examples_say_of_themselves_is_on_the_page_and_holds():
     stated = rows("The examples")
     measured = make_theory.of_examples()

@@ -38,7 +38,7 @@ TESTS = (
     "addons/test_floor_addon", "world/test_world", "world/test_session", "output/formats/test_mcap",
 )  # fmt: skip
 QUIET = (
-    "-q", "-p", "no:cacheprovider", "-m", "not soak",
+    "-q", "-p", "no:cacheprovider", "-m", "not nightly",
     "-k", "not in_no_time",  # a busy machine kills nobody
 )  # fmt: skip
 ASLEEP = 600

@@ -427,8 +427,8 @@ def test_a_time_outside_of_the_record_is_refused(record, time, named):
 )
 def test_files_have_their_format_and_are_reproducible(record, tmp_path, suffix, start, times):
     first, second = tmp_path / f"a{suffix}", tmp_path / f"b{suffix}"
-    assert save_figure(record, first, times) == first
-    save_figure(record, str(second), times)
+    assert save_figure(record, first) == first
+    save_figure(record, str(second))
     assert first.read_bytes().startswith(start)
     assert first.read_bytes() == second.read_bytes()
     for dated in (b"CreationDate", b"dc:date"):

@@ -17,6 +17,7 @@ from mars2d.physics.islands.arithmetic import (
     power,
     sine,
 )
+from tests.cases import each_case
 
 ULP = 2.0**-53
 """Half the distance between 1 and the next number: by this much a rounded sine may be off."""
@@ -43,7 +44,7 @@ def test_sines_and_cosines_are_the_librarys_to_their_last_digit(ours, theirs, an
         assert off(ours(angle), theirs(angle)) <= 2
 
 
-@pytest.mark.parametrize(("ours", "theirs"), BOTH, ids=["sine", "cosine"])
+@each_case(("ours", "theirs"), BOTH)
 def test_so_they_are_where_they_are_almost_zero_or_one(ours, theirs):
     for k in [*range(-40, 41), 1000, 10_001, 600_000]:
         near = k * math.pi / 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +14,9 @@ import pytest
 import mars2d
 from mars2d import Scenario, World
 from mars2d.physics import islands
+from mars2d.physics.islands import chipmunk, layout
 from mars2d.physics.settings import versions
+from tests.cases import each_case
 from tests.islands import plainly
 
 KNOWN = islands.reason_without()
@@ -93,7 +96,7 @@ def test_where_it_was_not_compiled_worlds_do_without(copied, child):
 def test_a_change_of_any_of_its_sources_is_noticed(copied, child):
     made = Path(islands._loaded()[0].__file__)
     shutil.copy(made, copied)
-    names = [*islands.build.MODULES, "build"]
+    names = [*islands.build.MODULES, "build", "chipmunk"]
     for source in [*(copied / f"{name}.py" for name in names), copied / "chipmunk.pxi"]:
         text = source.read_text(encoding="utf-8")
         source.write_text(text + "# changed\n", encoding="utf-8")
@@ -148,6 +151,25 @@ def test_an_engine_of_another_shape_is_noticed(monkeypatch):
     assert "its function hypot is a double(*)(double, double)" in changes(ARBITER)
 
 
+def test_numbers_that_the_engine_has_elsewhere_are_noticed(monkeypatch):
+    """Neither the compiled module nor Python could use such an engine."""
+    assert layout.misplaced() == ""
+    for what, names in {
+        "its bodies have their poses elsewhere": ("LEAD", "CENTER", "FAST", "ANGLE", "TURN"),
+        "its joints have their impulses elsewhere": (
+            "PIVOT_IMPULSE", "GEAR_IMPULSE", "GROOVE_IMPULSE",
+        ),
+        "its springs have their damping elsewhere": ("REST", "LOST", "FELT", "FELT_TURNING"),
+    }.items():  # fmt: skip
+        for name in names:
+            with monkeypatch.context() as patch:
+                patch.setattr(chipmunk, name, getattr(chipmunk, name) + 1)
+                assert layout.misplaced.__wrapped__() == what, name
+    monkeypatch.setattr(layout, "misplaced", lambda: "its bodies have their poses elsewhere")
+    with pytest.raises(ImportError, match="can't be used: its bodies"):
+        islands.islands()
+
+
 def test_only_what_is_pointed_to_may_differ():
     """The islands know no body from another thing of the engine."""
     ours = islands._plain("Vector(*)(void *, double)")
@@ -163,9 +185,8 @@ def test_all_functions_that_it_calls_are_checked():
     """Each that stands in the C of chipmunk.pxi, in the order in which it takes addresses."""
     names = [name for name, _ in islands.functions()]
     assert len(names) == len(set(names)) > 60
-    text = (Path(islands.__file__).parent / "chipmunk.pxi").read_text(encoding="utf-8")
-    called = {word for word in text.replace("(", " ").split() if word.startswith("engine.cp")}
-    assert {word.removeprefix("engine.") for word in called} <= set(names)
+    called = re.findall(r"\bengine\.(cp\w+)", islands.build.joined())
+    assert set(called) == set(names)
 
 
 # -- numbers and signals --------------------------------------------------------------------
@@ -190,7 +211,7 @@ print("over")
 """
 
 
-@pytest.mark.parametrize("n", [5, 40])
+@each_case("n", [5, 40])
 def test_numbers_out_of_all_bounds_neither_hang_nor_crash_it(child, n):
     done = child(LOST.format(n=n))
     assert done.stdout == "over\n", done.stderr

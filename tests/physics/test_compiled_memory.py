@@ -14,6 +14,7 @@ import pytest
 
 import mars2d
 from mars2d.physics.islands.build import compile_into
+from tests.cases import each_case
 
 pytestmark = [
     pytest.mark.slow,
@@ -74,9 +75,7 @@ print(worlds({count}) - before)
 """
 
 
-@pytest.mark.parametrize(
-    ("plain", "count"), [("", 1000), ("1", 100)], ids=["compiled", "in Python"]
-)
+@each_case(("plain", "count"), [("", 1000), ("1", 100)])
 def test_worlds_made_and_dropped_take_no_memory(child, plain, count):
     """A world of this scene takes some hundred kilobytes while it is there."""
     done = child(SCENE + MANY.format(count=count), MARS2D_PLAIN=plain)
@@ -136,7 +135,7 @@ def sanitized(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     return folder, ":".join(libraries)
 
 
-@pytest.mark.parametrize("code", [MOVED, BEYOND], ids=["a scene", "a mistake"])
+@each_case("code", [MOVED, BEYOND])
 def test_a_sanitizer_finds_nothing_wrong_but_what_is(child, sanitized, code):
     folder, libraries = sanitized
     done = child(

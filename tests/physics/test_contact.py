@@ -10,6 +10,7 @@ from mars2d.addons import Map
 from mars2d.bodies.props import Box, Puck
 from mars2d.record.contact import CONTACT, episodes
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 
 
 def world_of(*robots: Robot, **fields) -> World:
@@ -74,8 +75,8 @@ def test_the_lower_index_is_a_even_if_the_other_one_drives():
     assert contacts["normal"][0] == pytest.approx([-1, 0], abs=1e-6)
 
 
-@pytest.mark.parametrize("sampling_time", [0.05, 0.1, 1.0])
-@pytest.mark.parametrize("force", [2.0, 5.0])
+@each_case("sampling_time", [0.05, 0.1, 1.0])
+@each_case("force", [2.0, 5.0])
 def test_pressing_against_a_wall_gives_the_impulse_force_times_time(force, sampling_time):
     world = world_of(
         Robot(drive=Unicycle(max_force=force)),
@@ -169,7 +170,7 @@ def test_a_robot_that_has_parted_makes_no_more_rows():
     assert len(world.record.contacts) == count
 
 
-@pytest.mark.parametrize("gap", [0.0, 1e-15, -1e-15])
+@each_case("gap", [0.0, 1e-15, -1e-15])
 def test_robots_that_stand_at_exactly_zero_distance_are_no_trouble(gap):
     world = world_of(Robot(), Robot(pose=(0.3 + gap, 0, 0)), addons=[Map([wall_at(0.45)])])
     drive(world, [[0, 0], [0, 0]], 5)
@@ -263,7 +264,7 @@ def test_two_props_and_a_prop_and_a_wall_make_contacts_too():
     assert met == {(1, 2), (2, -1)}
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_without_forces_contacts_are_reported_without_impulses(physics):
     world = world_of(Robot(), Robot(pose=(0.5, 0, np.pi)), physics=physics)
     contacts = drive(world, [[0.2, 0.2], [0, 0]], 12)

@@ -25,6 +25,7 @@ from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.island import Island
 from mars2d.physics.islands.mover import Mover
+from tests.cases import each_case
 from tests.islands import FIND_TESTS, looked_at, plainly, states_of
 
 ALLOWED = 1e-3  # metres, the default of Scenario.max_overlap
@@ -358,14 +359,14 @@ def check(watch: Watch) -> None:
     assert watch.surplus <= 0
 
 
-@pytest.mark.parametrize(("mix", "mass_ratio", "sampling_time"), RUNS)
+@each_case(("mix", "mass_ratio", "sampling_time"), RUNS)
 def test_in_a_crowd_of_many_shapes_nothing_overlaps_by_a_millimetre(mix, mass_ratio, sampling_time):
     ties = mass_ratio == 1
     ticks = 15 if sampling_time < 0.1 else 3
     check(rough(1, mix, mass_ratio, sampling_time, ticks, ties=ties))
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("seed", range(40))
 @pytest.mark.parametrize("ties", [False, True])
 def test_in_many_crowds_of_many_shapes_nothing_overlaps_by_a_millimetre(seed, ties):
@@ -436,7 +437,7 @@ def test_wild_crowds_end_neither_the_process_nor_in_nonsense(child):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("first", range(0, 100, 5))
 def test_many_wild_crowds_end_neither_the_process_nor_in_nonsense(child, first):
     done = in_a_child(child, range(first, first + 5), 600)

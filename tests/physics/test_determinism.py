@@ -14,6 +14,7 @@ from mars2d.geometry.shapes import Polygon
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.registry import members
 from mars2d.sensors import Proximity, RangeBearing, RangeFinder, Sensor
+from tests.cases import each_case
 
 BUSTLE = Path(__file__).parent / "bustle" / "bustle.py"
 
@@ -140,7 +141,7 @@ def shipped(kind: type) -> bool:
     return kind.__module__.startswith("mars2d.")
 
 
-@pytest.mark.parametrize("name", SENSORS)
+@each_case("name", SENSORS)
 def test_a_sensor_without_noise_more_changes_nothing_else(name, plain):
     more = members("sensors")[name](name="more", **SENSORS[name])
     scenario = bustle(discs=True)
@@ -150,7 +151,7 @@ def test_a_sensor_without_noise_more_changes_nothing_else(name, plain):
     assert changed(plain, record) == set()
 
 
-@pytest.mark.parametrize("name", ADDONS)
+@each_case("name", ADDONS)
 def test_an_addon_without_physics_and_chance_more_changes_nothing_else(name, plain):
     more = members("addons")[name](name="more", **ADDONS[name])
     scenario = bustle(discs=True)
@@ -209,10 +210,8 @@ def loose(n: int, shape: Polygon | None = None, props: int = 0, **fields) -> Sce
     )
 
 
-@pytest.mark.parametrize(
-    "scenario",
-    [loose(16, WEDGE, props=6), loose(21), loose(130), loose(21, physics="ideal")],
-    ids=["polygons and props", "discs", "many discs", "without physics"],
+@each_case(
+    "scenario", [loose(16, WEDGE, props=6), loose(21), loose(130), loose(21, physics="ideal")]
 )
 def test_robots_and_props_in_another_order_go_the_same_ways_in_that_order(scenario):
     rng = np.random.default_rng(1)
@@ -289,7 +288,7 @@ def test_global_random_numbers_are_neither_used_nor_changed():
     assert mars2d.run(crowd(), seed=1).digest == digest
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 @pytest.mark.parametrize("seed", range(20))
 def test_long_crowded_runs_are_the_same_twice(seed):
     scenario = crowd().replace(stop_time=60)

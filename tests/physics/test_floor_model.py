@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from mars2d import Robot
 from mars2d.bodies.props import Box, Prop, Puck
 from mars2d.core.materials import GRAVITY
+from tests.cases import each_case
 from tests.worlds import drive, endless
 
 MU = 0.4
@@ -63,8 +64,8 @@ PROPS = {
 }
 
 
-@pytest.mark.parametrize("spin", [2.0, 10.0, 40.0])
-@pytest.mark.parametrize("name", PROPS)
+@each_case("spin", [2.0, 10.0, 40.0])
+@each_case("name", PROPS)
 def test_the_floor_is_as_near_to_even_pressure_as_the_page_says(name, spin):
     way, angle = evenly(PROPS[name], 1.0, spin)
     our_way, our_angle = here(PROPS[name], 1.0, spin)
@@ -76,7 +77,7 @@ def test_the_floor_is_as_near_to_even_pressure_as_the_page_says(name, spin):
         assert 1 - our_angle / angle == pytest.approx(told[1], abs=0.006)
 
 
-@pytest.mark.parametrize("name", PROPS)
+@each_case("name", PROPS)
 def test_what_only_slides_or_only_spins_goes_as_under_even_pressure(name):
     assert here(PROPS[name], 1.0, 0.0)[0] == pytest.approx(
         evenly(PROPS[name], 1.0, 0.0)[0], rel=5e-3

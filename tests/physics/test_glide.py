@@ -12,6 +12,7 @@ from mars2d import Robot, Scenario
 from mars2d.bodies.props import Ball, Bar, Box, Prop, Puck
 from mars2d.core.materials import GRAVITY
 from mars2d.physics.islands.floor import hold
+from tests.cases import each_case
 from tests.islands import body_of, mover_of, piece_of
 
 speeds = st.one_of(st.just(0.0), st.floats(-5, -1e-3), st.floats(1e-3, 5))
@@ -76,7 +77,7 @@ def test_gliding_for_two_times_is_gliding_for_their_sum(prop, vx, vy, spin, firs
     assert after == pytest.approx(end, abs=1e-9)
 
 
-@pytest.mark.parametrize("mu", [0.01, 0.1, 1.0])
+@each_case("mu", [0.01, 0.1, 1.0])
 def test_what_slides_stops_after_its_square_of_speed_over_twice_mu_g(mu):
     moved, end = glide(Puck(ground_friction=mu), (3.0, 4.0, 0.0), 1e4)
     assert np.hypot(*moved[:2]) == pytest.approx(25 / (2 * mu * GRAVITY), rel=1e-12)

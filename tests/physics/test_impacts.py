@@ -12,6 +12,7 @@ from mars2d import Robot, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Hinge, Rod, Rope
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck
+from tests.cases import each_case
 from tests.worlds import endless
 
 FAR = Robot(pose=(80.0, 80.0, 0.0))
@@ -58,8 +59,8 @@ def rack(restitution: float, friction: float) -> list[Prop]:
     return [Puck(diameter=0.2, pose=(-1, 0.03, 0), velocity=(3, 0, 0), **looks), *lying]
 
 
-@pytest.mark.parametrize("sampling_time", [0.005, 0.02, 0.1])
-@pytest.mark.parametrize(("restitution", "friction"), [(1.0, 1.0), (1.0, 0.2), (0.9, 1.0)])
+@each_case("sampling_time", [0.005, 0.02, 0.1])
+@each_case(("restitution", "friction"), [(1.0, 1.0), (1.0, 0.2), (0.9, 1.0)])
 def test_a_rack_of_discs_gains_no_energy(restitution, friction, sampling_time):
     world = endless([FAR], rack(restitution, friction), sampling_time=sampling_time)
     before = momentum(world)
@@ -67,7 +68,7 @@ def test_a_rack_of_discs_gains_no_energy(restitution, friction, sampling_time):
     assert momentum(world) == pytest.approx(before, abs=1e-9)
 
 
-@pytest.mark.parametrize("restitution", [1.0, 0.9, 0.5])
+@each_case("restitution", [1.0, 0.9, 0.5])
 def test_a_bar_that_hits_a_wall_gains_no_energy(restitution):
     rng = np.random.default_rng(7)
     for _ in range(40):
@@ -81,8 +82,8 @@ def test_a_bar_that_hits_a_wall_gains_no_energy(restitution):
         assert np.diff(found).max() <= TOLERANCE * found[0]
 
 
-@pytest.mark.parametrize("material", ["glass", "rubber", "steel"])
-@pytest.mark.parametrize("seed", range(2))
+@each_case("material", ["glass", "rubber", "steel"])
+@each_case("seed", range(2))
 def test_a_heap_in_a_room_gains_no_energy(material, seed):
     rng = np.random.default_rng(seed)
     props = [
@@ -99,8 +100,8 @@ def test_a_heap_in_a_room_gains_no_energy(material, seed):
     assert_never_grows(energies(world, 3))
 
 
-@pytest.mark.parametrize(("restitution", "friction"), [(0.0, 0.5), (1.0, 1.0), (1.0, 0.0)])
-@pytest.mark.parametrize("seed", range(3))
+@each_case(("restitution", "friction"), [(0.0, 0.5), (1.0, 1.0), (1.0, 0.0)])
+@each_case("seed", range(3))
 def test_joints_gain_no_energy_either(restitution, friction, seed):
     rng = np.random.default_rng(seed)
     props = [
@@ -144,15 +145,15 @@ def test_robots_that_brake_gain_no_energy_from_what_hits_them():
 # -- several at once --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("gap", [1e-8, 1e-6, 1e-3])
-@pytest.mark.parametrize("count", [3, 5])
+@each_case("gap", [1e-8, 1e-6, 1e-3])
+@each_case("count", [3, 5])
 def test_balls_in_a_row_with_gaps_are_hit_one_after_the_other(gap, count):
     world = endless([FAR], row(count, gap), sampling_time=0.05)
     energies(world, 1.5)
     assert world.prop_velocity[0] == pytest.approx([0.0] * (count - 1) + [1.0], abs=1e-3)
 
 
-@pytest.mark.parametrize("count", [3, 4, 5])
+@each_case("count", [3, 4, 5])
 def test_balls_that_touch_are_hit_at_once(count):
     """Momentum and energy are kept, but the first one flies back; a gap of 1e-9 m is none."""
     for gap in (0.0, 1e-12):
@@ -181,9 +182,9 @@ def wedge(half_angle: float, radius: float) -> list[list[tuple[float, float]]]:
     return [[(-4.0, side * (tip + 4.0) * tan(half_angle)), (tip, 0.0)] for side in (1, -1)]
 
 
-@pytest.mark.parametrize("degrees", [0.5, 1.0, 3.0, 5.0])
-@pytest.mark.parametrize("force", [5.0, 50.0])
-@pytest.mark.parametrize("speed", [0.3, 1.0])
+@each_case("degrees", [0.5, 1.0, 3.0, 5.0])
+@each_case("force", [5.0, 50.0])
+@each_case("speed", [0.3, 1.0])
 def test_a_shallow_wedge_throws_no_robot_back(degrees, force, speed):
     half = radians(degrees)
     for friction in (0.0, 0.5 * tan(half)):
@@ -200,7 +201,7 @@ def test_a_shallow_wedge_throws_no_robot_back(degrees, force, speed):
         assert world.pose[1, 0] == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("count", [2, 4])
+@each_case("count", [2, 4])
 def test_nor_a_file_of_robots(count):
     robots = [Robot(pose=(-0.4 * k, 0, 0), friction=0.0) for k in range(count)]
     world = endless(robots, addons=[Map(wedge(radians(1), 0.15))], sampling_time=0.05)
@@ -209,8 +210,8 @@ def test_nor_a_file_of_robots(count):
         assert world.velocity[0].min() > -0.05
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
-@pytest.mark.parametrize("degrees", [0.5, 2.0, 10.0, 20.0, 45.0])
+@each_case("restitution", [0.0, 0.5, 1.0])
+@each_case("degrees", [0.5, 2.0, 10.0, 20.0, 45.0])
 def test_a_ball_comes_out_of_a_wedge_at_its_restitution_at_most(degrees, restitution):
     ball = Ball(
         diameter=0.2, velocity=(1, 0, 0), friction=0.0, restitution=restitution, ground_friction=0
@@ -228,8 +229,8 @@ def test_a_ball_comes_out_of_a_wedge_at_its_restitution_at_most(degrees, restitu
 # -- limits -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.8, 1.0])
-@pytest.mark.parametrize("spin", [0.1, -2.0, 30.0])
+@each_case("restitution", [0.0, 0.3, 0.8, 1.0])
+@each_case("spin", [0.1, -2.0, 30.0])
 def test_a_gate_turns_back_from_its_limit_at_its_restitution(restitution, spin):
     for share in (0.03, 0.17, 0.9):  # of the time to the limit: the sampling time
         gate = Gate(
@@ -245,7 +246,7 @@ def test_a_gate_turns_back_from_its_limit_at_its_restitution(restitution, spin):
         assert turned <= 0.5 + 1e-3  # 1 mm at its tip
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.6, 1.0])
+@each_case("restitution", [0.0, 0.6, 1.0])
 def test_two_boxes_on_a_hinge_part_at_the_restitution_of_its_limit(restitution):
     """Their spins change at the limit as momentum, a hinge that holds, and the limit demand.
 

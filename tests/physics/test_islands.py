@@ -16,6 +16,7 @@ from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.island import Island
 from mars2d.physics.islands.mover import Mover
 from mars2d.physics.islands.solver import Solver
+from tests.cases import each_case
 from tests.islands import looked_at, plainly
 from tests.worlds import endless
 
@@ -363,9 +364,7 @@ def file(n: int) -> tuple[World, np.ndarray]:
     return world_of(robots, sampling_time=0.1, addons=[wall]), command
 
 
-@pytest.mark.parametrize(
-    ("crowd", "n", "most"), [(heap, 16, 7), (heap, 64, 11), (file, 12, 7), (file, 30, 16)]
-)
+@each_case(("crowd", "n", "most"), [(heap, 16, 7), (heap, 64, 11), (file, 12, 7), (file, 30, 16)])
 def test_pushes_add_up_to_no_more_overlap_and_to_few_more_substeps(crowd, n, most):
     """As many as a heap needs, where a file of as many robots would need more."""
     deepest, count = 0.0, 0
@@ -382,7 +381,7 @@ def test_pushes_add_up_to_no_more_overlap_and_to_few_more_substeps(crowd, n, mos
     assert count <= most * 40
 
 
-@pytest.mark.parametrize("seed", range(6))
+@each_case("seed", range(6))
 def test_in_crowds_that_are_thrown_about_momentum_is_kept_and_nothing_overlaps(seed):
     """On each of eight ways to the middle a heavy elastic puck hits a light one."""
     rng = np.random.default_rng(seed)

@@ -13,6 +13,7 @@ from mars2d.bodies.props import Ball, Box, Puck
 from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Polygon
 from mars2d.record import episodes
+from tests.cases import each_case
 from tests.worlds import drive, endless
 
 SQUARE = Polygon([(-0.15, -0.15), (0.15, -0.15), (0.15, 0.15), (-0.15, 0.15)])
@@ -39,8 +40,8 @@ def corners(pose, half=0.15) -> np.ndarray:
 # -- ideal ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("sampling_time", [0.01, 0.1, 1.0])
-@pytest.mark.parametrize("shape", [None, SQUARE], ids=["discs", "squares"])
+@each_case("sampling_time", [0.01, 0.1, 1.0])
+@each_case("shape", [None, SQUARE])
 def test_ideal_poses_are_those_of_free_motion_through_everything(sampling_time, shape):
     starts = [(-1, 0.1, 0), (1, 0, pi), (0, -1, pi / 2)]
     commands = np.array([[0.3, 0.25, 0.4], [0.2, -0.3, 0.0]])
@@ -64,8 +65,8 @@ def test_ideal_poses_are_those_of_free_motion_through_everything(sampling_time, 
     assert not world.record.contacts["impulse"].any()
 
 
-@pytest.mark.parametrize("sampling_time", [0.05, 0.3, 2.0])
-@pytest.mark.parametrize("offset", [0.0, 0.1, 0.25])
+@each_case("sampling_time", [0.05, 0.3, 2.0])
+@each_case("offset", [0.0, 0.1, 0.25])
 def test_ideal_contacts_of_discs_begin_and_end_at_the_right_times(sampling_time, offset):
     robots = [Robot(pose=(-1, 0, 0)), Robot(pose=(1, offset, pi))]
     world = endless(robots, sampling_time=sampling_time, physics="ideal")
@@ -116,8 +117,8 @@ def test_ideal_contacts_of_a_corner_have_that_corner():
 # -- stop -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("sampling_time", [0.05, 0.5, 2.0])
-@pytest.mark.parametrize("shape", [None, SQUARE], ids=["disc", "square"])
+@each_case("sampling_time", [0.05, 0.5, 2.0])
+@each_case("shape", [None, SQUARE])
 def test_stop_at_a_wall_and_away_again(sampling_time, shape):
     robot = Robot(pose=(0, 0, 0), shape=shape)
     wall = Map([[(0.6, -1), (0.6, 1)]])
@@ -177,8 +178,8 @@ def test_stop_is_exact_where_nothing_touches():
     assert world.prop_pose[0, 0] == pytest.approx(1 / (2 * 0.1 * GRAVITY), abs=1e-9)
 
 
-@pytest.mark.parametrize("sampling_time", [0.05, 0.5])
-@pytest.mark.parametrize("seed", range(4))
+@each_case("sampling_time", [0.05, 0.5])
+@each_case("seed", range(4))
 def test_stop_in_a_crowd_nothing_overlaps_and_none_is_held_for_good(seed, sampling_time):
     rng = np.random.default_rng(seed)
     places = [(0.45 * (k % 3 - 1), 0.45 * (k // 3 - 1)) for k in range(9)]
@@ -206,7 +207,7 @@ def test_stop_in_a_crowd_nothing_overlaps_and_none_is_held_for_good(seed, sampli
     assert moved.min() > 0.3
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_case("seed", range(3))
 def test_stop_with_squares_that_turn_keeps_them_apart(seed):
     import shapely
 

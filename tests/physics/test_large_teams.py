@@ -10,6 +10,7 @@ from mars2d.addons import Map
 from mars2d.reports.bench.scenes import team
 from mars2d.reports.bench.worlds import deepest, world_of
 from mars2d.sensors import Proximity, RangeFinder
+from tests.cases import each_case
 
 MANY = 168
 APART = 3.0
@@ -46,7 +47,7 @@ def duel(left: Robot, right: Robot) -> tuple[World, World, list[int]]:
     return World(scenario(large)), World(scenario([left, right])), [i, j]
 
 
-@pytest.mark.parametrize("drive", [None, Holonomic()])
+@each_case("drive", [None, Holonomic()])
 def test_two_robots_of_a_large_team_meet_as_two_robots_alone(drive):
     length = APART * (MANY // ROW - 1)
     options = {} if drive is None else {"drive": drive}
@@ -104,7 +105,7 @@ def test_free_motion_of_a_large_team_is_exact():
     assert np.abs(world.pose - [x, y, omega * t]).max() < 1e-9
 
 
-@pytest.mark.parametrize("max_overlap", [1e-3, 0.02])
+@each_case("max_overlap", [1e-3, 0.02])
 def test_a_large_crowd_stays_within_its_walls_and_its_overlap(max_overlap):
     scene = team(400, 0.05)
     world = world_of(scene, max_overlap)

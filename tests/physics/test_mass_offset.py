@@ -11,6 +11,7 @@ from mars2d import Car, Holonomic, InputError, Robot, Unicycle, World
 from mars2d.bodies import Box, Puck, Spring
 from mars2d.geometry.shapes import Polygon
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.islands import plainly
 from tests.worlds import drive, endless
 
@@ -42,9 +43,9 @@ def velocity_of_center(world: World, lead: float) -> np.ndarray:
     return np.array([vx - spin * lead * sin(theta), vy + spin * lead * cos(theta)])
 
 
-@pytest.mark.parametrize("plain", [True, False])
-@pytest.mark.parametrize("lead", [0.13, -0.08, 0.0, 0.3])
-@pytest.mark.parametrize("x", [0.31, 0.02, -0.1])
+@each_case("plain", [True, False])
+@each_case("lead", [0.13, -0.08, 0.0, 0.3])
+@each_case("x", [0.31, 0.02, -0.1])
 def test_a_puck_at_its_side_sets_it_going_as_a_free_rigid_body(x, lead, plain):
     speed, mass = 0.7, 0.6
     robot = car_of(lead)
@@ -106,7 +107,7 @@ def test_ahead_its_force_moves_it_as_if_its_mass_lay_at_the_pose():
     assert world.velocity[:, 0] == pytest.approx([force / mass * 0.9, 0, 0], rel=1e-3, abs=1e-6)
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@each_case("physics", ["contact", "stop", "ideal"])
 def test_where_it_follows_its_command_it_moves_to_the_bit_as_without(physics):
     worlds = [endless([Robot(mass_offset=lead)], physics=physics) for lead in (0.0, 0.1)]
     ways = [drive(world, [[0.3], [0.7]], 3.0) for world in worlds]
@@ -210,7 +211,7 @@ def test_the_moment_is_that_of_a_plate_about_the_centre_of_mass():
     assert car_of(0.13, moment=0.07).inertia.moment == 0.07
 
 
-@pytest.mark.parametrize("lead", [0.5, -0.4, float("nan")])
+@each_case("lead", [0.5, -0.4, float("nan")])
 def test_a_centre_of_mass_outside_of_the_robot_is_refused(lead):
     with pytest.raises(InputError, match=r"Robot\.mass_offset"):
         Robot(mass_offset=lead)

@@ -20,6 +20,7 @@ from mars2d.bodies.joints import Hinge, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Prop, Puck, Solid
 from mars2d.geometry.shapes import Polygon
 from mars2d.scenario.registry import members
+from tests.cases import each_case
 
 Point = tuple[float, float]
 
@@ -275,21 +276,21 @@ def original() -> Callable[[str], np.ndarray]:
     return poses
 
 
-@pytest.mark.parametrize("image", IMAGES.values(), ids=IMAGES)
-@pytest.mark.parametrize("name", SCENES)
+@each_case("image", IMAGES.values())
+@each_case("name", SCENES)
 def test_the_image_of_a_scene_goes_as_the_image_of_its_poses(name, image, original):
     error = np.abs(run(SCENES[name], image) - seen(image, original(name))).max()
     assert error < SCENES[name].tolerance
 
 
-@pytest.mark.parametrize("sampling_time", [0.05, 0.02, 0.5])
-@pytest.mark.parametrize("name", SCENES)
+@each_case("sampling_time", [0.05, 0.02, 0.5])
+@each_case("name", SCENES)
 def test_held_commands_give_the_same_poses_for_any_sampling_time(name, sampling_time, original):
     error = np.abs(run(SCENES[name], Image(), sampling_time) - original(name)).max()
     assert error < SCENES[name].split
 
 
-@pytest.mark.parametrize("name", SCENES)
+@each_case("name", SCENES)
 def test_scenes_do_something(name, original):
     poses = original(name)
     assert np.isfinite(poses).all()
@@ -350,7 +351,7 @@ def test_all_shipped_sensors_read_something_on_the_tour(originals):
         assert (values != values[0]).any(axis=tuple(range(2, values.ndim))).any(), name
 
 
-@pytest.mark.parametrize("image", IMAGES.values(), ids=IMAGES)
+@each_case("image", IMAGES.values())
 def test_in_the_image_of_a_scene_sensors_read_the_images_of_their_readings(image, originals):
     for name, values in readings(image).items():
         expected = image.reading(name, originals[name])

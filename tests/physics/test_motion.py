@@ -14,7 +14,8 @@ speeds = st.floats(-10, 10)
 
 def chord_of(forward, left, spin, theta, h, *, in_robot_frame: bool) -> list[float]:
     """The velocity at which a robot is aimed for h s: x', y', theta'."""
-    body = body_of(piece_of(DISC, 0.15), in_robot_frame=in_robot_frame)
+    body = body_of(piece_of(DISC, 0.15))
+    body.in_robot_frame = in_robot_frame
     body.forward, body.left, body.turning = forward, left, spin
     body.follow(theta, h)
     return [body.aim_x, body.aim_y, body.aim_spin]

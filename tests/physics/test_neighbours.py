@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mars2d.physics.islands.neighbours import FEW, FEW_WALLS, Neighbours
+from tests.cases import each_case
 from tests.islands import DISC, body_of, piece_of, place, wall_of
 
 
@@ -98,8 +98,8 @@ def test_among_few_bodies_no_pair_and_no_wall_is_missed(seed, n, walls):
     walk(seed, n, walls, box=1.5, ticks=5)
 
 
-@pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("walls", [3, FEW_WALLS + 4])
+@each_case("seed", range(3))
+@each_case("walls", [3, FEW_WALLS + 4])
 def test_among_many_bodies_no_pair_and_no_wall_is_missed(seed, walls):
     walk(seed, FEW + 12, walls, box=4.0, ticks=8)
 
@@ -115,7 +115,7 @@ def test_among_bodies_far_apart_no_pair_is_missed():
         one.go(rng)
 
 
-@pytest.mark.parametrize("shift", [0.0, 1e-9, -1e-9, 0.3])
+@each_case("shift", [0.0, 1e-9, -1e-9, 0.3])
 def test_bodies_on_a_grid_are_no_trouble_for_cells(shift):
     n = 9
     grid = np.add.outer(np.arange(n), 1j * np.arange(n)).ravel() * 0.4 + shift
@@ -170,7 +170,7 @@ def test_the_pairs_of_a_body_with_pieces_are_those_of_its_pieces():
     assert len(two.wall_pairs) == 2
 
 
-@pytest.mark.parametrize("n", [4, FEW + 8])
+@each_case("n", [4, FEW + 8])
 def test_pairs_that_pass_each_other_are_not_listed_however_many_bodies_there_are(n):
     places = np.arange(n) * 10.0 + 0j
     places[1] = places[0] + 0.1  # deep in each other

@@ -10,7 +10,8 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d.physics.islands.pair import DiscPair, DiscWall, Pair, PiecePair
+from mars2d.physics.islands.pair import Pair, PiecePair
+from tests.cases import each_case
 from tests.islands import DISC, SQUARE, body_of, let_move, piece_of, place, wall_of
 
 LONG = 1e9
@@ -146,7 +147,7 @@ def test_discs_at_the_same_place_have_some_normal():
     assert abs(normal) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.3, 1.0, 2.5])
+@each_case("angle", [0.0, 0.3, 1.0, 2.5])
 def test_what_lies_on_the_line_of_a_wall_but_beyond_its_end_is_apart(angle):
     turn = np.exp(1j * angle)
     wall = turn * np.array([0.1 + 0.2j, 1.3 + 0.2j])
@@ -167,8 +168,8 @@ def test_a_wall_that_runs_through_a_piece_overlaps_it_up_to_the_nearer_side():
     assert two.normal == pytest.approx(-1 + 0j)
 
 
-@pytest.mark.parametrize("offset", [0.0, 1e-16, 1e-12, 1e-9, -1e-16, -1e-12])
-@pytest.mark.parametrize("angle", [0.0, 0.7, 4.0])
+@each_case("offset", [0.0, 1e-16, 1e-12, 1e-9, -1e-16, -1e-12])
+@each_case("angle", [0.0, 0.7, 4.0])
 def test_faces_that_just_touch_have_their_normal(offset, angle):
     turn = np.exp(1j * angle)
     gap, normal = gap_of(turn * SQUARE, turn * (SQUARE + 1.0 + offset + 0.3j))
@@ -188,7 +189,7 @@ def test_a_pose_of_a_body_moves_its_pieces():
     assert two.normal == pytest.approx(1 + 0j)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("vertices", "same"),
     [
         ([0j, 0j, 1 + 0j, 1j, 1j], [0j, 1 + 0j, 1j]),
@@ -196,7 +197,7 @@ def test_a_pose_of_a_body_moves_its_pieces():
         ([0j, 1e-200 + 0j, 1 + 0j, 1j], [0j, 1 + 0j, 1j]),
     ],
 )
-@pytest.mark.parametrize("other", [SQUARE, DISC, DISC + 3, np.array([2 + 0j, 3 + 0j])])
+@each_case("other", [SQUARE, DISC, DISC + 3, np.array([2 + 0j, 3 + 0j])])
 def test_corners_that_add_nothing_change_nothing(vertices, same, other):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -226,21 +227,21 @@ def test_a_turned_scene_has_the_same_gaps_and_turned_normals():
 places = st.complex_numbers(max_magnitude=3, allow_nan=False)
 
 
-def discs(position, radii=(0.1, 0.2)) -> DiscPair:
+def discs(position, radii=(0.1, 0.2)) -> Pair:
     """Two discs that have been measured."""
     a, b = (body_of(piece_of(DISC, r), number=k) for k, r in enumerate(radii))
     place(a, position[0])
     place(b, position[1])
-    pair = DiscPair(a, b, None)
+    pair = Pair(a, b, None)
     pair.measure()
     return pair
 
 
-def disc_at(position, start, end, radius=0.1) -> DiscWall:
+def disc_at(position, start, end, radius=0.1) -> Pair:
     """A disc and a wall that have been measured."""
     a = body_of(piece_of(DISC, radius))
     place(a, position)
-    pair = DiscWall(a, a, wall_of(start, end))
+    pair = Pair(a, a, wall_of(start, end))
     pair.measure()
     return pair
 
@@ -270,7 +271,8 @@ def test_a_disc_and_a_wall_are_apart_by_the_way_to_its_nearest_point(position, s
     pair = disc_at(position, start, start + way)
     distance = gap_to_segment(position, start, start + way)
     assert pair.gap == pytest.approx(distance - 0.1, abs=1e-6)
-    assert pair.wall.gap(position.real, position.imag) == pytest.approx(pair.gap + 0.1, abs=1e-15)
+    shortest = complex(*pair.wall.way(position.real, position.imag))
+    assert abs(shortest) == pytest.approx(pair.gap + 0.1, abs=1e-15)
     if distance > 1e-3:  # along the normal it comes to the wall
         reached = position + (pair.gap + 0.1) * complex(pair.normal_x, pair.normal_y)
         assert gap_to_segment(reached, start, start + way) < 1e-6
@@ -377,15 +379,15 @@ def test_before_the_time_to_touch_nothing_gets_deeper_than_allowed(depth, wall):
     assert sum(share < 0.01 for share in left) > 5  # the bound is met, not only kept
 
 
-@pytest.mark.parametrize("wall", [False, True])
+@each_case("wall", [False, True])
 def test_so_it_is_of_some_pairs_that_turn_quickly(wall):
     rng = np.random.default_rng(6)
     for _ in range(60):
         assert_lower_bound(Motion(rng, 0.8, wall=wall, spin=20.0), "time_to_touch", 1e-3)
 
 
-@pytest.mark.parametrize("wall", [False, True])
-@pytest.mark.parametrize("ask", ["time_along_edge", "time_along_normal"])
+@each_case("wall", [False, True])
+@each_case("ask", ["time_along_edge", "time_along_normal"])
 def test_each_of_the_two_bounds_holds_by_itself(ask, wall):
     """The edge's bound holds where the edge parts the pieces; else it may be nothing, not wrong."""
     rng = np.random.default_rng(7)
@@ -436,7 +438,7 @@ def test_until_the_time_to_touch_discs_get_no_deeper_than_allowed(seed, depth):
             assert pair.gap >= floor - 1e-12
 
 
-@pytest.mark.parametrize("seed", range(5))
+@each_case("seed", range(5))
 def test_few_bounds_one_after_the_other_lead_up_to_the_touch(seed):
     rng = np.random.default_rng(seed)
     two = Two(SQUARE * rng.uniform(0.2, 1.0), [2 - 9j, 2 + 9j], wall=True)
@@ -452,7 +454,7 @@ def test_few_bounds_one_after_the_other_lead_up_to_the_touch(seed):
     assert calls < 20
 
 
-@pytest.mark.parametrize("seed", range(20))
+@each_case("seed", range(20))
 def test_along_a_face_the_time_to_touch_of_a_translation_is_exact(seed):
     rng = np.random.default_rng(seed)
     corner = rng.uniform(1.0, 2.0) + 0.3j * rng.uniform(-1, 1)
@@ -488,7 +490,7 @@ def test_what_moves_apart_or_stands_never_touches():
     assert two.pair.time_to_touch(1e6, 1e-3) == 1e6
     let_move(two.a, 0j)
     assert two.pair.time_to_touch(1e6, 1e-3) == 1e6
-    let_move(two.a, -1 + 0j, bend=0.5)  # it comes back within 2 v / a
+    let_move(two.a, -1 + 0j, acceleration=0.5)  # it comes back within 2 v / a
     assert 4.0 < two.pair.time_to_touch(1e6, 1e-3) < 4.002
 
 

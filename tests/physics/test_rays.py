@@ -18,6 +18,7 @@ from mars2d.core.plane import WITHIN
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.sensors import RangeFinder
 from mars2d.sensors.base import NOTHING
+from tests.cases import each_case
 
 EXACT = 1e-9  # m
 
@@ -222,8 +223,8 @@ def test_rays_may_have_a_length_each():
     assert found.tolist() == [inf, pytest.approx(3.0, abs=EXACT), pytest.approx(3.0, abs=EXACT)]
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.3, 1.0, pi / 2, 2.5])
-@pytest.mark.parametrize("far", [0.5, 40.0])
+@each_case("angle", [0.0, 0.3, 1.0, pi / 2, 2.5])
+@each_case("far", [0.5, 40.0])
 def test_a_ray_exactly_along_a_wall_meets_its_end(angle, far):
     ahead = np.array([cos(angle), sin(angle)])
     left = np.array([-ahead[1], ahead[0]])
@@ -241,7 +242,7 @@ def test_a_ray_exactly_along_a_wall_meets_its_end(angle, far):
         assert seen(start + side * left, angle) == inf
 
 
-@pytest.mark.parametrize("thickness", [1e-3, 0.1, 1.0])
+@each_case("thickness", [1e-3, 0.1, 1.0])
 def test_a_thick_walls_end_is_met_by_rays_from_within_its_thickness(thickness):
     r = thickness / 2
     wall = [(0, -r), (4, -r), (4, r), (0, r)]
@@ -255,8 +256,8 @@ def test_a_thick_walls_end_is_met_by_rays_from_within_its_thickness(thickness):
             assert_exact(world, (4 + gap, y), pi + np.linspace(-1.5, 1.5, 40))
 
 
-@pytest.mark.parametrize("radius", [1e-3, 0.15, 4.0])
-@pytest.mark.parametrize("far", [0.5, 30.0])
+@each_case("radius", [1e-3, 0.15, 4.0])
+@each_case("far", [0.5, 30.0])
 def test_a_ray_that_grazes_a_disc_meets_it_and_one_beside_it_does_not(radius, far):
     distance = radius + far
     world = world_of(robots=[Robot(pose=(0, 0, 0), diameter=2 * radius)])
@@ -279,7 +280,7 @@ def test_a_ray_along_the_side_of_a_square_obstacle_meets_its_corner():
     assert found.tolist() == [pytest.approx(1, abs=EXACT), pytest.approx(1, abs=EXACT), inf]
 
 
-@pytest.mark.parametrize("kind", BODIES)
+@each_case("kind", BODIES)
 def test_a_ray_that_starts_inside_another_robot_goes_no_way_at_all(kind):
     rng = np.random.default_rng(3)
     world = world_of(robots=[Robot(pose=(1, 2, 0.5), shape=some_shape(rng, kind))])
@@ -312,8 +313,8 @@ ROOMS = {
 }
 
 
-@pytest.mark.parametrize("name", ROOMS)
-@pytest.mark.parametrize("built", ["one outline", "walls that meet", "workspace"])
+@each_case("name", ROOMS)
+@each_case("built", ["one outline", "walls that meet", "workspace"])
 def test_no_ray_leaves_a_closed_room(name, built):
     corners, middle = ROOMS[name]
     corners = [(float(x), float(y)) for x, y in corners]
@@ -335,7 +336,7 @@ def test_no_ray_leaves_a_closed_room(name, built):
     assert escaped == 0
 
 
-@pytest.mark.parametrize("turned", [0.0, pi / 4])
+@each_case("turned", [0.0, pi / 4])
 def test_no_ray_leaves_a_room_from_a_lattice_of_starts(turned):
     corners = placed([(-4, -4), (4, -4), (4, 4), (-4, 4)], (0, 0, turned))
     world = world_of([[tuple(map(float, corner)) for corner in corners]])
@@ -364,7 +365,7 @@ def test_a_ray_aimed_exactly_at_a_bodys_corner_meets_it():
             assert bodies.tolist() == [1, 1, 1]
 
 
-@pytest.mark.parametrize("eighth", range(8))
+@each_case("eighth", range(8))
 def test_a_ray_straight_at_the_corner_of_a_box_meets_it(eighth):
     angle = eighth * pi / 4
     for far in np.arange(0.75, 6, 0.25):
@@ -381,9 +382,9 @@ def test_a_ray_straight_at_the_corner_of_a_box_meets_it(eighth):
 # -- a robot's own body -------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", BODIES)
-@pytest.mark.parametrize("offset", [0.0, 0.1])
-@pytest.mark.parametrize("mount", [(0, 0, 0), (0.25, 0, 0), (0.3, -0.4, 2.0), (2.0, 0.3, pi)])
+@each_case("kind", BODIES)
+@each_case("offset", [0.0, 0.1])
+@each_case("mount", [(0, 0, 0), (0.25, 0, 0), (0.3, -0.4, 2.0), (2.0, 0.3, pi)])
 def test_a_robot_never_sees_itself(kind, offset, mount):
     shape = some_shape(np.random.default_rng(2), kind)
     robot = Robot(

@@ -21,6 +21,7 @@ from mars2d.geometry.shapes import Polygon
 from mars2d.physics import islands
 from mars2d.physics.islands.mover import Mover
 from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
+from tests.cases import each_case
 from tests.islands import FIND_TESTS, plainly
 from tests.physics import test_crowd_fuzz as fuzz
 
@@ -225,8 +226,8 @@ def test_a_crowd_moves_the_same_with_and_without(
     run_both(scenario, restless(seed, scenario), 3 if sampling_time > 0.3 else 8, seed)
 
 
-@pytest.mark.parametrize("n", [5, 60])
-@pytest.mark.parametrize("max_overlap", [1e-3, 0.02])
+@each_case("n", [5, 60])
+@each_case("max_overlap", [1e-3, 0.02])
 def test_so_does_a_crowd_that_is_jammed(n, max_overlap):
     """All drive to the middle, where they push each other until the end."""
 
@@ -249,7 +250,7 @@ def test_so_does_a_crowd_that_is_jammed(n, max_overlap):
     assert record.effort.max() == 1.0
 
 
-@pytest.mark.parametrize(("n", "things"), [(3, False), (50, False), (9, True)])
+@each_case(("n", "things"), [(3, False), (50, False), (9, True)])
 def test_sensors_find_bodies_where_they_are(n, things):
     """Rays and points are asked between the steps, when bodies have been put somewhere."""
     sensors = [RangeFinder(beams=16, range=2.0), Proximity(range=0.2), Bumper()]
@@ -305,8 +306,8 @@ def test_two_worlds_side_by_side_do_not_disturb_each_other():
 # -- props, joints, polygons, and motion without forces -------------------------------------
 
 
-@pytest.mark.parametrize("ties", [False, True])
-@pytest.mark.parametrize("mix", fuzz.MIXES)
+@each_case("ties", [False, True])
+@each_case("mix", fuzz.MIXES)
 def test_so_does_a_crowd_of_many_shapes(mix, ties):
     scenario = fuzz.crowd(1, mix, 10.0, 0.05, ties=ties)
     record = run_both(scenario, restless(1, scenario), 25)
@@ -320,7 +321,7 @@ def test_so_do_wild_crowds(seed):
     run_both(scenario, restless(seed, scenario), 4)
 
 
-@pytest.mark.parametrize("rule", RULES)
+@each_case("rule", RULES)
 def test_so_does_one_of_many_surfaces(rule):
     """Rules, pairs of materials, and static friction of bodies, obstacles and the floor."""
     scenario = crowd(RULES.index(rule), 24, gap=0.0, things=True)
@@ -346,13 +347,13 @@ def test_so_does_one_of_many_surfaces(rule):
     assert len(record.contacts) > 50
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_case("seed", range(3))
 def test_so_do_springs_with_dampers(seed):
     scenario = dampers(seed)
     run_both(scenario, restless(seed, scenario), 30)
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_so_does_one_without_forces(physics):
     scenario = fuzz.crowd(2, "everything", 1.0, 0.1, ties=True).replace(physics=physics)
     record = run_both(scenario, restless(2, scenario), 20)
@@ -450,7 +451,7 @@ def test_so_they_do_in_processes_of_their_own(child):
 EXAMPLES = ["random_walk", "go_to_point", "follow_the_leader", "head_on", "shove_and_spin", "sumo"]
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@each_case("name", EXAMPLES)
 def test_an_example_is_the_same_with_and_without(name):
     quick = mars2d.run(name)
     with plainly():

@@ -21,6 +21,7 @@ from mars2d import World
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.processes import bare_environment, wait_until
 
 pytestmark = pytest.mark.slow
@@ -218,10 +219,8 @@ for discs in (False, True):
 """
 
 
-@pytest.mark.parametrize(
-    ("flags", "environment"),
-    [((), {"MARS2D_PLAIN": "1"}), (("-OO",), {"OMP_NUM_THREADS": "1"})],
-    ids=["with the engine in Python", "without asserts and docstrings"],
+@each_case(
+    ("flags", "environment"), [((), {"MARS2D_PLAIN": "1"}), (("-OO",), {"OMP_NUM_THREADS": "1"})]
 )
 def test_a_python_that_is(digest, discs, child, flags, environment):
     done = child(BOTH, *flags, **environment)

@@ -16,6 +16,7 @@ from mars2d.geometry.shapes import Compound, Polygon
 from mars2d.physics import translation, walls
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.walls import MEET, walls_of
+from tests.cases import each_case
 from tests.islands import plainly
 
 SMOOTH = {"friction": 0.0, "ground_friction": 0.0, "restitution": 0.0}
@@ -123,8 +124,8 @@ def velocity_after(prop: Prop, *addons: Map, image: Image = (0.0, 1), time: floa
 # -- what is straight -------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", STRAIGHT)
-@pytest.mark.parametrize("image", IMAGES)
+@each_case("name", STRAIGHT)
+@each_case("image", IMAGES)
 def test_sixty_throws_go_on_as_on_one_wall(name, image):
     """Without friction and floor the speed along a straight wall is kept for ever."""
     for k in range(20 * IMAGES.index(image), 20 * IMAGES.index(image) + 20):
@@ -136,7 +137,7 @@ def test_sixty_throws_go_on_as_on_one_wall(name, image):
         assert found[0] == pytest.approx(along, abs=1e-6), k
 
 
-@pytest.mark.parametrize("image", IMAGES)
+@each_case("image", IMAGES)
 def test_ends_from_behind_are_not_felt_even_near_the_wall_s_own_end(monkeypatch, image):
     """There the pair of body and end can't be left out; the contact is void all the same."""
     found = walls.walls_of
@@ -175,7 +176,7 @@ def test_a_wall_of_two_surfaces_is_not_tripped_over():
         assert found[0] == pytest.approx(prop.velocity[0], abs=1e-6), k
 
 
-@pytest.mark.parametrize("image", IMAGES)
+@each_case("image", IMAGES)
 def test_a_square_robot_drives_along_forty_pieces_as_along_one(image):
     """Pressed against it with friction, by its drive; with one piece each it stood for good."""
     poses = []
@@ -200,8 +201,8 @@ def test_a_square_robot_drives_along_forty_pieces_as_along_one(image):
 # -- what is not straight ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("degrees", [0.01, 1.0, 9.0, 30.0, 80.0])
-@pytest.mark.parametrize("image", IMAGES)
+@each_case("degrees", [0.01, 1.0, 9.0, 30.0, 80.0])
+@each_case("image", IMAGES)
 def test_a_bend_takes_the_velocity_across_it_and_no_more(degrees, image):
     """A disc that slides without friction keeps v cos a, in the direction of what comes."""
     a = radians(degrees)
@@ -215,9 +216,9 @@ def test_a_bend_takes_the_velocity_across_it_and_no_more(degrees, image):
     assert found[:2] == pytest.approx([speed * cos(a), speed * sin(a)], abs=2e-4)
 
 
-@pytest.mark.parametrize("degrees", [1.0, 5.0, 45.0, 90.0, 135.0])
-@pytest.mark.parametrize("kind", ["walls", "outlines"])
-@pytest.mark.parametrize("image", IMAGES)
+@each_case("degrees", [1.0, 5.0, 45.0, 90.0, 135.0])
+@each_case("kind", ["walls", "outlines"])
+@each_case("image", IMAGES)
 def test_what_slides_over_a_corner_that_falls_away_keeps_its_velocity(degrees, kind, image):
     """Nothing is there any more: neither a line's end nor a solid's next edge holds it back."""
     a = radians(degrees)
@@ -233,9 +234,9 @@ def test_what_slides_over_a_corner_that_falls_away_keeps_its_velocity(degrees, k
         assert hypot(*found[1:]) < 2e-3
 
 
-@pytest.mark.parametrize("height", [0.5, 0.3])
-@pytest.mark.parametrize("kind", ["blocks", "walls"])
-@pytest.mark.parametrize("image", IMAGES)
+@each_case("height", [0.5, 0.3])
+@each_case("kind", ["blocks", "walls"])
+@each_case("image", IMAGES)
 def test_a_step_is_felt(height, kind, image):
     """Above the middle of a box of 0.3 m its push goes through it: the box stands."""
     scene = SimpleNamespace(outlines=blocks(0.0, 0.0, height, height, wide=2.0))
@@ -249,7 +250,7 @@ def test_a_step_is_felt(height, kind, image):
     assert found == pytest.approx([0, 0, 0], abs=1e-2)
 
 
-@pytest.mark.parametrize("image", IMAGES)
+@each_case("image", IMAGES)
 def test_a_corner_of_walls_is_hit_as_that_of_a_polygon(image):
     """From outside, at all angles: the same bits, but for rounding."""
     block = SimpleNamespace(outlines=[[(0, -2), (2, -2), (2, 0), (0, 0)]])
@@ -270,8 +271,8 @@ def test_a_corner_of_walls_is_hit_as_that_of_a_polygon(image):
     assert hit > 10
 
 
-@pytest.mark.parametrize("kind", ["walls", "tee", "blocks"])
-@pytest.mark.parametrize("image", IMAGES)
+@each_case("kind", ["walls", "tee", "blocks"])
+@each_case("image", IMAGES)
 def test_a_box_that_is_pushed_into_a_corner_rests_against_both_walls(kind, image):
     scene = {
         "walls": SimpleNamespace(walls=[[(-4, 0), (0, 0), (0, 4)]]),
@@ -307,9 +308,9 @@ TIPS = {
 }
 
 
-@pytest.mark.parametrize("bend", BENDS)
-@pytest.mark.parametrize("tip", TIPS)
-@pytest.mark.parametrize("off", [0.0, 1e-5, -3e-4, 1e-3])
+@each_case("bend", BENDS)
+@each_case("tip", TIPS)
+@each_case("off", [0.0, 1e-5, -3e-4, 1e-3])
 def test_nothing_is_pressed_through_a_seam(bend, tip, off):
     """A robot presses it there for seconds; no point of it gets deeper than bodies may."""
     kind = Solid if "shape" in TIPS[tip] else Puck
@@ -341,7 +342,8 @@ def test_points_at_seams_have_their_arms_from_the_centre_of_mass():
 
     def mend(arbiter, is_first):
         chipmunk.put_point(arbiter, 0.3, 0.0, 0.3, -0.001)
-        arms.extend(chipmunk.arm_of(arbiter, 0, second) for second in (not is_first, is_first))
+        point = arbiter.contacts[0]
+        arms.extend((point.r1, point.r2) if is_first else (point.r2, point.r1))
 
     space, ground = chipmunk.new_space(0.0), chipmunk.new_ground(-1)
     seams = SimpleNamespace(handle=None, mend=mend)
@@ -441,7 +443,7 @@ def speed_along(prop: Prop, image: Image) -> float:
 TURNED: list[Image] = [(0.0, 1), (0.37, 1), (2.0, 1)]
 
 
-@pytest.mark.parametrize("name", ROWS)
+@each_case("name", ROWS)
 def test_sixty_throws_keep_their_speed_along_bodies_that_lie_flush(name):
     """There is no friction: a row has nothing that could push along it."""
     failed = {}
@@ -523,7 +525,7 @@ def test_momentum_is_kept_over_crates_that_slide_too():
         assert momentum == pytest.approx(prop.velocity[:2], abs=1e-9), k
 
 
-@pytest.mark.parametrize("name", ROWS)
+@each_case("name", ROWS)
 def test_a_square_robot_that_presses_on_a_row_drives_along_it(name):
     """With friction, as along one block; on two crates it stood for good."""
     poses = []
@@ -547,7 +549,7 @@ def test_a_square_robot_that_presses_on_a_row_drives_along_it(name):
     assert poses[1] == pytest.approx(poses[0], abs=1e-3)
 
 
-@pytest.mark.parametrize("step", [5e-3, 3e-3])
+@each_case("step", [5e-3, 3e-3])
 def test_a_step_of_crates_is_felt(step):
     """A plate that is thin beside its length is stopped by it, and turns no more."""
     plate = Box(
@@ -572,7 +574,7 @@ def test_a_crate_that_stands_on_another_stops_a_box():
     assert found[1] == pytest.approx(0, abs=5e-3)  # an overlap is mended
 
 
-@pytest.mark.parametrize("off", [0.0, 1e-5, -3e-4, 1e-3])
+@each_case("off", [0.0, 1e-5, -3e-4, 1e-3])
 def test_no_needle_is_pressed_into_a_seam_of_bodies(off):
     """A robot presses it there for seconds; it gets no deeper than bodies may."""
     needle = Solid(shape=TIPS["needle"]["shape"], pose=(off, 0.105, 0), mass=1.0, **SMOOTH)
@@ -630,7 +632,7 @@ def test_a_contact_says_which_piece_of_a_wall_is_touched():
     assert (contacts["b"] == np.where(before, -1, -2)).all()
 
 
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@each_case("physics", ["contact", "stop", "ideal"])
 def test_what_ends_at_the_back_of_a_wall_is_not_touched(physics):
     robot = Robot(drive=Holonomic(), pose=(-1, 0.16, 0))
     scenario = Scenario(
@@ -727,7 +729,7 @@ def test_meetings_are_those_that_all_pairs_have():
     assert [tuple(each) for each in walls._meetings(lines)] == expected
 
 
-@pytest.mark.parametrize("bend", BENDS)
+@each_case("bend", BENDS)
 def test_seams_give_the_same_bits_where_nothing_is_compiled(bend):
     def states() -> list[bytes]:
         found = []

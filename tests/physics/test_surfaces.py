@@ -16,6 +16,7 @@ from mars2d.physics import translation
 from mars2d.physics.islands.surfaces import Surfaces
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import simulate
+from tests.cases import each_case
 from tests.islands import plainly
 
 BY_RULE = {
@@ -58,8 +59,8 @@ def at_wall(angle: float, robot: dict, wall: dict, *, apart: float = 0.0, **fiel
     return run(scenario, [[0.23], [0.0]], 5.0)
 
 
-@pytest.mark.parametrize("rule", RULES)
-@pytest.mark.parametrize("share", [0.5, 0.97, 1.03])
+@each_case("rule", RULES)
+@each_case("share", [0.5, 0.97, 1.03])
 def test_a_robot_slides_along_a_wall_up_to_the_friction_of_each_rule(rule, share):
     mu = BY_RULE[rule](0.35, 0.87)
     angle = atan(share / mu)  # it sticks from tan(angle) = 1 / mu on
@@ -71,7 +72,7 @@ def test_a_robot_slides_along_a_wall_up_to_the_friction_of_each_rule(rule, share
     assert speed_along(record) == pytest.approx(slides, abs=1e-3 * 0.23)
 
 
-@pytest.mark.parametrize("rule", RULES)
+@each_case("rule", RULES)
 def test_a_pair_has_its_own_friction_whatever_the_rule(rule):
     pairs = [MaterialPair("rubber", "ice", friction=0.11)]
     record = at_wall(
@@ -82,7 +83,7 @@ def test_a_pair_has_its_own_friction_whatever_the_rule(rule):
     assert speed_along(record) == pytest.approx(0.23 * (cos(0.8) - 0.11 * sin(0.8)), abs=3e-4)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("robot", "wall"), [("rubber", "steel"), ("rubber", 0.22), (1.07, "ice"), ("wood", "ice")]
 )
 def test_other_materials_and_numbers_go_by_the_rule(robot, wall):
@@ -94,7 +95,7 @@ def test_other_materials_and_numbers_go_by_the_rule(robot, wall):
     assert ratio == pytest.approx(values[0] * values[1], rel=1e-6)
 
 
-@pytest.mark.parametrize("by_pair", [False, True])
+@each_case("by_pair", [False, True])
 def test_static_friction_holds_what_rests_and_not_what_slides(by_pair):
     """Between both coefficients it depends on how a robot came there."""
     static, kinetic = 0.9, 0.5
@@ -178,8 +179,8 @@ def impact(friction: object, restitution: object, **fields) -> tuple[np.ndarray,
     return found, reduced * along, ends
 
 
-@pytest.mark.parametrize("friction_rule", RULES)
-@pytest.mark.parametrize("restitution_rule", RULES)
+@each_case("friction_rule", RULES)
+@each_case("restitution_rule", RULES)
 def test_a_grazing_blow_has_the_impulses_of_both_rules(friction_rule, restitution_rule):
     rules = {"friction_rule": friction_rule, "restitution_rule": restitution_rule}
     found, blow, ends = impact((0.04, 0.11), (0.35, 0.8), **rules)
@@ -189,7 +190,7 @@ def test_a_grazing_blow_has_the_impulses_of_both_rules(friction_rule, restitutio
     assert found == pytest.approx([normal, mu * normal], rel=1e-2)
 
 
-@pytest.mark.parametrize("names", [("glass", "steel"), ("steel", "glass")])
+@each_case("names", [("glass", "steel"), ("steel", "glass")])
 def test_a_grazing_blow_of_a_pair_has_its_values_in_either_order(names):
     pairs = [
         MaterialPair("ice", "steel", friction=0.5, restitution=0.1),
@@ -215,8 +216,8 @@ def test_what_a_pair_leaves_out_and_what_is_a_number_goes_by_the_rule():
 # -- the floor --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kinetic", [0.0, 0.25])
-@pytest.mark.parametrize("share", [0.98, 1.02])
+@each_case("kinetic", [0.0, 0.25])
+@each_case("share", [0.98, 1.02])
 def test_a_box_breaks_loose_at_static_friction_and_then_slides_at_kinetic(share, kinetic):
     mass, static, pulls = 1.3, 0.6, 0.9
     force = share * static * mass * GRAVITY
@@ -264,7 +265,7 @@ def stick_slip(k: float, m: float, static: float, kinetic: float, v: float) -> R
     return run(scenario, [[v], [0.0]], 15.0)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("k", "m", "static", "kinetic", "v"),
     [(30.0, 1.5, 0.5, 0.3, 0.1), (80.0, 0.7, 0.9, 0.2, 0.05), (55.0, 2.2, 0.33, 0.3, 0.17)],
 )
@@ -311,12 +312,12 @@ def mover(scenario: Scenario) -> object:
         return translation.mover_of(scenario, None, ())
 
 
-@pytest.mark.parametrize("name", ["crowd", "wall_slide", "billiards"])
+@each_case("name", ["crowd", "wall_slide", "billiards"])
 def test_who_asks_for_nothing_pays_for_nothing(name):
     assert mover(open_experiment(name).scenario).surfaces is None
 
 
-@pytest.mark.parametrize("name", ["shove_and_spin", "wall_slide", "billiards", "crowd"])
+@each_case("name", ["shove_and_spin", "wall_slide", "billiards", "crowd"])
 def test_static_friction_as_large_as_the_kinetic_one_changes_no_bit(name):
     """The solver asks for each contact then, and gets what it would have worked out itself."""
     experiment = open_experiment(name, {"stop_time": 3.0})

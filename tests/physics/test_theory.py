@@ -17,6 +17,7 @@ from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.physics.islands.contacts import Touch
 from mars2d.physics.islands.shadow import Doubles
 from mars2d.record.contact import CONTACT, episodes
+from tests.cases import each_case
 from tests.islands import plainly
 from tests.worlds import drive, endless
 
@@ -45,10 +46,9 @@ def coast(world: World, seconds: float) -> None:
 # -- stalemates -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("shape", "between"),
     [(None, ()), (None, (Box(),)), (SQUARE, ()), (SQUARE, (Ball(),)), (SQUARE, (Box(),))],
-    ids=["discs", "discs and box", "squares", "squares and ball", "squares and box"],
 )
 def test_two_equal_robots_head_on_do_not_drift_whatever_is_between(shape, between):
     robots = [Robot(pose=(x, 0, pi * (x > 0)), shape=shape) for x in (-0.6, 0.6)]
@@ -67,8 +67,8 @@ def test_two_equal_robots_head_on_do_not_drift_whatever_is_between(shape, betwee
 # -- walls ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("shape", [None, SQUARE], ids=["disc", "square"])
-@pytest.mark.parametrize("slope", [0.3, 0.8, 1.2])
+@each_case("shape", [None, SQUARE])
+@each_case("slope", [0.3, 0.8, 1.2])
 def test_along_a_wall_without_friction_a_robot_slides_at_v_cos_a(shape, slope):
     robot = Robot(
         pose=(0, 0.2, 0), shape=shape, friction=0, drive=Holonomic(max_torque=50, max_force=5)
@@ -81,8 +81,8 @@ def test_along_a_wall_without_friction_a_robot_slides_at_v_cos_a(shape, slope):
     assert (world.pose[0, 0] - start) / 3 == pytest.approx(0.4 * cos(slope), rel=1e-3)
 
 
-@pytest.mark.parametrize("shape", [None, SQUARE], ids=["disc", "square"])
-@pytest.mark.parametrize("mu", [0.3, 0.8])
+@each_case("shape", [None, SQUARE])
+@each_case("mu", [0.3, 0.8])
 def test_a_robot_sticks_to_a_wall_within_the_cone_of_friction(shape, mu):
     """The drive pulls against the error of velocity: sticking, along the command."""
 
@@ -157,8 +157,8 @@ def into(pose, point) -> tuple[float, float]:
     return cos(theta) * dx + sin(theta) * dy, -sin(theta) * dx + cos(theta) * dy
 
 
-@pytest.mark.parametrize("tied", [False, True])
-@pytest.mark.parametrize("seed", range(2))
+@each_case("tied", [False, True])
+@each_case("seed", range(2))
 def test_linear_momentum_is_kept_to_a_billionth(seed, tied):
     props, joints = tangle(seed, 0.7, 0.5, tied=tied)
     world = endless([IDLE], props, joints=joints)
@@ -169,8 +169,8 @@ def test_linear_momentum_is_kept_to_a_billionth(seed, tied):
     assert len(world.record.contacts) > 3
 
 
-@pytest.mark.parametrize("tied", [False, True])
-@pytest.mark.parametrize("seed", range(2))
+@each_case("tied", [False, True])
+@each_case("seed", range(2))
 def test_angular_momentum_is_kept_but_for_how_deep_a_blow_finds_bodies(seed, tied):
     """Of props, that is a sixteenth of the slop; what joints are off by adds to it."""
     props, joints = tangle(seed, 0.7, 0.5, tied=tied)
@@ -185,8 +185,8 @@ def test_angular_momentum_is_kept_but_for_how_deep_a_blow_finds_bodies(seed, tie
         assert len(world.record.contacts) > 3
 
 
-@pytest.mark.parametrize(("seed", "friction"), [(0, 0.0), (1, 0.5), (2, 1.0)])
-@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+@each_case(("seed", "friction"), [(0, 0.0), (1, 0.5), (2, 1.0)])
+@each_case("restitution", [0.0, 0.5, 1.0])
 def test_energy_never_grows(seed, restitution, friction):
     props, _ = tangle(seed, restitution, friction, tied=False)
     world = endless([IDLE], props)
@@ -198,7 +198,7 @@ def test_energy_never_grows(seed, restitution, friction):
         last = energy
 
 
-@pytest.mark.parametrize("seed", range(2))
+@each_case("seed", range(2))
 def test_energy_of_jointed_things_never_grows(seed):
     props, joints = tangle(seed, 0.5, 0.5, tied=True)
     joints = [joint for joint in joints if not isinstance(joint, Spring)]
@@ -214,11 +214,9 @@ def test_energy_of_jointed_things_never_grows(seed):
 # -- restitution ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.7, 1.0])
-@pytest.mark.parametrize(
-    "prop", [Ball(), Box(), Solid(TEE), Puck()], ids=["ball", "box", "tee", "puck"]
-)
-@pytest.mark.parametrize("speed", [0.1, 2.0])
+@each_case("restitution", [0.0, 0.3, 0.7, 1.0])
+@each_case("prop", [Ball(), Box(), Solid(TEE), Puck()])
+@each_case("speed", [0.1, 2.0])
 def test_a_prop_bounces_off_a_wall_at_its_restitution(restitution, prop, speed):
     prop = prop.replace(restitution=restitution, ground_friction=0, velocity=(speed, 0, 0))
     world = endless([IDLE], [prop], addons=[Map([[(0.5, -1), (0.5, 1)]])])
@@ -247,8 +245,8 @@ def test_a_bar_that_hits_a_wall_with_its_end_is_turned_by_the_impulse_times_its_
     assert world.prop_velocity[2, 0] == pytest.approx(corner[1] * impulse / moment, rel=0.02)
 
 
-@pytest.mark.parametrize("restitution", [0.25, 0.5, 1.0])
-@pytest.mark.parametrize("masses", [(1, 1), (1, 3), (5, 1)])
+@each_case("restitution", [0.25, 0.5, 1.0])
+@each_case("masses", [(1, 1), (1, 3), (5, 1)])
 def test_balls_in_line_part_as_the_laws_of_impact_say(restitution, masses):
     m, n = masses
     balls = [
@@ -272,8 +270,8 @@ def test_balls_in_line_part_as_the_laws_of_impact_say(restitution, masses):
     assert row["point"] == pytest.approx([0.45, 0], abs=2e-3)
 
 
-@pytest.mark.parametrize("restitution", [0.5, 1.0])
-@pytest.mark.parametrize("offset", [0.05, -0.12, 0.17])
+@each_case("restitution", [0.5, 1.0])
+@each_case("offset", [0.05, -0.12, 0.17])
 def test_balls_that_meet_obliquely_part_along_the_normal_alone(restitution, offset):
     balls = [
         Ball(velocity=(1, 0, 0), restitution=restitution),
@@ -287,7 +285,7 @@ def test_balls_that_meet_obliquely_part_along_the_normal_alone(restitution, offs
     assert world.prop_velocity[:2] == pytest.approx(expected, abs=0.01)
 
 
-@pytest.mark.parametrize("mu", [0.05, 0.1, 0.2])
+@each_case("mu", [0.05, 0.1, 0.2])
 def test_a_rough_ball_that_slides_over_a_wall_is_turned_by_mu_times_the_impulse(mu):
     slope = 1.0
     ball = Ball(
@@ -433,8 +431,8 @@ def meeting(seed: int, count: int, restitution: float) -> list[Ball]:
     return balls
 
 
-@pytest.mark.parametrize("seed", range(12))
-@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+@each_case("seed", range(12))
+@each_case("restitution", [0.0, 0.5, 1.0])
 def test_contacts_tell_all_of_the_momentum_that_bodies_get(seed, restitution):
     """What a free ball gains is the sum of the impulses of its contacts."""
     world = endless([IDLE], meeting(seed, 3, restitution), sampling_time=0.02)
@@ -461,8 +459,8 @@ def impulses_of(world: World, ticks: int) -> tuple[np.ndarray, np.ndarray]:
     return change, told
 
 
-@pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("restitution", [0.0, 0.7071, 1.0])
+@each_case("seed", range(4))
+@each_case("restitution", [0.0, 0.7071, 1.0])
 def test_in_crowds_between_walls_they_add_up_to_the_last_digits(seed, restitution):
     room = [(-1.6, -1.6), (1.6, -1.6), (1.6, 1.6), (-1.6, 1.6), (-1.6, -1.6)]
     walls = Map(list(pairwise(room)), restitution=restitution)
@@ -476,7 +474,7 @@ def test_in_crowds_between_walls_they_add_up_to_the_last_digits(seed, restitutio
     assert told == pytest.approx(change, abs=1e-12)
 
 
-@pytest.mark.parametrize("tied", [False, True])
+@each_case("tied", [False, True])
 def test_in_a_tangle_of_shapes_they_add_up_but_for_what_joints_do(tied):
     props, joints = tangle(1, 0.7, 0.5, tied=tied)
     with plainly():
@@ -487,9 +485,9 @@ def test_in_a_tangle_of_shapes_they_add_up_but_for_what_joints_do(tied):
     assert told.sum(axis=1) == pytest.approx(change.sum(axis=1), abs=1e-9)
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.7071, 0.9, 1.0])
-@pytest.mark.parametrize("gap", [0.0, 1e-4, 1e-3, 1e-2])
-@pytest.mark.parametrize("count", [1, 2, 4])
+@each_case("restitution", [0.0, 0.3, 0.7071, 0.9, 1.0])
+@each_case("gap", [0.0, 1e-4, 1e-3, 1e-2])
+@each_case("count", [1, 2, 4])
 def test_a_chain_of_pucks_before_a_wall_tells_of_all_its_momentum_and_wins_no_energy(
     restitution, gap, count
 ):
@@ -513,7 +511,7 @@ def test_a_chain_of_pucks_before_a_wall_tells_of_all_its_momentum_and_wins_no_en
     assert (np.diff(world.prop_pose[0]) > 0.2 - 1e-3).all()  # nobody passes another
 
 
-@pytest.mark.parametrize("gap", [1e-3, 1e-2])
+@each_case("gap", [1e-3, 1e-2])
 def test_in_a_chain_each_impact_is_that_of_two(gap):
     """With a gap before the wall, the second puck comes back and hits the first once more."""
     e = 0.7071

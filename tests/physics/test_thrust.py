@@ -14,6 +14,7 @@ from mars2d.bodies import Box, Hinge
 from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Polygon
 from mars2d.world.verify import rerun
+from tests.cases import each_case
 from tests.worlds import drive, endless
 
 PLATE = Polygon([(-0.2, -0.12), (0.2, -0.12), (0.2, 0.12), (-0.2, 0.12)])
@@ -31,7 +32,7 @@ def steps(time: float, sampling_time: float) -> float:
 # -- alone ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.03, 0.0017])
+@each_case("sampling_time", [0.5, 0.1, 0.03, 0.0017])
 def test_it_gathers_speed_at_force_over_mass_and_brakes_so(sampling_time):
     force, mass, speed = 1.7, 2.3, 0.45
     world = endless([Robot(mass=mass, drive=limited(max_force=force))], sampling_time=sampling_time)
@@ -56,8 +57,8 @@ def test_it_tells_its_speed_and_that_its_drive_does_all_it_can():
     assert world.effort[0] == 0.0
 
 
-@pytest.mark.parametrize("sampling_time", [0.37, 0.05])
-@pytest.mark.parametrize("shape", [None, PLATE])
+@each_case("sampling_time", [0.37, 0.05])
+@each_case("shape", [None, PLATE])
 def test_it_gathers_spin_at_torque_over_moment(shape, sampling_time):
     torque, spin = 0.01, 1.1
     robot = Robot(mass=0.8, shape=shape, drive=limited(max_torque=torque))
@@ -71,7 +72,7 @@ def test_it_gathers_spin_at_torque_over_moment(shape, sampling_time):
     assert world.velocity[2, 0] == -spin
 
 
-@pytest.mark.parametrize("angle", [0.9, 2.0, 4.4])
+@each_case("angle", [0.9, 2.0, 4.4])
 def test_a_holonomic_robots_velocity_goes_straight_to_the_one_commanded(angle):
     force, mass, first = 0.8, 1.3, np.array([0.3, 0.1])
     world = endless([Robot(mass=mass, drive=limited(Holonomic, max_force=force))])
@@ -99,8 +100,8 @@ def integrated(force, mass, torque, moment, command, time):
     ).y[:, -1]
 
 
-@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.06])
-@pytest.mark.parametrize(
+@each_case("sampling_time", [0.5, 0.1, 0.06])
+@each_case(
     ("force", "torque", "command"),
     [
         (0.3, 0.004, (0.4, 1.5)),  # it never gets onto its arc, and turns late
@@ -153,7 +154,7 @@ def test_a_car_and_a_drive_of_ones_own_are_bounded_as_well():
     assert world.pose[:2, 1] == pytest.approx([0, 3.125])
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_without_forces_it_changes_nothing(physics):
     drives = [Unicycle(max_force=0.1), Unicycle(max_force=0.1, force_limited=True)]
     worlds = [endless([Robot(drive=each)], physics=physics) for each in drives]
@@ -164,8 +165,8 @@ def test_without_forces_it_changes_nothing(physics):
 # -- beside other things ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("shape", [None, PLATE])
-@pytest.mark.parametrize("command", [(0.35, 0.0), (0.35, 0.9), (0.1, -1.2)])
+@each_case("shape", [None, PLATE])
+@each_case("command", [(0.35, 0.0), (0.35, 0.9), (0.1, -1.2)])
 def test_near_a_wall_that_it_does_not_touch_it_goes_as_in_the_open(shape, command):
     robot = Robot(
         mass=2.3, shape=shape, pose=(0, 0.5, 0), drive=limited(max_force=1.1, max_torque=0.02)
@@ -181,7 +182,7 @@ def test_near_a_wall_that_it_does_not_touch_it_goes_as_in_the_open(shape, comman
     assert ways[0] == pytest.approx(ways[1], abs=1e-6)
 
 
-@pytest.mark.parametrize("gap", [1e-6, 1e-4, 0.01, 0.2])
+@each_case("gap", [1e-6, 1e-4, 0.01, 0.2])
 def test_it_hits_with_the_speed_that_it_gathered_over_the_gap(gap):
     force, mass = 1.5, 1.8
     world = endless(
@@ -194,8 +195,8 @@ def test_it_hits_with_the_speed_that_it_gathered_over_the_gap(gap):
     assert world.record.contacts[0]["speed"] == pytest.approx(expected, rel=0.01, abs=3e-3)
 
 
-@pytest.mark.parametrize("gap", [0.0, 1e-17, 1e-12, 1e-6])
-@pytest.mark.parametrize("excess", [0.98, 1.02])
+@each_case("gap", [0.0, 1e-17, 1e-12, 1e-6])
+@each_case("excess", [0.98, 1.02])
 def test_a_box_that_its_force_cannot_move_stays_whatever_the_gap(gap, excess):
     force, mass = 5.0, 1.04
     friction = excess * force / (mass * GRAVITY)
@@ -207,9 +208,9 @@ def test_a_box_that_its_force_cannot_move_stays_whatever_the_gap(gap, excess):
     assert way[-1] == pytest.approx(a * 5.0**2 / 2 if a else 0.0, abs=1e-4 + 0.03 * a * 12.5)
 
 
-@pytest.mark.parametrize("force_limited", [True, False])
-@pytest.mark.parametrize("gap", [0.0, 1e-12, 1e-6])
-@pytest.mark.parametrize("n", [2, 3, 4, 5, 8])
+@each_case("force_limited", [True, False])
+@each_case("gap", [0.0, 1e-12, 1e-6])
+@each_case("n", [2, 3, 4, 5, 8])
 def test_a_file_moves_what_its_forces_can_and_nothing_else(n, gap, force_limited):
     if not force_limited and gap > 1e-9:
         pytest.skip("ideal drives run at full speed from the first instant")

@@ -12,19 +12,21 @@ import pytest
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Box, Puck
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import island as islands
 from mars2d.physics.islands.contacts import (
     Row,
     Touch,
     begin_touches_again,
     close_touches,
+    end_touches,
     keep_touches,
     note_row,
-    part,
     take_touches,
 )
 from mars2d.physics.motion import WIDE
 from mars2d.record.contact import CONTACT
+from tests.cases import each_case
 from tests.islands import DISC, body_of, piece_of, place
 from tests.worlds import drive
 
@@ -152,7 +154,7 @@ def test_rows_come_by_time_and_then_by_pair_and_what_has_parted_is_forgotten():
         (0.1, 1, 2), (0.1, 2, -1), (0.2, 0, 2),
     ]  # fmt: skip
     for body in bodies[:2]:
-        part(body, 0.1)
+        end_touches(body, 0.1)
     take(bodies)
     assert [len(body.contacts) for body in bodies] == [0, 0, 1]
 
@@ -371,8 +373,8 @@ def scenes(friction: float) -> list[tuple]:
     ]
 
 
-@pytest.mark.parametrize("time", [1.0, 0.5, 0.1, 0.005])
-@pytest.mark.parametrize("friction", [0.0, 0.6])
+@each_case("time", [1.0, 0.5, 0.1, 0.005])
+@each_case("friction", [0.0, 0.6])
 def test_rows_add_up_to_the_momentum_that_contacts_give_in_each_control_step(time, friction):
     """In corners, on turns, in crowds, and where two meet several times in a control step."""
     faults = []
@@ -433,12 +435,11 @@ def told(monkeypatch):
     """An island of the bodies 0, 1 and 2, which takes what it is told for the solver's contacts."""
     ways = {
         "first_of": lambda one: one.bodies[0], "second_of": lambda one: one.bodies[1],
-        "impulse_of": lambda one: one.impulse, "normal_of": lambda one: one.normal,
-        "count_of": lambda one: len(one.on_first), "is_void": lambda one: False,
+        "impulse_of": lambda one: one.impulse, "count_of": lambda one: one.count,
         "point_of": lambda one, k, second: (one.on_second if second else one.on_first)[k],
     }  # fmt: skip
     for name, way in ways.items():
-        monkeypatch.setattr(islands, name, way)
+        monkeypatch.setattr(chipmunk, name, way)
     bodies = log_of(0, 1, 2)
     for k, body in enumerate(bodies):
         place(body, complex(k, 0))
@@ -454,7 +455,7 @@ def vector(pair) -> SimpleNamespace:
 def contact(bodies, impulse, normal=(1.0, 0.0), first=((0.1, 0.2),), second=((0.3, 0.4),)):
     """A contact of the solver."""
     return SimpleNamespace(
-        bodies=bodies, impulse=vector(impulse), normal=vector(normal),
+        bodies=bodies, impulse=vector(impulse), n=vector(normal), count=len(first),
         on_first=list(map(vector, first)), on_second=list(map(vector, second)),
     )  # fmt: skip
 

@@ -14,6 +14,7 @@ import pytest
 from mars2d import Car, Differential, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies import Ball, Box, Puck, Spring
+from tests.cases import each_case
 
 FAR = Robot(pose=(0, -90, 0))
 GRAVITY = 9.81
@@ -35,7 +36,7 @@ def at_rest(world: World) -> World:
     return world
 
 
-@pytest.mark.parametrize("sampling_time", [1.0, 0.5, 0.1, 0.02, 0.005])
+@each_case("sampling_time", [1.0, 0.5, 0.1, 0.02, 0.005])
 def test_what_slides_beside_a_smooth_wall_goes_as_far_as_in_the_open(sampling_time):
     for angle in (0.0, 0.7):
         c, s = np.cos(angle), sin(angle)
@@ -49,7 +50,7 @@ def test_what_slides_beside_a_smooth_wall_goes_as_far_as_in_the_open(sampling_ti
         assert gone == pytest.approx(4 / (2 * 0.6 * GRAVITY), rel=1e-6)
 
 
-@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.005])
+@each_case("sampling_time", [0.5, 0.1, 0.005])
 def test_what_slides_and_spins_at_a_smooth_wall_does_as_in_the_open(sampling_time):
     ends = []
     for y in (0.1, 0.5):
@@ -70,8 +71,8 @@ def test_pucks_side_by_side_slide_as_each_alone():
     assert world.prop_pose[0] == pytest.approx(ways, rel=1e-6)
 
 
-@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.005])
-@pytest.mark.parametrize("max_overlap", [4e-3, 1e-3])
+@each_case("sampling_time", [0.5, 0.1, 0.005])
+@each_case("max_overlap", [4e-3, 1e-3])
 def test_a_pushed_box_goes_half_a_t_squared(sampling_time, max_overlap):
     robot = Robot(drive=Unicycle(max_force=5))
     box = Box(pose=(0.35, 0, 0), length=0.4, width=0.4, mass=1.0, ground_friction=0.5)
@@ -85,7 +86,7 @@ def test_a_pushed_box_goes_half_a_t_squared(sampling_time, max_overlap):
         assert way == pytest.approx(a * world.time**2 / 2, rel=1e-3, abs=1e-6)
 
 
-@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.005])
+@each_case("sampling_time", [0.5, 0.1, 0.005])
 def test_a_robot_that_was_hit_is_braked_over_its_way(sampling_time):
     drive = Unicycle(max_force=5, max_torque=5)
     ways = []
@@ -97,8 +98,8 @@ def test_a_robot_that_was_hit_is_braked_over_its_way(sampling_time):
     assert ways == pytest.approx([4 / (2 * 5.0)] * 12, rel=1e-3)
 
 
-@pytest.mark.parametrize("damping", [0.0, 1.0, 5.0])
-@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.02])
+@each_case("damping", [0.0, 1.0, 5.0])
+@each_case("sampling_time", [0.5, 0.1, 0.02])
 def test_a_spring_swings_as_the_formula_says_at_each_instant(damping, sampling_time):
     mass, stiffness, amplitude = 1.0, 10.0, 0.3
     puck = Puck(name="p", pose=(1 + amplitude, 0, 0), mass=mass, ground_friction=0.0)
@@ -144,7 +145,7 @@ def test_momentum_and_energy_hold_after_each_control_step_of_a_blow():
                 assert world.energy.total == pytest.approx(0.5, abs=1e-7)
 
 
-@pytest.mark.parametrize(
+@each_case(
     ("drive", "command"),
     [
         (Unicycle(max_acceleration=0.4, max_linear_speed=2), (1.5, 0.0)),
@@ -160,8 +161,8 @@ def test_on_ramps_works_are_the_kinetic_energy(drive, command):
         assert world.energy.work.sum() == pytest.approx(world.energy.total, rel=1e-9, abs=1e-12)
 
 
-@pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.02, 0.005])
-@pytest.mark.parametrize("many", [1, 2, 3])  # one at a wall, two and three at each other
+@each_case("sampling_time", [0.5, 0.1, 0.02, 0.005])
+@each_case("many", [1, 2, 3])  # one at a wall, two and three at each other
 def test_robots_whose_drivers_let_go_press_each_other_no_longer(many, sampling_time):
     drives = [(0.5, 5.0), (0.0, 5.0), (-0.5, 5.0)]
     pushing = np.zeros((2, many))

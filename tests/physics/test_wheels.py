@@ -14,6 +14,7 @@ from mars2d.addons import Map
 from mars2d.bodies import Car, Hinge, Rope
 from mars2d.bodies.props import Box
 from mars2d.core.materials import GRAVITY
+from tests.cases import each_case
 from tests.islands import plainly
 from tests.worlds import drive, endless
 
@@ -36,9 +37,9 @@ def pushed(drive_: object, angle: float, force: float, mass: float = 2.0) -> flo
     return hypot(*world.pose[:2, 0])
 
 
-@pytest.mark.parametrize("mass", [1.0, 3.0])
-@pytest.mark.parametrize("angle", [0.0, 0.4, pi / 4, 1.2, pi / 2, 2.5, -pi / 3])
-@pytest.mark.parametrize(("grip", "side_grip"), [(0.5, None), (0.8, 0.3), (0.3, 0.9)])
+@each_case("mass", [1.0, 3.0])
+@each_case("angle", [0.0, 0.4, pi / 4, 1.2, pi / 2, 2.5, -pi / 3])
+@each_case(("grip", "side_grip"), [(0.5, None), (0.8, 0.3), (0.3, 0.9)])
 def test_wheels_hold_within_the_ellipse_of_their_grip(grip, side_grip, angle, mass):
     across = grip if side_grip is None else side_grip
     most = mass * GRAVITY / hypot(cos(angle) / grip, sin(angle) / across)
@@ -56,7 +57,7 @@ def test_a_stalled_motor_is_no_skidding_wheel():
     assert pushed(ideal, pi / 2, 4.3) > 1e-2  # without a grip, the motors bear all there is
 
 
-@pytest.mark.parametrize("angle", [0.3, 2.0])
+@each_case("angle", [0.3, 2.0])
 def test_motors_bear_what_is_ahead_and_wheels_what_is_across(angle):
     """The motors' 4 N bound the part ahead; the whole force is larger by 1 / |cos|."""
     most = 4.0 / abs(cos(angle))
@@ -65,8 +66,8 @@ def test_motors_bear_what_is_ahead_and_wheels_what_is_across(angle):
     assert pushed(wheels, angle, 1.05 * most) > 1e-2
 
 
-@pytest.mark.parametrize("model", [Unicycle, Holonomic, Car])
-@pytest.mark.parametrize(("force", "no_load"), [(10.0, 0.8), (20.0, 0.6)])
+@each_case("model", [Unicycle, Holonomic, Car])
+@each_case(("force", "no_load"), [(10.0, 0.8), (20.0, 0.6)])
 def test_a_motor_pushes_a_box_at_the_speed_where_its_force_is_that_of_the_floor(
     model, force, no_load
 ):
@@ -101,8 +102,8 @@ def test_a_car_without_side_grip_is_pushed_aside_by_little():
     assert pushed(slippery, 0.0, 1.0) < 2e-3
 
 
-@pytest.mark.parametrize("sampling_time", [0.2, 0.05])
-@pytest.mark.parametrize("wanted", [0.5, 1.9])
+@each_case("sampling_time", [0.2, 0.05])
+@each_case("wanted", [0.5, 1.9])
 def test_a_motor_runs_up_on_an_exponential(sampling_time, wanted):
     """m v' = F (1 - v / v0): v = v0 (1 - exp(-t / tau)), tau = m v0 / F, up to the command."""
     force, no_load, mass = 4.0, 2.0, 2.0
@@ -131,7 +132,7 @@ def test_wheels_skid_in_the_open_where_the_force_is_limited():
     assert world.pose[0, 0] - start == pytest.approx(2.0**2 / (2 * 0.2 * GRAVITY), rel=1e-4)
 
 
-@pytest.mark.parametrize("side_grip", [0.05, 0.5])
+@each_case("side_grip", [0.05, 0.5])
 def test_a_car_drifts_out_of_a_bend_that_its_side_grip_cannot_hold(side_grip):
     """On a circle of radius r at v wheels have to bear m v^2 / r across."""
     car = Car(
@@ -184,8 +185,8 @@ AT_A_WALL = [[(0.15, -9), (0.15, 9)]]
 
 
 @TIMES
-@pytest.mark.parametrize("offset", [0.0, 0.05])
-@pytest.mark.parametrize("model", [Unicycle, Car])
+@each_case("offset", [0.0, 0.05])
+@each_case("model", [Unicycle, Car])
 def test_a_robot_stalled_at_a_wall_does_not_slide_aside(model, offset, sampling_time):
     wheels = model(max_force=5.0, max_torque=50.0, grip=0.9)
     make = alone(wheels, sampling_time, AT_A_WALL, mass_offset=offset)
@@ -195,7 +196,7 @@ def test_a_robot_stalled_at_a_wall_does_not_slide_aside(model, offset, sampling_
 
 
 @TIMES
-@pytest.mark.parametrize("side_grip", [0.9, 0.4])
+@each_case("side_grip", [0.9, 0.4])
 def test_beyond_what_the_ellipse_leaves_a_stalled_robot_skids_aside(side_grip, sampling_time):
     """While it is slow its motors stall; then they turn the wheels as commanded: these slip."""
     force, mass, grip, speed = 5.0, 2.0, 0.9 * 2 * GRAVITY, 0.3
@@ -219,8 +220,8 @@ def test_beyond_what_the_ellipse_leaves_a_stalled_robot_skids_aside(side_grip, s
 
 
 @TIMES
-@pytest.mark.parametrize("heading", [0.0, 2.0])
-@pytest.mark.parametrize("angle", [pi / 4, -pi / 4, 3 * pi / 4])
+@each_case("heading", [0.0, 2.0])
+@each_case("angle", [pi / 4, -pi / 4, 3 * pi / 4])
 def test_a_braked_robot_pushed_obliquely_rolls_along_its_heading(angle, heading, sampling_time):
     """Its motors are weaker than the push, its wheels are not."""
     force, mass = 1.0, 2.0
@@ -237,7 +238,7 @@ def test_a_braked_robot_pushed_obliquely_rolls_along_its_heading(angle, heading,
 
 
 @TIMES
-@pytest.mark.parametrize(("degrees", "stops"), [(40, True), (18, True), (15, False), (8, False)])
+@each_case(("degrees", "stops"), [(40, True), (18, True), (15, False), (8, False)])
 def test_at_a_smooth_wall_it_stops_if_its_wheels_bear_what_wall_and_motors_do(
     degrees, stops, sampling_time
 ):
@@ -255,7 +256,7 @@ def test_at_a_smooth_wall_it_stops_if_its_wheels_bear_what_wall_and_motors_do(
 
 
 @TIMES
-@pytest.mark.parametrize("force_limited", [True, False])
+@each_case("force_limited", [True, False])
 def test_a_robot_thrown_aside_skids_until_its_wheels_hold_and_rolls_on(
     force_limited, sampling_time
 ):
@@ -279,7 +280,7 @@ def test_a_robot_thrown_aside_skids_until_its_wheels_hold_and_rolls_on(
 
 
 @TIMES
-@pytest.mark.parametrize("motors", [8.0, 1e3])
+@each_case("motors", [8.0, 1e3])
 def test_locked_wheels_skid_straight_on(motors, sampling_time):
     """Motors that hold the wheels let their whole grip oppose the slip, whatever its direction."""
     wheels = Unicycle(max_force=motors, grip=0.5, force_limited=True)
@@ -334,7 +335,7 @@ def integrated(force, along, across, mass, command, time):
 
 
 @TIMES
-@pytest.mark.parametrize(
+@each_case(
     ("force", "grip", "side_grip", "command"),
     [
         (1.0, 0.5, None, (1.0, 0.8)),  # it rolls all the way

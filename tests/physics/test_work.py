@@ -13,6 +13,7 @@ from mars2d.bodies import Car
 from mars2d.bodies.joints import Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Box, Gate, Puck
 from mars2d.core.materials import GRAVITY
+from tests.cases import each_case
 from tests.worlds import endless
 
 FAR = Robot(pose=(60, 60, 0))
@@ -55,7 +56,7 @@ def test_a_slide_loses_all_to_the_floor():
     assert work(world) == pytest.approx([0, -0.5 * 3 * 4, 0, 0, 0, 0], abs=1e-9)
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.6, 1.0])
+@each_case("restitution", [0.0, 0.6, 1.0])
 def test_a_straight_impact_loses_what_restitution_takes(restitution):
     """(1 - e^2) / 2 times the reduced mass times the square of the speed."""
     look = {"friction": 0.3, "ground_friction": 0.0, "restitution": sqrt(restitution)}
@@ -67,7 +68,7 @@ def test_a_straight_impact_loses_what_restitution_takes(restitution):
     assert work(world) == pytest.approx([0, 0, 0, -lost, 0, 0], abs=1e-3)
 
 
-@pytest.mark.parametrize("mu", [0.1, 0.25])
+@each_case("mu", [0.1, 0.25])
 def test_an_oblique_impact_of_a_disc_loses_to_friction_what_it_slides(mu):
     """It slides all the time: the friction's impulse is mu (1 + e) m v_n."""
     e, m, vn, vt = 0.5, 2.0, 1.0, 3.0
@@ -86,7 +87,7 @@ def test_an_oblique_impact_of_a_disc_loses_to_friction_what_it_slides(mu):
     assert work(world)[IMPACTS] == pytest.approx(-(1 - e**2) * m * vn**2 / 2, rel=1e-3)
 
 
-@pytest.mark.parametrize("limited", [False, True])
+@each_case("limited", [False, True])
 def test_what_a_drive_does_in_the_open_is_the_energy_of_its_robot(limited):
     robot = Robot(mass=2.0, drive=Unicycle(force_limited=limited, max_force=4, max_torque=1))
     world = endless([robot])
@@ -155,7 +156,7 @@ def test_a_pull_from_outside_is_the_work_of_hands():
     assert hypot(*engine.velocity[:2, 1]) == pytest.approx(speed, rel=1e-6)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@each_case("seed", range(3))
 def test_a_tangle_of_all_of_it_adds_up(seed):
     """Robots of all drives, also with a centre of mass elsewhere; props, ropes, rods, a wall."""
     rng = np.random.default_rng(seed)
@@ -230,7 +231,7 @@ def test_what_is_put_elsewhere_has_lost_its_energy_to_hands():
     assert world.energy.total == 0.0
 
 
-@pytest.mark.parametrize("physics", ["stop", "ideal"])
+@each_case("physics", ["stop", "ideal"])
 def test_without_forces_drives_do_all_and_what_stops_has_lost_it_in_the_impact(physics):
     puck = Puck(pose=(1, 0, 0), velocity=(-0.5, 0, 0), mass=2.0, ground_friction=0.0)
     world = endless([Robot(mass=3.0)], [puck], physics=physics)
@@ -239,7 +240,7 @@ def test_without_forces_drives_do_all_and_what_stops_has_lost_it_in_the_impact(p
     assert world.energy.by("impacts") == pytest.approx(lost)
 
 
-@pytest.mark.parametrize("angle", [0.0, 30.0])
+@each_case("angle", [0.0, 30.0])
 def test_a_robot_that_presses_against_a_wall_does_no_work(angle):
     robot = Robot(pose=(-0.3, 0, 0), drive=Unicycle(max_force=5), friction=2.0)
     a = radians(90 - angle)

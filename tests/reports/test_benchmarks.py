@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.nightly
 
 FOLDER = Path(__file__).parents[2] / "benchmarks"
 
@@ -49,7 +49,7 @@ def test_rays_are_timed_and_are_those_of_the_public_method(tmp_path):
     assert result["team"]["readings"] == [201, 20, 180]
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_drawing_and_films_are_timed(tmp_path):
     pytest.importorskip("av")
     rows = run("drawing.py", "--rounds", "1", "--steps", "4", cwd=tmp_path)["drawing"]

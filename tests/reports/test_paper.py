@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import re
 import shlex
 import shutil
+import signal
 import subprocess
+import sys
+import time
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -27,7 +31,7 @@ from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import open_module
 from mars2d.scenario.prediction import Prediction
 from tests.cases import each_case
-from tests.processes import mars
+from tests.processes import PATIENCE, mars, wait_until
 
 FAILS = """
 from mars2d import Prediction, Scenario
@@ -204,7 +208,7 @@ def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, 
     assert (tmp_path / name).read_bytes() == (cheap / name).read_bytes()
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
     done = mars("paper", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
@@ -428,7 +432,7 @@ def test_times_after_the_end_of_a_run_show_its_end():
 # -- processes --------------------------------------------------------------------------------
 
 
-@pytest.mark.soak
+@pytest.mark.nightly
 def test_what_comes_out_does_not_depend_on_the_number_of_processes(tmp_path):
     every = [
         figure(Run("random_walk", "W", "S.", options={"stop_time": 20}), number=number)
@@ -447,6 +451,39 @@ def test_what_comes_out_does_not_depend_on_the_number_of_processes(tmp_path):
         assert {number for _, *active in seen for number in active} == {2, 3, 4}
     assert made[0] == made[1]
     assert len(made[0][0]) == 6
+
+
+def is_group(number):
+    """Return whether a group of processes has members."""
+    try:
+        os.killpg(number, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child there")
+def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path):
+    folder = tmp_path / "out"
+    child = subprocess.Popen(
+        [sys.executable, "-m", "mars2d", "paper", str(folder), "--only", "7"],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+    )  # fmt: skip
+    while not list(folder.glob("*.pdf")):
+        assert child.poll() is None
+        time.sleep(0.002)  # not wait_until: it may end soon after
+    os.killpg(child.pid, signal.SIGINT)  # as a terminal does: to all of them
+    out, err = child.communicate(timeout=PATIENCE)
+    assert child.returncode == 130
+    assert err == "mars2d: interrupted\n"
+    assert re.search(r"figure 7 .* not made\n", out)
+    assert f"page: {folder / 'index.html'}" in out
+    found = Page((folder / "index.html").read_text(encoding="utf-8"))
+    assert re.search(r"Broken off: figures? .*7 (was|were) not made\.", found.words())
+    check_numbers(folder)
+    assert not list(folder.glob("fig7*"))  # nor half a picture
+    wait_until(lambda: not is_group(child.pid))  # no worker is left behind
 
 
 # -- formulas, and the browser ----------------------------------------------------------------

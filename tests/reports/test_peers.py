@@ -13,7 +13,7 @@ import pytest
 
 from tests.cases import each_case
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.nightly
 
 FOLDER = Path(__file__).parents[2] / "benchmarks" / "peers"
 SCRIPTS = {

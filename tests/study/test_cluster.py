@@ -100,6 +100,7 @@ def test_nothing_is_lost_or_counted_twice_where_a_worker_is_killed_half_way(exec
         os.kill(found[killed], 0)
 
 
+@pytest.mark.nightly
 def test_a_task_that_ends_its_worker_is_a_failure_and_the_rest_goes_on(executor, tasks):
     done = list(each_done(tasks.ends_at_seven, range(20), executor))
     assert sorted(index for index, _ in done) == list(range(20))
@@ -218,6 +219,7 @@ def kills_its_process(x):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
+@pytest.mark.nightly
 def test_a_task_that_ends_all_workers_is_a_failure(unguarded, monkeypatch, capsys):
     monkeypatch.setattr(clusters, "SOON", 0.5)
     monkeypatch.setattr(clusters, "ABSENCE", 1.0)
@@ -230,6 +232,7 @@ def test_a_task_that_ends_all_workers_is_a_failure(unguarded, monkeypatch, capsy
     assert capsys.readouterr().err == told
 
 
+@pytest.mark.nightly
 def test_tasks_for_which_no_worker_is_left_are_an_error(unguarded, monkeypatch):
     monkeypatch.setattr(clusters, "ABSENCE", 1.0)
     found = []
@@ -240,6 +243,7 @@ def test_tasks_for_which_no_worker_is_left_are_an_error(unguarded, monkeypatch):
     assert all(failure.error.endswith("; no worker is left") for failure in found)
 
 
+@pytest.mark.nightly
 def test_workers_that_come_in_time_go_on(unguarded, monkeypatch, capsys):
     monkeypatch.setattr(clusters, "SOON", 0.5)
     address, workers = unguarded

@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
@@ -61,18 +60,6 @@ def is_killed(_):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def stops_itself(x):
-    os.kill(os.getpid(), signal.SIGSTOP)
-    return x
-
-
-def is_killed_once(file):
-    if not Path(file).exists():
-        Path(file).touch()
-        is_killed(None)
-    return "done"
-
-
 def cannot_be_sent(_):
     return (k for k in range(3))
 
@@ -88,20 +75,11 @@ def cannot_be_read(_):
 
 def hangs(file):
     Path(file).write_text(str(os.getpid()))
-    try:
-        while True:
-            time.sleep(0.01)
-    finally:
-        Path(file).with_suffix(".tidy").touch()
+    time.sleep(1000)
 
 
-def clings(file):
-    Path(file).write_text(str(os.getpid()))
-    while True:
-        try:
-            time.sleep(10)
-        except BaseException:
-            pass
+def sums_for_ever(_):
+    return sum(range(10**12))
 '''
 
 
@@ -139,14 +117,13 @@ class Counted(Sequence):
 
 
 @pytest.mark.slow
-def test_each_task_comes_once_whatever_becomes_of_it(do, tmp_path):
+def test_each_task_comes_once_whatever_becomes_of_it(do):
     odd = {
         2: ("threads", None),
         3: ("fails", "nine"),
         4: ("leaves", 3),
         5: ("ends", 7),
         6: ("is_killed", None),
-        7: ("is_killed_once", str(tmp_path / "killed")),
         8: ("cannot_be_sent", None),
         9: ("cannot_be_read", None),
     }
@@ -162,22 +139,9 @@ def test_each_task_comes_once_whatever_becomes_of_it(do, tmp_path):
     assert found[2] == os.environ.get("OPENBLAS_NUM_THREADS", "1")
     assert found[3] == Failure("ValueError: no nine")
     assert found[4] == Failure("SystemExit: 3")
-    assert found[5] == Failure("the process that ran it ended with exit code 7, twice")
-    assert found[6].error.startswith("the process that ran it was killed by SIGKILL, perhaps for")
-    assert found[7] == "done"
+    assert found[5] == found[6] == Failure("the process that ran it ended, twice")
     assert "can't be sent back: TypeError: cannot pickle 'generator' object" in found[8].error
     assert found[9].error.startswith("what it returned can't be read: ValueError")
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-def test_a_worker_that_is_ended_when_it_has_ended_says_nothing(child):
-    done = child(
-        "import multiprocessing, os, signal\n"
-        "from mars2d.study.workers import _serve\n"
-        "ours, theirs = multiprocessing.Pipe(); ours.close(); _serve(theirs)\n"
-        "os.kill(os.getpid(), signal.SIGTERM)"
-    )
-    assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")
 
 
 def test_tasks_are_made_as_they_are_needed_and_workers_end_with_the_iterator(do):
@@ -186,24 +150,23 @@ def test_tasks_are_made_as_they_are_needed_and_workers_end_with_the_iterator(do)
     assert [next(done)[1] in (0, 1), next(done)[1] in (0, 1, 4)] == [True, True]
     assert tasks.asked < 10
     done.close()
-    assert not any("_serve" in repr(child) for child in get_context("spawn").active_children())
+    wait_until(lambda: not get_context("spawn").active_children())
 
 
-def test_workers_that_are_busy_are_ended_promptly_and_what_they_hold_is_tidied_up(
-    do, tmp_path, monkeypatch
-):
-    monkeypatch.setattr(workers, "END_TIMEOUT", 0.5)
-    tidy, stubborn = tmp_path / "tidy", tmp_path / "stubborn"
-    done = each_done(
-        do, [("hangs", str(tidy)), ("square", 2), ("clings", str(stubborn))], workers=2
-    )
+def test_workers_that_are_busy_are_ended_promptly(do, tmp_path):
+    file = tmp_path / "hangs"
+    done = each_done(do, [("hangs", str(file)), ("square", 2)], workers=2)
     assert next(done) == (1, 4)
-    pids = [pid_in(tidy), pid_in(stubborn)]
-    start = time.monotonic()
+    pid = pid_in(file)
     done.close()
-    assert time.monotonic() - start < 60
-    assert not any(map(running, pids))
-    assert tidy.with_suffix(".tidy").exists() or sys.platform == "win32"
+    assert not running(pid)
+
+
+def test_a_task_in_c_code_is_ended_some_seconds_after_its_limit(do, monkeypatch):
+    monkeypatch.setattr(workers, "BREAKING_OFF", 0.0)
+    done = dict(each_done(do, [("sums_for_ever", 0), ("square", 3)], workers=1, limit=0.5))
+    assert done[1] == 9
+    assert "perhaps in code in C at the time limit of 0.5 s" in done[0].error
 
 
 SCRIPT = """
@@ -236,7 +199,8 @@ def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):
     else:
         parent.kill()
     out, err = parent.communicate(timeout=PATIENCE)
-    assert (out, err) == ("interrupted\n" if number == signal.SIGINT else "", "")
+    if number == signal.SIGINT:
+        assert (out, err) == ("interrupted\n", "")
     wait_until(lambda: not any(map(running, pids)))
 
 
@@ -249,7 +213,7 @@ def test_no_process_outlives_the_one_that_started_it(do, tmp_path, number):
         ),
         (
             "if __name__ != '__main__': raise SystemExit(5)",
-            "a worker process ended with exit code 5 before it had begun",
+            "a worker process ended before it had begun",
         ),
     ],
 )
@@ -344,9 +308,3 @@ def test_an_executor_that_is_shut_down_or_none_is_refused():
         list(each_done(abs, [1], pool))
     with pytest.raises(InputError, match=r"executor=4: expected an Executor of concurrent.futures"):
         each_done(abs, [1], 4)
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
-def test_a_worker_that_was_stopped_goes_on(do):
-    tasks = [("square", 1), ("stops_itself", 2), ("square", 3)]
-    assert sorted(each_done(do, tasks, workers=2)) == [(0, 1), (1, 2), (2, 9)]

@@ -783,13 +783,13 @@ LONG = {
     "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "dead_reckoning",
     "formation", "herding", "leader_following", "path_planning", "rendezvous",
 }  # fmt: skip
-"""Examples whose trial takes a second and more: `pytest -m soak`."""
+"""Examples whose trial takes a second and more: `pytest -m nightly`."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(n, marks=[pytest.mark.soak] if n in LONG else []) for n in sorted(examples())],
+    [pytest.param(n, marks=[pytest.mark.nightly] if n in LONG else []) for n in sorted(examples())],
 )
 def test_the_parts_and_laws_of_the_examples_are_sound(name):
     module = open_module(examples()[name])

@@ -25,6 +25,7 @@ def address(tmp_path):
         yield f"{address}index.html"
 
 
+@pytest.mark.nightly
 def test_an_example_is_chosen_changed_and_run(browser, address):
     page = browser.new_page(viewport={"width": 1280, "height": 900})
     page.set_default_timeout(60_000)

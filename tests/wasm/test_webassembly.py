@@ -14,7 +14,7 @@ import pytest
 from mars2d.scenario.examples import examples
 from tests.house.test_examples import DIGESTS
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.nightly
 
 CHECKOUT = Path(__file__).parents[2]
 

@@ -9,7 +9,7 @@ import pytest
 from tests.cases import each_case
 from tests.window.person import Driver, needs_screen
 
-pytestmark = needs_screen
+pytestmark = [needs_screen, pytest.mark.nightly]
 
 
 class Person(Driver):

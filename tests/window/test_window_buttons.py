@@ -13,7 +13,7 @@ from mars2d.record.marks import marks_of
 from mars2d.window import context, keys, scope_menu, toolbar
 from tests.window.person import differing, needs_screen
 
-pytestmark = needs_screen
+pytestmark = [needs_screen, pytest.mark.nightly]
 
 
 def push(window, button):

@@ -7,7 +7,7 @@ import pytest
 
 from tests.window.person import needs_screen
 
-pytestmark = needs_screen
+pytestmark = [needs_screen, pytest.mark.nightly]
 
 
 def test_keys_drive_against_the_law_and_escape_lets_go(open_window, room):

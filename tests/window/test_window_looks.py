@@ -7,7 +7,7 @@ import pytest
 
 from tests.window.person import ROOM, compare, needs_screen
 
-pytestmark = needs_screen
+pytestmark = [needs_screen, pytest.mark.nightly]
 
 ACROSS = 300, 30
 """A pixel where the pointer changes nothing."""

@@ -13,7 +13,7 @@ from mars2d.world.record import load
 from tests.processes import PATIENCE, bare_environment, wait_until
 from tests.window.person import ROOT, differing, needs_screen
 
-pytestmark = needs_screen
+pytestmark = [needs_screen, pytest.mark.nightly]
 
 
 @pytest.fixture

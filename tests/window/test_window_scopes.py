@@ -4,11 +4,12 @@ import csv
 
 import numpy as np
 import pygame
+import pytest
 
 from mars2d import load, run
 from tests.window.person import PUSHING, needs_screen
 
-pytestmark = needs_screen
+pytestmark = [needs_screen, pytest.mark.nightly]
 
 
 def push(window, button):

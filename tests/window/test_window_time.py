@@ -6,7 +6,7 @@ import pytest
 
 from tests.window.person import HEADER, PLOT, differing, needs_screen
 
-pytestmark = needs_screen
+pytestmark = [needs_screen, pytest.mark.nightly]
 
 
 def test_space_pauses_and_resumes(open_window):

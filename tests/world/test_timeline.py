@@ -65,7 +65,7 @@ LONG = {
     "push_box", "wall_follower", "crowd", "tug_of_war", "herding", "head_on", "billiards",
     "corner_game",
 }  # fmt: skip
-"""Examples that take many seconds to go back in: `pytest -m soak`."""
+"""Examples that take many seconds to go back in: `pytest -m nightly`."""
 
 QUICK = {"go_to_point", "own_sensor_and_addon", "random_walk", "wall_slide"}
 
@@ -75,7 +75,11 @@ QUICK = {"go_to_point", "own_sensor_and_addon", "random_walk", "wall_slide"}
     [
         pytest.param(
             name,
-            marks=pytest.mark.soak if name in LONG else () if name in QUICK else pytest.mark.slow,
+            marks=pytest.mark.nightly
+            if name in LONG
+            else ()
+            if name in QUICK
+            else pytest.mark.slow,
         )
         for name in examples()
     ],

@@ -20,7 +20,14 @@ __all__ = ["difference", "islands", "reason_without", "version"]
 
 
 def islands() -> Any:
-    """Return the module that moves bodies: the compiled one, or `plain`."""
+    """Return the module that moves bodies: the compiled one, or `plain`.
+
+    Raises ImportError with a pymunk in which neither finds its numbers.
+    """
+    from mars2d.physics.islands.layout import misplaced
+
+    if misplaced():
+        raise ImportError(f"pymunk {version()} can't be used: {misplaced()}")
     return import_module("mars2d.physics.islands.plain") if reason_without() else _loaded()[0]
 
 
@@ -62,22 +69,10 @@ def difference() -> str:
     """Return how pymunk differs from the supported versions; empty if it does not."""
     from pymunk._chipmunk_cffi import ffi, lib
 
-    from mars2d.physics.islands.chipmunk import (
-        bodies_are_as_thought,
-        impulses_are_where_thought,
-        springs_are_as_thought,
-    )
+    from mars2d.physics.islands.layout import misplaced
 
-    found = (
-        f"pymunk {version()} is not as it was written for: {what}" for what in changes(ffi, lib)
-    )
-    known = {
-        "its joints have their impulses elsewhere": impulses_are_where_thought,
-        "its bodies have their poses elsewhere": bodies_are_as_thought,
-        "its springs have their damping elsewhere": springs_are_as_thought,
-    }
-    elsewhere = (what for what, is_as_thought in known.items() if not is_as_thought())
-    return next(found, "") or next(elsewhere, "")
+    what = next(changes(ffi, lib), "") or misplaced()
+    return what and f"pymunk {version()} is not as it was written for: {what}"
 
 
 FIELDS: dict[str, dict[str, tuple[int, str]]] = {

@@ -113,8 +113,6 @@ def decay_base(rate: cython.double, base: cython.double, h: cython.double) -> cy
     two numbers are rounded to one by some libraries, and to the other by others; here exp(-rate h)
     is worked out to twice the digits, and the base is shifted until its power is a number itself.
     """
-    p: cython.double
-    error: cython.double
     p, error = _product(rate, h)
     n: cython.double = floor(p * 1.4426950408889634 + 0.5)
     r: cython.double = n * 6.93147180369123816490e-01 - p
@@ -183,18 +181,9 @@ def exponential(y: cython.double) -> cython.double:
     r: cython.double = y + n * 6.93147180369123816490e-01
     r = r + n * 1.90821492927058770002e-10
     e: cython.double = 1.0 + r / 13.0
-    e = 1.0 + r * e / 12.0
-    e = 1.0 + r * e / 11.0
-    e = 1.0 + r * e / 10.0
-    e = 1.0 + r * e / 9.0
-    e = 1.0 + r * e / 8.0
-    e = 1.0 + r * e / 7.0
-    e = 1.0 + r * e / 6.0
-    e = 1.0 + r * e / 5.0
-    e = 1.0 + r * e / 4.0
-    e = 1.0 + r * e / 3.0
-    e = 1.0 + r * e / 2.0
-    e = 1.0 + r * e
+    k: cython.int
+    for k in range(12, 0, -1):
+        e = 1.0 + r * e / k
     while n >= 1.0:
         e = e * 0.5
         n = n - 1.0

@@ -17,8 +17,8 @@ from pathlib import Path
 HERE = Path(__file__).parent
 
 MODULES = (
-    "arithmetic", "body", "floor", "flush", "seams", "surfaces", "thrust", "pair", "tie", "solver",
-    "contacts", "impact", "island", "neighbours", "mover",
+    "arithmetic", "piece", "state", "rigid", "drive", "body", "floor", "flush", "seams", "surfaces",
+    "thrust", "pair", "tie", "solver", "contacts", "impact", "island", "neighbours", "mover",
 )  # fmt: skip
 """The modules, each after those that it imports."""
 
@@ -41,24 +41,39 @@ EXACTLY = ["/O2", "/fp:precise", "/w"] if sys.platform == "win32" else [
 
 def fingerprint() -> str:
     """Return a key that tells whether the islands were compiled from the present sources."""
-    names = [*(f"{name}.py" for name in MODULES), "build.py", "chipmunk.pxi"]
+    names = [*(f"{name}.py" for name in MODULES), "build.py", "chipmunk.py", "chipmunk.pxi"]
     return hashlib.sha256(b"\0".join((HERE / name).read_bytes() for name in names)).hexdigest()
 
 
 def functions() -> list[tuple[str, str]]:
     """Return the engine's functions that are called: their names and types, as declared in C."""
     text = (HERE / "chipmunk.pxi").read_text(encoding="utf-8")
-    declared = text[text.index("static struct {") : text.index("} engine;")]
-    found = re.findall(r"^\s+([\w ]+\*?)\(\*(\w+)\)\((.*)\);$", declared, flags=re.M)
-    return [(name, f"{result.strip()}(*)({taken})") for result, name, taken in found]
+    declared = text[text.index("cdef struct Engine:") : text.index("cdef Engine engine")]
+    found = re.findall(r"^    (\w+) \(\*(\w+)\)\((.*?)\) noexcept$", declared, flags=re.M | re.S)
+    kinds = [f"{result}(*)({' '.join(taken.split())})" for result, _, taken in found]
+    plain = [kind.replace("Handle", "void *").replace(" noexcept", "") for kind in kinds]
+    return [(name, kind) for (_, name, _), kind in zip(found, plain, strict=True)]
+
+
+def in_c() -> dict[str, str]:
+    """Return what is called in C by the names that `chipmunk` only gives to engine's functions."""
+    text = (HERE / "chipmunk.py").read_text(encoding="utf-8")
+    found = re.findall(r"^(\w+(?:, \w+)*) = (lib\.cp\w+(?:, lib\.cp\w+)*)$", text, flags=re.M)
+    return {
+        name: function.replace("lib.", "engine.")
+        for names, functions in found
+        for name, function in zip(names.split(", "), functions.split(", "), strict=True)
+    }
 
 
 def joined() -> str:
     """Return the modules as one for Cython."""
     parts = [HEAD.format(fingerprint=fingerprint()), (HERE / "chipmunk.pxi").read_text("utf-8")]
+    named = in_c()
     for name in MODULES:
         text = (HERE / f"{name}.py").read_text(encoding="utf-8")
         text = re.sub(r"^from [^\n]+ import (\([^)]*\)|[^\n]*)\n", "", text, flags=re.M)
+        text = re.sub(r"\bchipmunk\.(\w+)", lambda found: named.get(found[1], found[1]), text)
         text = re.sub(r"\bcython\.Doubles\b", "cython.double[::1]", text)
         parts.append(f"# -- {name}.py\n{text}")
     return "\n".join(parts)

@@ -1,19 +1,16 @@
 """Chipmunk, pymunk's engine, as the islands use it: spaces, bodies, shapes, joints, contacts.
 
 Python calls its functions through pymunk. The compiled islands call the same functions by their
-addresses: ``chipmunk.pxi`` is this module in C. No other module here knows the engine.
+addresses: ``chipmunk.pxi`` is this module in C. `layout` finds out where its numbers are.
 """
 
 from __future__ import annotations
 
-from functools import cache
-from itertools import chain
-from math import sqrt
 from typing import Any, TypeAlias
 
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.physics.islands.arithmetic import cosine_sine, exponential, implicitness
+from mars2d.physics.islands.arithmetic import cosine_sine, implicitness
 
 Handle: TypeAlias = Any
 """A thing of the engine."""
@@ -21,7 +18,14 @@ Handle: TypeAlias = Any
 Vector: TypeAlias = Any
 """A vector of the engine, with x and y."""
 
-NOTHING: Handle = None
+Arbiter: TypeAlias = Any
+"""A contact of two shapes: a and b, of body_a and body_b, with n, its normal from a to b.
+
+It has `count` points, of which none counts in a step that begins with 0. Each of `contacts` is one:
+r1 and r2 lead to it from the bodies' centres of mass, jnAcc and jtAcc are the impulses on b along
+the normal and a quarter turn to its left [N s], and bounce is the restitution times the speed at
+which bodies parted before the step [m/s].
+"""
 
 PIVOT, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING, GROOVE = range(8)
 """The kinds of joints."""
@@ -68,19 +72,9 @@ def new_space(slop: float) -> Handle:
     space = lib.cpSpaceNew()
     lib.cpSpaceSetCollisionSlop(space, slop)
     lib.cpSpaceSetCollisionPersistence(space, 1)
-    lib.cpSpaceAddWildcardHandler(space, _SEWN).preSolveFunc = _MEND
-    lib.cpSpaceAddWildcardHandler(space, _JOINED).preSolveFunc = _STRAIGHTEN
+    lib.cpSpaceAddWildcardHandler(space, SEWN).preSolveFunc = _MEND
+    lib.cpSpaceAddWildcardHandler(space, JOINED).preSolveFunc = _STRAIGHTEN
     return space
-
-
-def set_iterations(space: Handle, count: int) -> None:
-    """Set how often the solver goes over contacts and joints."""
-    lib.cpSpaceSetIterations(space, count)
-
-
-def ground_of(space: Handle) -> Handle:
-    """Return the body of a space that stands still."""
-    return lib.cpSpaceGetStaticBody(space)
 
 
 def step(space: Handle, h: float, bias: float) -> None:
@@ -95,6 +89,7 @@ def step(space: Handle, h: float, bias: float) -> None:
         raise _caught.pop()
 
 
+set_iterations, ground_of = lib.cpSpaceSetIterations, lib.cpSpaceGetStaticBody
 free_space = lib.cpSpaceFree
 
 # -- bodies and shapes ------------------------------------------------------------------------
@@ -149,7 +144,7 @@ def weight_at(body: Handle, ahead: float) -> None:
 _BODY = 2 * _POINTER // 8
 """Where the structs of bodies have their mass, behind two pointers, in numbers of eight bytes."""
 
-LEAD, CENTER, FAST, ANGLE, SPIN, TURN, MENDED, TURNED = (
+LEAD, CENTER, FAST, ANGLE, SPIN, TURN, BIAS, SPIN_BIAS = (
     _BODY + k for k in (4, 6, 8, 12, 13, 15, 22, 24)
 )
 """Where the engine's bodies have these, in numbers of eight bytes.
@@ -186,35 +181,11 @@ def frame_of(body: Handle) -> Handle:
 def _MOVE(body: Handle, h: float) -> None:  # noqa: N802
     numbers = ffi.cast("double *", body)
     for k in range(2):
-        numbers[CENTER + k] += (numbers[FAST + k] + numbers[MENDED + k]) * h
-        numbers[MENDED + k] = 0.0
-    angle = numbers[ANGLE] + (numbers[SPIN] + numbers[TURNED]) * h
-    numbers[TURNED] = 0.0
+        numbers[CENTER + k] += (numbers[FAST + k] + numbers[BIAS + k]) * h
+        numbers[BIAS + k] = 0.0
+    angle = numbers[ANGLE] + (numbers[SPIN] + numbers[SPIN_BIAS]) * h
+    numbers[SPIN_BIAS] = 0.0
     _turn(numbers, angle, *cosine_sine(angle))
-
-
-@cache
-def bodies_are_as_thought() -> bool:
-    """Whether bodies have their numbers where they are read and written."""
-    body = lib.cpBodyNew(2.0, 3.0)
-    lib.cpBodySetCenterOfGravity(body, (0.25, -0.5))
-    lib.cpBodySetAngle(body, 0.75)
-    lib.cpBodySetPosition(body, (4.0, 5.0))
-    aim(body, 6.0, 7.0, 8.0)
-    numbers = ffi.cast("double *", body)
-    c, s = cosine_sine(0.75)
-    wanted = {
-        LEAD: (0.25, -0.5), CENTER: (4 + 0.25 * c + 0.5 * s, 5 + 0.25 * s - 0.5 * c),
-        FAST: (6.0, 7.0), ANGLE: (0.75,), SPIN: (8.0,), TURN: (c, s, -s, c, 4.0, 5.0),
-        MENDED: (0.0, 0.0), TURNED: (0.0,),
-    }  # fmt: skip
-    found = [
-        abs(numbers[place + k] - value)
-        for place, values in wanted.items()
-        for k, value in enumerate(values)
-    ]
-    lib.cpBodyFree(body)
-    return bool(max(found) < 1e-12)
 
 
 def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
@@ -226,7 +197,7 @@ def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
 def settle_down(body: Handle) -> None:
     """Let a body forget by which velocity its overlaps are to be mended in the next step."""
     numbers = ffi.cast("double *", body)
-    numbers[MENDED] = numbers[MENDED + 1] = numbers[TURNED] = 0.0
+    numbers[BIAS] = numbers[BIAS + 1] = numbers[SPIN_BIAS] = 0.0
 
 
 def push(body: Handle, x: float, y: float, torque: float) -> None:
@@ -246,38 +217,30 @@ def make_joint(
 ) -> Handle:
     """Return a joint that has not held anything yet, in the memory of one outside of spaces.
 
-    joint: that one, or NOTHING. ends: the anchors in the frames of a and b, and where none are
+    joint: that one, or None. ends: the anchors in the frames of a and b, and where none are
     needed, any. p, q, r: the kind's numbers, in the order in which the engine takes them. A groove
     of a goes from (-p, -q) to (p, q).
     """
-    made = _made(kind, joint, a, b, ends, p, q, r)
-    if kind in (DAMPED_SPRING, ROTARY_SPRING) and r > 0.0 and springs_are_as_thought():
-        _damp(kind, made)
-    return made
-
-
-def _made(
-    kind: int, joint: Handle, a: Handle, b: Handle, ends: Any, p: float, q: float, r: float
-) -> Handle:
-    """Return a joint as the engine makes it."""
     itself = _ALLOC[kind]() if joint is None else ffi.cast(_OWN[kind], joint)
-    if kind == PIVOT:
-        _INIT[kind](itself, a, b, ends[0], ends[1])
-    elif kind in (GEAR, ROTARY_LIMIT):
-        _INIT[kind](itself, a, b, p, q)
+    taken: tuple[Any, ...] = (p, q, r)
+    if kind in (GEAR, ROTARY_LIMIT):
+        taken = (p, q)
+    elif kind in (PIVOT, PIN):
+        taken = ends
     elif kind == GROOVE:
-        _INIT[kind](itself, a, b, (-p, -q), (p, q), ends[1])
+        taken = (-p, -q), (p, q), ends[1]
     elif kind == SLIDE:
-        _INIT[kind](itself, a, b, ends[0], ends[1], p, q)
-    elif kind == PIN:
-        _INIT[kind](itself, a, b, ends[0], ends[1])
+        taken = (*ends, p, q)
     elif kind == DAMPED_SPRING:
-        _INIT[kind](itself, a, b, ends[0], ends[1], p, q, r)
-    else:
-        _INIT[kind](itself, a, b, p, q, r)
+        taken = (*ends, p, q, r)
+    _INIT[kind](itself, a, b, *taken)
     made = ffi.cast(_BASE, itself)
     if kind == PIN:
         lib.cpPinJointSetDist(made, p)
+    elif kind == DAMPED_SPRING and r > 0.0:
+        lib.cpDampedSpringSetSpringForceFunc(made, _PULL)
+    elif kind == ROTARY_SPRING and r > 0.0:
+        lib.cpDampedRotarySpringSetSpringTorqueFunc(made, _TWIST)
     return made
 
 
@@ -347,86 +310,16 @@ def _damped(spring: Handle, rest: int, lost: int, felt: int, closing: float) -> 
     return float(n[rest + 1])
 
 
-def _damp(kind: int, spring: Handle) -> None:
-    """Let a spring be damped as we do."""
-    if kind == DAMPED_SPRING:
-        lib.cpDampedSpringSetSpringForceFunc(spring, _PULL)
-    else:
-        lib.cpDampedRotarySpringSetSpringTorqueFunc(spring, _TWIST)
-
-
-@cache
-def springs_are_as_thought() -> bool:
-    """Whether springs have their numbers there: one of each kind is stepped to find out."""
-    space, body = new_space(0.0), new_body(2.0, 3.0, 0)
-    ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
-    add_body(space, body)
-    put(body, 0.5, 0.0, 0.25)
-    kinds = (
-        (DAMPED_SPRING, REST, LOST, FELT, 2.0),
-        (ROTARY_SPRING, REST_ANGLE, LOST_TURNING, FELT_TURNING, 3.0),
-    )
-    off = 0.0
-    for kind, rest, lost, felt, feels in kinds:
-        spring = _made(kind, NOTHING, ground, body, ends, 0.125, 4.0, 1.5)
-        add_joint(space, spring)
-        step(space, 0.0625, 0.5)
-        found = [_numbers(spring, *each) for each in ((rest, 3), (lost, 1), (felt, 1))]
-        wanted = [0.125, 4.0, 1.5, 1.0 - exponential(-1.5 * 0.0625 / feels), feels]
-        off = max(off, *(abs(a - b) for a, b in zip(chain(*found), wanted, strict=True)))
-        remove_joint(space, spring)
-        free_joint(spring)
-    remove_body(space, body)
-    free_body(body)
-    free_space(space)
-    return bool(off < 1e-12)
-
-
-@cache
-def impulses_are_where_thought() -> bool:
-    """Whether drives' impulses are found where they are read: a body is stopped to find out."""
-    space, body = new_space(0.0), new_body(2.0, 3.0, 0)
-    ground, ends = ground_of(space), ((0.0, 0.0), (0.0, 0.0))
-    pivot = make_joint(PIVOT, NOTHING, ground, body, ends, 0.0, 0.0, 0.0)
-    gear = make_joint(GEAR, NOTHING, ground, body, ends, 0.0, 1.0, 0.0)
-    groove = make_joint(GROOVE, NOTHING, ground, body, ends, 0.0, 1.0, 0.0)
-    set_max_force(groove, 1.0)
-    add_body(space, body)
-    for joint in (groove, pivot, gear):
-        add_joint(space, joint)
-    aim(body, 1.5, -2.0, 4.0)
-    step(space, 0.0625, 0.5)
-    x, y, turn = *_numbers(pivot, PIVOT_IMPULSE, 2), *_numbers(gear, GEAR_IMPULSE, 1)
-    known = used_of(pivot) == sqrt(x * x + y * y) and used_of(gear) == abs(turn)
-    known = known and _numbers(groove, GROOVE_IMPULSE, 2) == [-used_of(groove), 0.0] != [0.0, 0.0]
-    for joint in (groove, pivot, gear):
-        remove_joint(space, joint)
-        free_joint(joint)
-    remove_body(space, body)
-    free_body(body)
-    free_space(space)
-    return bool(known and x < 0 < y and turn < 0)
-
-
-def _numbers(joint: Handle, place: int, count: int) -> list[float]:
-    numbers = ffi.cast("double *", joint)
-    return [float(numbers[place + k]) for k in range(count)]
-
-
 def drag_of(joint: Handle, kind: int) -> Vector:
-    """Return the impulse of a joint, PIVOT or GROOVE, on its second body in the last step.
-
-    It is zero with an engine that has it elsewhere: then a joint's work has that of drives in it.
-    """
-    if not impulses_are_where_thought():
-        return ffi.new("cpVect *")[0]
+    """Return the impulse of a joint, PIVOT or GROOVE, on its second body in the last step."""
+    numbers = ffi.cast("double *", joint)
     place = GROOVE_IMPULSE if kind == GROOVE else PIVOT_IMPULSE
-    return ffi.new("cpVect *", _numbers(joint, place, 2))[0]
+    return ffi.new("cpVect *", (numbers[place], numbers[place + 1]))[0]
 
 
 def twist_of(joint: Handle) -> float:
     """Return the turning impulse of a joint of the kind GEAR on its second body."""
-    return _numbers(joint, GEAR_IMPULSE, 1)[0] if impulses_are_where_thought() else 0.0
+    return float(ffi.cast("double *", joint)[GEAR_IMPULSE])
 
 
 set_max_force, set_max_bias = lib.cpConstraintSetMaxForce, lib.cpConstraintSetMaxBias
@@ -439,14 +332,14 @@ free_joint, used_of = lib.cpConstraintFree, lib.cpConstraintGetImpulse
 @ffi.callback(  # type: ignore[untyped-decorator]
     "void(cpBody *, cpArbiter *, void *)", onerror=_catch
 )
-def _NOTE(body: Handle, arbiter: Handle, data: Handle) -> None:  # noqa: N802
+def _NOTE(body: Handle, arbiter: Arbiter, data: Handle) -> None:  # noqa: N802
     first = arbiter.body_a  # its function would tell `body` first
     if first == body or _number_of(first) < 0:
         ffi.from_handle(data).append(arbiter)
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _SETTLE(arbiter: Handle, _space: Handle, data: Handle) -> None:  # noqa: N802
+def _SETTLE(arbiter: Arbiter, _space: Handle, data: Handle) -> None:  # noqa: N802
     ffi.from_handle(data).settle(arbiter)
 
 
@@ -463,7 +356,7 @@ class Arbiters:
 
     def __init__(self) -> None:
         """Start without any."""
-        self._found: list[Handle] = []
+        self._found: list[Arbiter] = []
 
     def clear(self) -> None:
         """Forget all that were found."""
@@ -480,7 +373,7 @@ class Arbiters:
         """Return how many were found."""
         return len(self._found)
 
-    def at(self, k: int) -> Handle:
+    def at(self, k: int) -> Arbiter:
         """Return one of those found."""
         return self._found[k]
 
@@ -489,17 +382,17 @@ def _number_of(body: Handle) -> int:
     return int(ffi.cast("intptr_t", lib.cpBodyGetUserData(body)))
 
 
-def first_of(arbiter: Handle) -> int:
+def first_of(arbiter: Arbiter) -> int:
     """Return the number of a contact's first body."""
     return _number_of(arbiter.body_a)
 
 
-def second_of(arbiter: Handle) -> int:
+def second_of(arbiter: Arbiter) -> int:
     """Return the number of a contact's second body."""
     return _number_of(arbiter.body_b)
 
 
-def scale(arbiter: Handle, ratio: float) -> None:
+def scale(arbiter: Arbiter, ratio: float) -> None:
     """Scale the impulses that the solver keeps of a contact."""
     for k in range(arbiter.count):
         contact = arbiter.contacts[k]
@@ -507,7 +400,7 @@ def scale(arbiter: Handle, ratio: float) -> None:
         contact.jtAcc *= ratio
 
 
-def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
+def set_surface(arbiter: Arbiter, friction: float, restitution: float) -> None:
     """Set the friction and the restitution of a contact for this step."""
     lib.cpArbiterSetFriction(arbiter, friction)
     lib.cpArbiterSetRestitution(arbiter, restitution)
@@ -516,22 +409,12 @@ def set_surface(arbiter: Handle, friction: float, restitution: float) -> None:
 count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse
 
 
-def shape_of(arbiter: Handle, second: bool) -> Handle:
+def shape_of(arbiter: Arbiter, second: bool) -> Handle:
     """Return a contact's first or second shape."""
     return arbiter.b if second else arbiter.a
 
 
-def normal_of(arbiter: Handle) -> Vector:
-    """Return a contact's normal, from its first to its second body."""
-    return arbiter.n
-
-
-def set_normal(arbiter: Handle, x: float, y: float) -> None:
-    """Set it, before the contact is solved."""
-    arbiter.n.x, arbiter.n.y = x, y
-
-
-def put_point(arbiter: Handle, ax: float, ay: float, bx: float, by: float) -> None:
+def put_point(arbiter: Arbiter, ax: float, ay: float, bx: float, by: float) -> None:
     """Let a contact have one point, at these places on its bodies, without impulses so far."""
     a, b = ffi.cast("double *", arbiter.body_a), ffi.cast("double *", arbiter.body_b)
     contact, arbiter.count = arbiter.contacts[0], 1
@@ -540,45 +423,14 @@ def put_point(arbiter: Handle, ax: float, ay: float, bx: float, by: float) -> No
     contact.jnAcc = contact.jtAcc = 0.0
 
 
-def leave_out(arbiter: Handle) -> None:
-    """Let a contact be none in this step."""
-    arbiter.count = 0
-
-
-def point_of(arbiter: Handle, k: int, second: bool) -> Vector:
+def point_of(arbiter: Arbiter, k: int, second: bool) -> Vector:
     """Return one of its points, on the surface of its first or second body."""
     return (lib.cpArbiterGetPointB if second else lib.cpArbiterGetPointA)(arbiter, k)
 
 
-def arm_of(arbiter: Handle, k: int, second: bool) -> Vector:
-    """Return the way to one of its points from the centre of mass of its first or second body."""
-    contact = arbiter.contacts[k]
-    return contact.r2 if second else contact.r1
-
-
-def depth_of(arbiter: Handle, k: int) -> float:
+def depth_of(arbiter: Arbiter, k: int) -> float:
     """Return how deep bodies are in each other in one of its points, metres."""
     return -float(lib.cpArbiterGetDepth(arbiter, k))
-
-
-def push_of(arbiter: Handle, k: int) -> float:
-    """Return the impulse along the normal in one of its points, on its second body, N s."""
-    return float(arbiter.contacts[k].jnAcc)
-
-
-def rub_of(arbiter: Handle, k: int) -> float:
-    """Return the impulse across the normal, a quarter turn to its left, N s."""
-    return float(arbiter.contacts[k].jtAcc)
-
-
-def bounce_of(arbiter: Handle, k: int) -> float:
-    """Return the restitution times the speed at which bodies parted before the step, m/s."""
-    return float(arbiter.contacts[k].bounce)
-
-
-def is_void(arbiter: Handle) -> bool:
-    """Return whether a contact was made none."""
-    return bool(arbiter.count == 0)
 
 
 def check_signals() -> None:
@@ -587,12 +439,12 @@ def check_signals() -> None:
 
 # -- seams ------------------------------------------------------------------------------------
 
-_SEWN, _JOINED = 1, 2
+SEWN, JOINED = 1, 2
 """The engine's collision types: of walls that meet others, and of pieces that lie flush."""
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _MEND(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
+def _MEND(arbiter: Arbiter, _space: Handle, _data: Handle) -> None:  # noqa: N802
     first = first_of(arbiter) < 0
     data = lib.cpShapeGetUserData(arbiter.a if first else arbiter.b)
     ffi.from_handle(data).mend(arbiter, first)
@@ -603,7 +455,7 @@ def sew(segment: Handle, seams: Any) -> None:
     if seams.handle is None:
         seams.handle = ffi.new_handle(seams)
     lib.cpShapeSetUserData(segment, seams.handle)
-    lib.cpShapeSetCollisionType(segment, _SEWN)
+    lib.cpShapeSetCollisionType(segment, SEWN)
 
 
 corners_of = lib.cpPolyShapeGetCount
@@ -615,7 +467,7 @@ def corner_of(shape: Handle, k: int) -> Vector:
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _STRAIGHTEN(arbiter: Handle, _space: Handle, _data: Handle) -> None:  # noqa: N802
+def _STRAIGHTEN(arbiter: Arbiter, _space: Handle, _data: Handle) -> None:  # noqa: N802
     if first_of(arbiter) >= 0 and second_of(arbiter) >= 0:
         flush_of(arbiter, False).straighten(arbiter)
 
@@ -628,10 +480,10 @@ def show(shape: Handle, flush: Any) -> None:
 
 def join(shape: Handle) -> None:
     """Let contacts with a shape of a body be straightened."""
-    lib.cpShapeSetCollisionType(shape, _JOINED)
+    lib.cpShapeSetCollisionType(shape, JOINED)
 
 
-def flush_of(arbiter: Handle, second: bool) -> Any:
+def flush_of(arbiter: Arbiter, second: bool) -> Any:
     """Return what was shown of a contact's first or second shape."""
     return ffi.from_handle(lib.cpShapeGetUserData(shape_of(arbiter, second)))
 

@@ -37,22 +37,11 @@ class Row:
     vx: cython.double
     vy: cython.double
 
-    def __init__(self) -> None:
-        """Make one in which nothing has happened."""
-        self.impulse_x = self.impulse_y = self.normal_x = self.normal_y = 0.0
-        self.x = self.y = self.vx = self.vy = 0.0
-
     @cython.cfunc
     def add_speed(self, body: Body, sign: cython.double) -> cython.void:
         """Add the velocity of the point as one of a body, or subtract it."""
         self.vx += sign * (body.before_x - body.before_spin * (self.y - body.y))
         self.vy += sign * (body.before_y + body.before_spin * (self.x - body.x))
-
-    @cython.cfunc
-    def push_apart(self) -> cython.void:
-        """Let the impulse act on the second: the solver's sign depends on the order of shapes."""
-        if self.impulse_x * self.normal_x + self.impulse_y * self.normal_y < 0:
-            self.impulse_x, self.impulse_y = -self.impulse_x, -self.impulse_y
 
     @cython.cfunc
     def is_above(self, other: Row) -> cython.bint:
@@ -91,9 +80,7 @@ class Touch:
 
     def __init__(self, a: int, b: int, last: Row) -> None:
         """Take the numbers of both, and the contact by which it is found."""
-        self.a, self.b, self.goes_on, self.now, self.last = a, b, False, None, last
-        self.time, self.first, self.kept = 0.0, last, None
-        self.begin()
+        self.a, self.b, self.first, self.last = a, b, last, last
 
     @cython.cfunc
     def begin(self) -> cython.void:
@@ -167,15 +154,10 @@ class Touch:
 
     def __lt__(self, other: Touch) -> bool:
         """Return whether it began earlier, or comes before it by bodies and normal."""
-        if self.time != other.time:
-            return self.time < other.time
-        if self.a != other.a:
-            return self.a < other.a
-        if self.b != other.b:
-            return self.b < other.b
-        if self.first.normal_x != other.first.normal_x:
-            return self.first.normal_x < other.first.normal_x
-        return self.first.normal_y < other.first.normal_y
+        mine, theirs = self.first, other.first
+        return (self.time, self.a, self.b, mine.normal_x, mine.normal_y) < (
+            other.time, other.a, other.b, theirs.normal_x, theirs.normal_y,
+        )  # fmt: skip
 
     @cython.cfunc
     def write(self, numbers: cython.Doubles, k: cython.int) -> cython.void:
@@ -252,7 +234,7 @@ def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.v
 
 
 @cython.cfunc
-def part(body: Body, time: cython.double) -> cython.void:
+def end_touches(body: Body, time: cython.double) -> cython.void:
     """Note that a body touches nothing of larger number, and no obstacle, from `time` on."""
     touch: Touch
     for touch in body.contacts:

@@ -69,8 +69,6 @@ class Glide:
     def __init__(self, nodes: list[float], weights: list[float]) -> None:
         """Take nodes and weights."""
         self.nodes, self.weights = nodes, weights
-        self.way = self.spin_way = self.left = self.spin_left = 0.0
-        self.slow = self.other = self.rate = self.exponent = 0.0
 
     @cython.cfunc
     def over(self, body: Body, h: cython.double) -> cython.void:

@@ -8,23 +8,11 @@ if none is, nothing. What overlaps the face by more than a step that is not felt
 
 from __future__ import annotations
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.body import Corner, Edge, Piece
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    first_of,
-    flush_of,
-    is_void,
-    leave_out,
-    normal_of,
-    place_of,
-    put_point,
-    second_of,
-    set_normal,
-    shape_of,
-)
+from mars2d.physics.islands.chipmunk import Arbiter, Handle, Vector
+from mars2d.physics.islands.piece import Corner, Edge, Piece
 
 PARALLEL = 0.9999
 """The cosine from which on two faces are parallel."""
@@ -41,12 +29,7 @@ LEANS = 1e-9
 
 @cython.cfunc
 def lay(
-    p: Piece,
-    q: Piece,
-    x: cython.double,
-    y: cython.double,
-    number: cython.int,
-    room: cython.double,
+    p: Piece, q: Piece, x: cython.double, y: cython.double, number: cython.int, room: cython.double
 ) -> cython.bint:
     """Note which faces of a piece go on in another; return whether there are any.
 
@@ -102,19 +85,17 @@ class Flush:
 
     def __init__(self, piece: Piece, room: float) -> None:
         """Take the piece, and `room`."""
-        self.piece, self.room, self.handle = piece, room, None
-        self.x = self.y = self.deepest = self.px = self.py = 0.0
-        self.leans = False
+        self.piece, self.room = piece, room
 
     @cython.cfunc
-    def straighten(self, arbiter: Handle) -> cython.void:
+    def straighten(self, arbiter: Arbiter) -> cython.void:
         """Look at a contact of two bodies before it is solved. It is that of the first shape.
 
         Where three corners meet, faces of both may ask for it. Then it is left out, since both
         bodies are held by the third.
         """
-        other: Flush = flush_of(arbiter, True)
-        if is_void(arbiter):
+        other: Flush = chipmunk.flush_of(arbiter, True)
+        if arbiter.count == 0:
             return
         asks: cython.bint = self.look(arbiter, other.piece, False)
         if not other.look(arbiter, self.piece, True):
@@ -123,17 +104,17 @@ class Flush:
         elif not asks:
             other.mend(arbiter, self.piece, True)
         elif abs(self.x * other.y - self.y * other.x) > ACROSS:
-            leave_out(arbiter)
+            arbiter.count = 0
         else:
             self.mend(arbiter, other.piece, False)
 
     @cython.cfunc
-    def look(self, arbiter: Handle, slider: Piece, second: cython.bint) -> cython.bint:
+    def look(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.bint:
         """Return whether a face that goes on elsewhere asks for a contact.
 
         second: whether it is the second shape.
         """
-        by: cython.int = first_of(arbiter) if second else second_of(arbiter)
+        by: cython.int = chipmunk.first_of(arbiter) if second else chipmunk.second_of(arbiter)
         found: cython.bint = False
         k: cython.int
         for k in range(len(self.piece.corners)):
@@ -149,7 +130,7 @@ class Flush:
     @cython.cfunc
     def asks(
         self,
-        arbiter: Handle,
+        arbiter: Arbiter,
         slider: Piece,
         second: cython.bint,
         k: cython.int,
@@ -163,27 +144,27 @@ class Flush:
         turn: cython.double = -1.0 if starts else 1.0
         end: Corner = self.piece.corners[k]
         start: Corner = self.piece.corners[(k + 1 if starts else k + count - 1) % count]
-        shape: Handle = shape_of(arbiter, second)
-        a: Vector = place_of(shape, start.local_x, start.local_y)
-        b: Vector = place_of(shape, end.local_x, end.local_y)
+        shape: Handle = chipmunk.shape_of(arbiter, second)
+        a: Vector = chipmunk.place_of(shape, start.local_x, start.local_y)
+        b: Vector = chipmunk.place_of(shape, end.local_x, end.local_y)
         far: cython.double = length(b.x - a.x, b.y - a.y)
         ux: cython.double = (b.x - a.x) / far
         uy: cython.double = (b.y - a.y) / far
-        normal: Vector = normal_of(arbiter)
+        normal: Vector = arbiter.n
         sign: cython.double = -1.0 if second else 1.0
         fx: cython.double = turn * uy
         fy: cython.double = -turn * ux
         leans: cython.bint = sign * (normal.x * ux + normal.y * uy) > LEANS
         if not leans and sign * (normal.x * fx + normal.y * fy) < UPRIGHT:
             return False
-        shape = shape_of(arbiter, not second)
+        shape = chipmunk.shape_of(arbiter, not second)
         lowest: cython.double = -1e300
         deepest: cython.double = -1.0
         px: cython.double = 0.0
         py: cython.double = 0.0
         corner: Corner
         for corner in slider.corners:
-            at: Vector = place_of(shape, corner.local_x, corner.local_y)
+            at: Vector = chipmunk.place_of(shape, corner.local_x, corner.local_y)
             x: cython.double = at.x - slider.radius * fx
             y: cython.double = at.y - slider.radius * fy
             depth: cython.double = (b.x - x) * fx + (b.y - y) * fy
@@ -198,24 +179,24 @@ class Flush:
         return True
 
     @cython.cfunc
-    def mend(self, arbiter: Handle, slider: Piece, second: cython.bint) -> cython.void:
+    def mend(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.void:
         """Let the face that has asked for a contact push, or leave it out."""
         if not self.leans:
             return
-        normal: Vector = normal_of(arbiter)
+        normal: Vector = arbiter.n
         sign: cython.double = -1.0 if second else 1.0
         nx: cython.double = sign * self.x
         ny: cython.double = sign * self.y
         upright: cython.bint = normal.x * nx + normal.y * ny > UPRIGHT and slider.radius == 0.0
         if self.deepest < 0.0 and not upright:
-            leave_out(arbiter)
+            arbiter.count = 0
             return
-        set_normal(arbiter, nx, ny)
+        arbiter.n.x, arbiter.n.y = nx, ny
         if upright:
             return
         x: cython.double = self.px + self.deepest * self.x
         y: cython.double = self.py + self.deepest * self.y
         if second:
-            put_point(arbiter, self.px, self.py, x, y)
+            chipmunk.put_point(arbiter, self.px, self.py, x, y)
         else:
-            put_point(arbiter, x, y, self.px, self.py)
+            chipmunk.put_point(arbiter, x, y, self.px, self.py)

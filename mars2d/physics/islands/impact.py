@@ -6,23 +6,11 @@ body as seen from the other. The sum over all impulses is the change of the kine
 
 from __future__ import annotations
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    arm_of,
-    bounce_of,
-    count_of,
-    depth_of,
-    first_of,
-    normal_of,
-    push_of,
-    rub_of,
-    scale,
-    second_of,
-)
+from mars2d.physics.islands.chipmunk import Arbiter, Vector
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.tie import Tie
 
@@ -66,30 +54,26 @@ class Impact:
     def __init__(self, body: Body) -> None:
         """Stand for none yet; body: any."""
         self.a = self.b = body
-        self.has_a = self.has_b = False
-        self.normal_x = self.normal_y = self.push = self.rub = self.depth = 0.0
-        self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
 
     @cython.cfunc
-    def take(self, arbiter: Handle, numbers: list[Body]) -> cython.void:
+    def take(self, arbiter: Arbiter, numbers: list[Body]) -> cython.void:
         """Stand for a contact that the solver knows."""
-        first: cython.int = first_of(arbiter)
-        second: cython.int = second_of(arbiter)
+        first: cython.int = chipmunk.first_of(arbiter)
+        second: cython.int = chipmunk.second_of(arbiter)
         self.has_a, self.has_b = first >= 0, second >= 0
         self.a = numbers[first if first >= 0 else second]
         self.b = numbers[second if second >= 0 else first]
-        normal: Vector = normal_of(arbiter)
-        self.normal_x, self.normal_y = normal.x, normal.y
+        self.normal_x, self.normal_y = arbiter.n.x, arbiter.n.y
 
     @cython.cfunc
-    def look_at(self, arbiter: Handle, k: cython.int) -> cython.void:
+    def look_at(self, arbiter: Arbiter, k: cython.int) -> cython.void:
         """Stand for one of its points."""
-        arm: Vector = arm_of(arbiter, k, False)
+        arm: Vector = arbiter.contacts[k].r1
         self.arm_ax, self.arm_ay = arm.x, arm.y
-        arm = arm_of(arbiter, k, True)
+        arm = arbiter.contacts[k].r2
         self.arm_bx, self.arm_by = arm.x, arm.y
-        self.push, self.rub = push_of(arbiter, k), rub_of(arbiter, k)
-        self.depth = depth_of(arbiter, k)
+        self.push, self.rub = arbiter.contacts[k].jnAcc, arbiter.contacts[k].jtAcc
+        self.depth = chipmunk.depth_of(arbiter, k)
 
     @cython.cfunc
     def hit(self) -> cython.void:
@@ -118,23 +102,18 @@ class Impact:
         y: cython.double = 0.0
         after_x: cython.double = 0.0
         after_y: cython.double = 0.0
-        body: Body
+        a: Body = self.a
+        b: Body = self.b
         if self.has_b:
-            body = self.b
-            x, y = (
-                body.before_x - body.before_spin * self.arm_by,
-                body.before_y + body.before_spin * self.arm_bx,
-            )
-            after_x, after_y = (
-                body.after_x - body.spin * self.arm_by,
-                body.after_y + body.spin * self.arm_bx,
-            )
+            x = b.before_x - b.before_spin * self.arm_by
+            y = b.before_y + b.before_spin * self.arm_bx
+            after_x = b.after_x - b.spin * self.arm_by
+            after_y = b.after_y + b.spin * self.arm_bx
         if self.has_a:
-            body = self.a
-            x -= body.before_x - body.before_spin * self.arm_ay
-            y -= body.before_y + body.before_spin * self.arm_ax
-            after_x -= body.after_x - body.spin * self.arm_ay
-            after_y -= body.after_y + body.spin * self.arm_ax
+            x -= a.before_x - a.before_spin * self.arm_ay
+            y -= a.before_y + a.before_spin * self.arm_ax
+            after_x -= a.after_x - a.spin * self.arm_ay
+            after_y -= a.after_y + a.spin * self.arm_ax
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
         parting: cython.double = after_x * nx + after_y * ny
@@ -157,10 +136,8 @@ class Impact:
         if self.has_b:
             body = self.b
             turn = body.hit_turn / body.moment
-            x, y = (
-                body.hit_x / body.mass - turn * self.arm_by,
-                body.hit_y / body.mass + turn * self.arm_bx,
-            )
+            x = body.hit_x / body.mass - turn * self.arm_by
+            y = body.hit_y / body.mass + turn * self.arm_bx
         if self.has_a:
             body = self.a
             turn = body.hit_turn / body.moment
@@ -214,15 +191,18 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
         body.crowd, body.driven = 1, body.is_told()
     if solver.find_contacts() > 0:
         take_hits(solver, numbers, impact, h)
-        if gains(solver):
-            take_powers(solver, numbers, impact)
+        gain: cython.bint = False
+        for body in solver.bodies:
+            gain = gain or body.push_work + body.rub_work > 0.0 or body.excess > 0.0
+        if gain:
+            look_again(solver, numbers, impact, True)
             if weaken_contacts(solver):
                 scale_all(solver, numbers, impact)
     if solver.ties:
         take_holds(solver, h)
         if weaken_holds(solver):
             scale_all(solver, numbers, impact)
-            work_again(solver, numbers, impact)
+            look_again(solver, numbers, impact, False)
     find_shifts(solver, h)
     for body in solver.bodies:
         body.by_push += body.push_work
@@ -279,60 +259,42 @@ def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.dou
     i: cython.int
     k: cython.int
     for i in range(solver.arbiters.count()):
-        arbiter: Handle = solver.arbiters.at(i)
+        arbiter: Arbiter = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
         pushes: cython.bint = False
-        for k in range(count_of(arbiter)):
-            pushes = pushes or push_of(arbiter, k) != 0.0
+        for k in range(chipmunk.count_of(arbiter)):
+            pushes = pushes or arbiter.contacts[k].jnAcc != 0.0
         if not pushes:
             continue
         join_groups(impact.a, impact.b)
-        for k in range(count_of(arbiter)):
+        for k in range(chipmunk.count_of(arbiter)):
             impact.look_at(arbiter, k)
             impact.hit()
-            impact.work(bounce_of(arbiter, k), h)
+            impact.work(arbiter.contacts[k].bounce, h)
 
 
 @cython.cfunc
-def gains(solver: Solver) -> cython.bint:
-    """Return whether any group gains energy by its contacts, or rebounds too much."""
-    gain: cython.bint = False
-    body: Body
-    for body in solver.bodies:
-        gain = gain or body.push_work + body.rub_work > 0.0 or body.excess > 0.0
-    return gain
-
-
-@cython.cfunc
-def take_powers(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
-    """Find the power of the contacts' impulses on the motion due to them alone."""
+def look_again(
+    solver: Solver, numbers: list[Body], impact: Impact, at_power: cython.bint
+) -> cython.void:
+    """Find the power of contacts' impulses on the motion due to them alone, or again their work."""
     i: cython.int
     k: cython.int
     body: Body
     for body in solver.bodies:
-        body.push_power = body.rub_power = 0.0
+        if at_power:
+            body.push_power = body.rub_power = 0.0
+        else:
+            body.push_work = body.rub_work = 0.0
     for i in range(solver.arbiters.count()):
-        arbiter: Handle = solver.arbiters.at(i)
+        arbiter: Arbiter = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
-        for k in range(count_of(arbiter)):
+        for k in range(chipmunk.count_of(arbiter)):
             impact.look_at(arbiter, k)
-            impact.power()
-
-
-@cython.cfunc
-def work_again(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
-    """Find out again how the impulses of contacts have worked."""
-    i: cython.int
-    k: cython.int
-    body: Body
-    for body in solver.bodies:
-        body.push_work = body.rub_work = 0.0
-    for i in range(solver.arbiters.count()):
-        arbiter: Handle = solver.arbiters.at(i)
-        impact.take(arbiter, numbers)
-        for k in range(count_of(arbiter)):
-            impact.look_at(arbiter, k)
-            impact.work(0.0, 0.0)
+            if at_power:
+                impact.power()
+            else:
+                impact.work(0.0, 0.0)
 
 
 @cython.cfunc
@@ -409,7 +371,7 @@ def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.voi
         impact.take(solver.arbiters.at(i), numbers)
         group = group_of(impact.a)
         if group.share < 1.0:
-            scale(solver.arbiters.at(i), group.share)
+            chipmunk.scale(solver.arbiters.at(i), group.share)
 
 
 @cython.cfunc

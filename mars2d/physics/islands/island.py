@@ -11,28 +11,17 @@ from __future__ import annotations
 from math import ceil, sqrt
 from typing import Any
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    check_signals,
-    count_of,
-    first_of,
-    impulse_of,
-    is_void,
-    normal_of,
-    point_of,
-    second_of,
-    set_iterations,
-)
+from mars2d.physics.islands.chipmunk import Arbiter, Vector
 from mars2d.physics.islands.contacts import Row, close_touches, note_row
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
 from mars2d.physics.islands.pair import Pair
 from mars2d.physics.islands.solver import Solver
-from mars2d.physics.islands.thrust import Thrust
+from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
 
 STUCK = 16
@@ -47,53 +36,49 @@ class Accuracy:
     max_overlap: cython.double
     entry: cython.double
     slop: cython.double
-    mend_rate: cython.double
-    joint_mend_rate: cython.double
-    pressed: cython.double
+    bias_rate: cython.double
+    joint_bias_rate: cython.double
+    preload: cython.double
     closed: cython.double
     touch: cython.double
-    blow: cython.double
+    impact_depth: cython.double
     swaying: cython.double
     turned: cython.double
     growth: cython.double
     linger: cython.int
     slack: cython.double
-    taut: cython.double
+    rope_tolerance: cython.double
     stretch: cython.double
-    give: cython.double
+    joint_tolerance: cython.double
     push_depth: cython.double  # of an iteration
     push_room: cython.double
-    strained: cython.double
-    strain_growth: cython.double
-    strain_fade: cython.double
-    toil: cython.int
+    overload: cython.double
+    load_growth: cython.double
+    load_decay: cython.double
+    iteration_factor: cython.int
     iterations: cython.int
     iterations_unequal: cython.int
     iterations_ties: cython.int
     spring_step: cython.double
-    graze: cython.double
-    mend: cython.double
+    grazing_depth: cython.double
+    seam_depth: cython.double
 
     def __init__(self, numbers: dict[str, Any]) -> None:
         """Take the numbers by name."""
-        self.max_overlap, self.entry = numbers["max_overlap"], numbers["entry"]
-        self.slop, self.pressed, self.turned = (
-            numbers["slop"], numbers["pressed"], numbers["turned"],
-        )  # fmt: skip
-        self.growth, self.linger, self.slack = (
-            numbers["growth"], numbers["linger"], numbers["slack"],
-        )  # fmt: skip
-        self.mend_rate, self.joint_mend_rate = numbers["mend_rate"], numbers["joint_mend_rate"]
-        self.closed, self.touch, self.blow = numbers["closed"], numbers["touch"], numbers["blow"]
-        self.swaying = numbers["swaying"]
-        self.taut, self.stretch, self.give = numbers["taut"], numbers["stretch"], numbers["give"]
-        self.push_depth, self.spring_step = numbers["push_depth"], numbers["spring_step"]
-        self.push_room, self.strained = numbers["push_room"], numbers["strained"]
-        self.strain_growth, self.strain_fade = numbers["strain_growth"], numbers["strain_fade"]
-        self.toil, self.graze, self.mend = numbers["toil"], numbers["graze"], numbers["mend"]
-        self.iterations, self.iterations_unequal, self.iterations_ties = (
-            numbers["iterations"], numbers["iterations_unequal"], numbers["iterations_ties"],
-        )  # fmt: skip
+        n = numbers
+        self.max_overlap, self.entry, self.slop = n["max_overlap"], n["entry"], n["slop"]
+        self.bias_rate, self.joint_bias_rate = n["bias_rate"], n["joint_bias_rate"]
+        self.preload, self.closed, self.touch = n["preload"], n["closed"], n["touch"]
+        self.impact_depth, self.grazing_depth = n["impact_depth"], n["grazing_depth"]
+        self.seam_depth, self.swaying, self.turned = n["seam_depth"], n["swaying"], n["turned"]
+        self.growth, self.linger, self.slack = n["growth"], n["linger"], n["slack"]
+        self.rope_tolerance, self.joint_tolerance = n["rope_tolerance"], n["joint_tolerance"]
+        self.stretch, self.spring_step = n["stretch"], n["spring_step"]
+        self.push_depth, self.push_room = n["push_depth"], n["push_room"]
+        self.overload, self.load_growth = n["overload"], n["load_growth"]
+        self.load_decay, self.iteration_factor = n["load_decay"], n["iteration_factor"]
+        self.iterations, self.iterations_ties = n["iterations"], n["iterations_ties"]
+        self.iterations_unequal = n["iterations_unequal"]
 
 
 @cython.final
@@ -115,9 +100,9 @@ class Island:
     surfaces: object  # None: friction and restitution are products
     contact_step: cython.double
     push_step: cython.double  # how long that is for the push of one robot
-    strain: cython.double  # how many robots' pushes add up
-    least_strain: cython.double
-    most_strain: cython.double
+    load: cython.double  # how many robots' pushes add up
+    least_load: cython.double
+    most_load: cython.double
     iterations: cython.int
     tries: cython.int  # substeps in a row in which the solver had more iterations than these
     deepest: cython.double  # m, the overlap
@@ -140,11 +125,7 @@ class Island:
         self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
         self.thrust = Thrust()
         self.bodies, self.pairs, self.ties = [], [], []
-        self.solved = self.any_solved = self.any_touch = False
-        self.contact_step = self.push_step = 1e300
-        self.strain = self.least_strain = self.most_strain = 1.0
-        self.iterations, self.tries = accuracy.iterations, 0
-        self.deepest = self.limit = 0.0
+        self.contact_step = 1e300
         self.impact = Impact(numbers[0])
 
     @cython.cfunc
@@ -167,11 +148,11 @@ class Island:
         push: cython.double = 0.0
         lightest: cython.double = 1e300
         heaviest: cython.double = 0.0
-        self.strain = 1.0
+        self.load = 1.0
         for body in self.bodies:
             lightest = min(lightest, body.mass)
             heaviest = max(heaviest, body.mass)
-            self.strain = max(self.strain, body.strain)
+            self.load = max(self.load, body.load)
             if body.is_robot:
                 robots += 1
                 strongest = max(strongest, body.strength)
@@ -186,9 +167,9 @@ class Island:
         if push > 0.0:
             self.push_step = sqrt(accuracy.push_depth * self.iterations / push)
         # In a file, pushes from both ends meet in the middle; in a heap they spread.
-        self.most_strain = max(1.0, robots / 2.0)
-        self.least_strain = sqrt(self.most_strain)
-        self.strain = min(max(self.strain, self.least_strain), self.most_strain)
+        self.most_load = max(1.0, robots / 2.0)
+        self.least_load = sqrt(self.most_load)
+        self.load = min(max(self.load, self.least_load), self.most_load)
 
     @cython.cfunc
     def set_contact_step(self) -> cython.void:
@@ -199,32 +180,34 @@ class Island:
         accuracy: Accuracy = self.accuracy
         room: cython.double = max(accuracy.push_room - self.deepest, accuracy.push_depth / 4)
         share: cython.double = 1.0
-        while share * share * self.strain * accuracy.push_depth > room:
+        while share * share * self.load * accuracy.push_depth > room:
             share *= 0.9  # in steps, so that substeps keep their length for a while
         self.contact_step = share * self.push_step
         if self.ties:
             self.contact_step = min(self.contact_step, accuracy.spring_step)
 
     @cython.cfunc
-    def weigh(self) -> cython.void:
+    def adapt_iterations(self) -> cython.void:
         """Learn from overlaps how many pushes add up, and how hard the solver has to try."""
         accuracy: Accuracy = self.accuracy
         self.solver.hurries = False
-        if self.deepest > accuracy.strained:
-            # What turns fast gets deeper again and again before the engine has mended it.
+        if self.deepest > accuracy.overload:
+            # What turns fast gets deeper again and again before the engine has corrected it.
             self.solver.hurries = self.tries >= STUCK
-            self.strain = min(accuracy.strain_growth * self.strain, self.most_strain)
+            self.load = min(accuracy.load_growth * self.load, self.most_load)
             # If the solver goes round in a circle it ends elsewhere in it each time.
             self.tries = min(self.tries + 1, 64)
-            set_iterations(self.solver.space, self.iterations * accuracy.toil + 2 * self.tries)
+            chipmunk.set_iterations(
+                self.solver.space, self.iterations * accuracy.iteration_factor + 2 * self.tries
+            )
             return
-        self.strain = max(accuracy.strain_fade * self.strain, self.least_strain)
+        self.load = max(accuracy.load_decay * self.load, self.least_load)
         if self.tries > 0:
             self.tries = 0
-            set_iterations(self.solver.space, self.iterations)
+            chipmunk.set_iterations(self.solver.space, self.iterations)
 
     @cython.cfunc
-    def land(self) -> cython.void:
+    def commit(self) -> cython.void:
         """Take a solver for these bodies alone: that in which most of them are."""
         self.solved = True
         self.solver = self.find_solver()
@@ -251,7 +234,7 @@ class Island:
         for tie in self.ties:
             solver.tie(tie)
         self.tries, solver.hurries = 0, False
-        set_iterations(solver.space, self.iterations)
+        chipmunk.set_iterations(solver.space, self.iterations)
         solver.used = True
 
     @cython.cfunc
@@ -282,9 +265,9 @@ class Island:
         else:
             solver = Solver(
                 self.accuracy.slop,
-                self.accuracy.mend,
-                self.accuracy.mend_rate,
-                self.accuracy.joint_mend_rate,
+                self.accuracy.seam_depth,
+                self.accuracy.bias_rate,
+                self.accuracy.joint_bias_rate,
                 self.surfaces,
             )
             self.solvers.append(solver)
@@ -302,6 +285,7 @@ class Island:
         h: cython.double
         left: cython.double
         count: cython.int = 0
+        k: cython.int
         body: Body
         self.set_accuracy()
         self.measure()
@@ -310,17 +294,17 @@ class Island:
             if body.solver is not None and (self.any_touch or self.ties or body.pulled):
                 self.any_solved = True
         if self.any_solved:
-            self.land()
+            self.commit()
         while elapsed < duration:
             if self.any_touch:
-                self.press()
+                self.preload()
             left = duration - elapsed
             h = self.look_ahead(left)
             if not elapsed + h > elapsed:
                 raise FloatingPointError
             count += 1
             if count % 256 == 0:
-                check_signals()
+                chipmunk.check_signals()
             for body in self.bodies:
                 body.gone += h * body.top_speed()
                 if body.gone > self.limit:
@@ -328,7 +312,7 @@ class Island:
             self.aim(h)
             if self.any_solved or not self.glide_on(h):
                 if not self.solved:
-                    self.land()
+                    self.commit()
                 self.find_flush()
                 self.solver.go(h, self.accuracy.growth)
                 settle(self.solver, self.numbers, self.impact, h)
@@ -336,12 +320,13 @@ class Island:
                     self.take(body, h)
                 self.measure()
                 self.hold_back()
-                self.weigh()
-                self.note()
+                self.adapt_iterations()
+                for k in range(self.solver.arbiters.count()):
+                    self.note_one(self.solver.arbiters.at(k))
             elapsed = duration if h == left else elapsed + h
             self.close(time + elapsed, h)
         for body in self.bodies:
-            body.strain = self.strain
+            body.load = self.load
         return True
 
     @cython.cfunc
@@ -363,7 +348,7 @@ class Island:
     @cython.cfunc
     def find_flush(self) -> cython.void:
         """Find the bodies that lie flush, for the solver."""
-        room: cython.double = self.accuracy.mend / 8
+        room: cython.double = self.accuracy.seam_depth / 8
         body: Body
         pair: Pair
         for body in self.bodies:
@@ -394,28 +379,28 @@ class Island:
                 self.measure()
 
     @cython.cfunc
-    def press(self) -> cython.void:
+    def preload(self) -> cython.void:
         """Press bodies together that touch by a rounding error only, and would part by another."""
-        pressed: cython.double = self.accuracy.pressed
+        preload: cython.double = self.accuracy.preload
         any_moved: cython.bint = False
         body: Body
         pair: Pair
         for body in self.bodies:
-            body.back_x, body.back_y = body.x, body.y
+            body.back.go_to(body)
         for pair in self.pairs:
-            if pair.gap > self.accuracy.closed or pair.gap <= -pressed / 8 or pair.parts():
+            if pair.gap > self.accuracy.closed or pair.gap <= -preload / 8 or pair.parts():
                 continue
-            draw_together(pair, pressed)
+            draw_together(pair, preload)
             any_moved = True
         count: cython.int = 0
         while any_moved and count < 32:
-            any_moved = self.press_again()
+            any_moved = self.preload_again()
             count += 1
 
     @cython.cfunc
-    def press_again(self) -> cython.bint:
+    def preload_again(self) -> cython.bint:
         """Press those together that others were drawn away from; return whether there were any."""
-        pressed: cython.double = self.accuracy.pressed
+        preload: cython.double = self.accuracy.preload
         any_moved: cython.bint = False
         body: Body
         pair: Pair
@@ -425,8 +410,8 @@ class Island:
                 pair = found
                 found = pair.next_touch
                 gap: cython.double = pair.gap + opened(pair)
-                if gap > -pressed / 8:
-                    draw_together(pair, pressed + gap)
+                if gap > -preload / 8:
+                    draw_together(pair, preload + gap)
                     any_moved = True
         return any_moved
 
@@ -441,7 +426,7 @@ class Island:
         tie: Tie
         for tie in self.ties:
             tie.measure()
-            if tie.holds(accuracy.taut):
+            if tie.holds(accuracy.rope_tolerance):
                 tie.a.touches = tie.b.touches = True
         h: cython.double = self.contact_limit(left)
         for body in self.bodies:
@@ -452,7 +437,12 @@ class Island:
         for pair in self.pairs:
             h = pair.time_to_touch(h, self.depth_of(pair))
         for tie in self.ties:
-            h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.give, accuracy.taut))
+            h = min(
+                h,
+                tie.time_to_jerk(
+                    accuracy.stretch, accuracy.joint_tolerance, accuracy.rope_tolerance
+                ),
+            )
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
 
     @cython.cfunc
@@ -462,11 +452,11 @@ class Island:
         What gathers speed has at the touch what it has gathered by then, and no more. And where no
         drive pushes, a blow along a normal that has turned inside would change angular momentum.
         """
-        if pair.a.gathers or (not pair.is_wall and pair.b.gathers):
+        if pair.a.accelerates or (not pair.is_wall and pair.b.accelerates):
             return self.accuracy.touch
         told: cython.bint = pair.a.is_told() or (not pair.is_wall and pair.b.is_told())
         if pair.gap > self.accuracy.closed and not told:
-            return self.accuracy.blow
+            return self.accuracy.impact_depth
         return self.accuracy.entry
 
     @cython.cfunc
@@ -487,7 +477,7 @@ class Island:
             lately: cython.bint = self.any_touch and body.since <= accuracy.linger
             lately = lately or len(self.ties) > 0
             body.solved = body.touches or (
-                body.is_robot and body.slips and (body.lead != 0.0 or lately)
+                body.is_robot and body.slips and (body.com != 0.0 or lately)
             )
             self.any_solved = self.any_solved or body.solved
         if not self.any_solved:
@@ -498,7 +488,7 @@ class Island:
             h = min(h, accuracy.growth * self.solver.last_step)
         if self.any_touch and (not self.solved or self.solver.last_step >= 1e300):
             # A solver that knows no impulses yet does not settle a file that begins to push.
-            h = min(h, self.contact_step / (self.most_strain * self.most_strain))
+            h = min(h, self.contact_step / (self.most_load * self.most_load))
         for body in self.bodies:
             if body.solved and body.limited and not body.touches:
                 h = min(h, accuracy.swaying)
@@ -527,23 +517,13 @@ class Island:
         brief: cython.bint = h <= self.contact_step
         body: Body
         for body in self.bodies:
-            body.remember()
+            body.back.go_to(body)
             if body.solved:
                 body.since, body.holds = 0, True
                 continue
             body.since = min(body.since + 1, 1 << 20)
             body.holds = body.follows() and brief and body.since <= self.accuracy.linger
-            self.foresee(body, h)
-
-    @cython.cfunc
-    def foresee(self, body: Body, h: cython.double) -> cython.void:
-        """Aim a body at where it will be after h s if nothing touches it, in closed form."""
-        if not body.is_robot:
-            self.glide.over(body, h)
-        elif body.follows():
-            body.go_along(h)
-        else:
-            self.thrust.over(body, h)
+            predict(body, h, self.glide, self.thrust)
 
     @cython.cfunc
     def glide_on(self, h: cython.double) -> cython.bint:
@@ -557,7 +537,7 @@ class Island:
         self.measure()
         if self.any_touch:
             for body in self.bodies:
-                body.go_back()
+                body.go_to(body.back)
             return False
         for body in self.bodies:
             self.arrive(body)
@@ -568,7 +548,7 @@ class Island:
     @cython.cfunc
     def arrive(self, body: Body) -> cython.void:
         """Note that a body has moved in closed form."""
-        body.slips = body.slips and body.is_robot and not body.limited and body.gathers
+        body.slips = body.slips and body.is_robot and not body.limited and body.accelerates
         body.account_now()
 
     @cython.cfunc
@@ -577,8 +557,9 @@ class Island:
 
         What was not pushed by anything has moved in closed form, whatever it touches.
         """
-        body.ahead = body.is_pushed() or body.solved
-        if body.is_pushed() or (body.solved and body.lead != 0.0):
+        pushed: cython.bint = body.is_pushed()
+        body.ahead = pushed or body.solved
+        if pushed or (body.solved and body.com != 0.0):
             self.solver.share_out(body, h, body.shift)
             body.slips = True
             if not body.solved and body.shift > 0.0 and not body.tied:
@@ -586,17 +567,17 @@ class Island:
                 body.x -= body.shift * body.vx
                 body.y -= body.shift * body.vy
                 body.angle -= body.shift * body.spin
-                self.foresee(body, body.shift)
+                predict(body, body.shift, self.glide, self.thrust)
                 body.advance(body.shift)
                 body.account_now()
             return
         solved: cython.bint = body.solved
-        body.go_back()
+        body.go_to(body.back)
         if solved:
-            self.foresee(body, h)
+            predict(body, h, self.glide, self.thrust)
         body.advance(h)
         if solved:
-            body.part(h)
+            body.correct(h)
         self.arrive(body)
 
     # -- without forces -----------------------------------------------------------------------
@@ -624,11 +605,12 @@ class Island:
             left = h = duration - elapsed
             for pair in self.pairs:
                 if stops or pair.gap > 0:
-                    h = pair.time_to_touch(h, self.accuracy.graze)
+                    h = pair.time_to_touch(h, self.accuracy.grazing_depth)
             if not elapsed + h > elapsed:
                 raise FloatingPointError
             for body in self.bodies:
-                self.drift(body, h)
+                predict(body, h, self.glide, self.thrust)
+                body.advance(h)
             self.measure()
             elapsed = duration if h == left else elapsed + h
             self.note_touches(time + elapsed, h)
@@ -654,12 +636,6 @@ class Island:
                     body.energy = body.vx = body.vy = body.spin = 0.0
                 body.stopped = False
                 body.obey()
-
-    @cython.cfunc
-    def drift(self, body: Body, h: cython.double) -> cython.void:
-        """Move a body for h s as nothing but its command or the floor says."""
-        self.foresee(body, h)
-        body.advance(h)
 
     @cython.cfunc
     def note_touches(self, time: cython.double, h: cython.double) -> cython.void:
@@ -689,14 +665,6 @@ class Island:
     # -- contacts -----------------------------------------------------------------------------
 
     @cython.cfunc
-    def note(self) -> cython.void:
-        """Note who touches whom after a step of the solver."""
-        solver: Solver = self.solver
-        k: cython.int
-        for k in range(solver.arbiters.count()):
-            self.note_one(solver.arbiters.at(k))
-
-    @cython.cfunc
     def close(self, time: cython.double, h: cython.double) -> cython.void:
         """Add up the notes of a substep of h seconds, which ends at `time`."""
         body: Body
@@ -705,23 +673,23 @@ class Island:
                 close_touches(body, time, h)
 
     @cython.cfunc
-    def note_one(self, arbiter: Handle) -> cython.void:
+    def note_one(self, arbiter: Arbiter) -> cython.void:
         """Note the solver's data of one contact, if it has pushed or still touches."""
-        first: cython.int = first_of(arbiter)
-        second: cython.int = second_of(arbiter)
+        first: cython.int = chipmunk.first_of(arbiter)
+        second: cython.int = chipmunk.second_of(arbiter)
         swap: cython.bint = first < 0 or (second >= 0 and second < first)
         a: Body = self.numbers[second if swap else first]
         b: cython.int = first if swap else second
-        impulse: Vector = impulse_of(arbiter)
-        normal: Vector = normal_of(arbiter)
-        if is_void(arbiter):
+        impulse: Vector = chipmunk.impulse_of(arbiter)
+        normal: Vector = arbiter.n
+        if arbiter.count == 0:
             return
         if impulse.x == 0.0 and impulse.y == 0.0 and touching(a, b) is None:
             return
         row: Row = Row()
         row.impulse_x, row.impulse_y = impulse.x, impulse.y
         row.normal_x, row.normal_y = normal.x, normal.y
-        count: cython.int = count_of(arbiter)
+        count: cython.int = chipmunk.count_of(arbiter)
         # each body's velocity is that of its own point
         self.stand(row, arbiter, count, not swap)
         if b >= 0:
@@ -732,20 +700,22 @@ class Island:
         row.add_speed(a, -1.0)
         if swap:
             row.normal_x, row.normal_y = -row.normal_x, -row.normal_y
-        row.push_apart()
+        if impulse.x * row.normal_x + impulse.y * row.normal_y < 0:
+            # It acts on the second: the solver's sign depends on the order of shapes.
+            row.impulse_x, row.impulse_y = -impulse.x, -impulse.y
         note_row(a, b, row)
 
     @cython.cfunc
     def stand(
-        self, row: Row, arbiter: Handle, count: cython.int, second: cython.bint
+        self, row: Row, arbiter: Arbiter, count: cython.int, second: cython.bint
     ) -> cython.void:
         """Put a row at the middle of a contact's points on one of its bodies."""
         point: Vector
         if count > 0:
-            point = point_of(arbiter, 0, second)
+            point = chipmunk.point_of(arbiter, 0, second)
             row.x, row.y = point.x, point.y
         if count > 1:
-            point = point_of(arbiter, 1, second)
+            point = chipmunk.point_of(arbiter, 1, second)
             row.x, row.y = (row.x + point.x) / 2, (row.y + point.y) / 2
 
 
@@ -799,9 +769,9 @@ def draw_together(pair: Pair, way: cython.double) -> cython.void:
 @cython.cfunc
 def opened(pair: Pair) -> cython.double:
     """Return by how much the gap of a pair has grown since its bodies' places were kept."""
-    x: cython.double = pair.a.back_x - pair.a.x
-    y: cython.double = pair.a.back_y - pair.a.y
+    x: cython.double = pair.a.back.x - pair.a.x
+    y: cython.double = pair.a.back.y - pair.a.y
     if not pair.is_wall:
-        x = x + pair.b.x - pair.b.back_x
-        y = y + pair.b.y - pair.b.back_y
+        x = x + pair.b.x - pair.b.back.x
+        y = y + pair.b.y - pair.b.back.y
     return x * pair.normal_x + y * pair.normal_y

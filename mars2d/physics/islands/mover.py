@@ -10,8 +10,8 @@ from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.contacts import (
     Touch,
     begin_touches_again,
+    end_touches,
     keep_touches,
-    part,
     take_touches,
 )
 from mars2d.physics.islands.floor import Glide
@@ -19,7 +19,7 @@ from mars2d.physics.islands.island import Accuracy, Island
 from mars2d.physics.islands.neighbours import Neighbours
 from mars2d.physics.islands.pair import Pair, Wall
 from mars2d.physics.islands.solver import Solver, free_things_of, free_tie
-from mars2d.physics.islands.thrust import Thrust
+from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
 
 
@@ -59,8 +59,7 @@ class Mover:
         self.accuracy, self.glide, self.bodies, self.ties = accuracy, glide, bodies, ties
         self.thrust = Thrust()
         self.neighbours = Neighbours(bodies, walls, passing)
-        self.taken = []
-        self.spare, self.solvers, self.islands, self.found = [], [], [], 0
+        self.taken, self.spare, self.solvers, self.islands = [], [], [], []
         body: Body
         for body in bodies:
             body.slack = accuracy.slack
@@ -79,12 +78,7 @@ class Mover:
         self.find_islands(duration)
         while not self.run_islands(duration, time):
             self.find_islands(duration)  # with more room for those that went too far
-        self.neighbours.advance()
-        for body in self.bodies:
-            if not body.near:
-                part(body, time)
-                self.carry(body, duration)
-            body.account_now()
+        self.carry_on(duration, time)
         self.clear_up()
 
     def drift(self, twist: cython.Doubles, duration: float, time: float, stops: bool) -> None:
@@ -103,12 +97,7 @@ class Mover:
         for k in range(self.found):
             island = self.islands[k]
             island.pass_through(duration, time, stops)
-        self.neighbours.advance()
-        for body in self.bodies:
-            if not body.near:
-                part(body, time)
-                self.carry(body, duration)
-            body.account_now()
+        self.carry_on(duration, time)
 
     def command(self, twist: cython.Doubles) -> None:
         """Take the twists of all robots."""
@@ -144,12 +133,14 @@ class Mover:
             if not body.is_disc:
                 body.locate()
                 body.start_x, body.start_y = body.center_x, body.center_y
-            if body.limited and body.lead != 0.0:
+            if body.limited and body.com != 0.0:
                 body.look()
-                body.slips = body.slips or body.gathers  # no closed form is known of how it sways
+                body.slips = (
+                    body.slips or body.accelerates
+                )  # no closed form is known of how it sways
             body.speed = length(body.vx, body.vy) + body.offset * abs(body.spin)
             if body.slips:
-                body.speed += 2 * abs(body.lead * body.spin)
+                body.speed += 2 * abs(body.com * body.spin)
             asked: cython.double = 0.0
             if body.is_robot:
                 asked = length(body.forward, body.left)
@@ -158,8 +149,8 @@ class Mover:
                 raise FloatingPointError
             if body.pulled:
                 push: cython.double = length(body.pull_x, body.pull_y) / body.mass
-                sway: cython.double = abs(body.pull_torque) + abs(body.lead) * push * body.mass
-                push += (body.offset + abs(body.lead)) * sway / body.moment
+                sway: cython.double = abs(body.pull_torque) + abs(body.com) * push * body.mass
+                push += (body.offset + abs(body.com)) * sway / body.moment
                 body.speed += push * duration
 
     @cython.cfunc
@@ -170,7 +161,7 @@ class Mover:
         """
         body: Body
         for body in self.bodies:
-            body.near = body.kept_slips if body.kept else body.slips
+            body.near = body.initial.slips if body.kept else body.slips
             body.home = body
         more: cython.bint = True
         while more:
@@ -275,13 +266,15 @@ class Mover:
         if body.solver is not None:
             solver = body.solver
             solver.leave(body)
-        body.begin_again()
+        body.begin_with(body.initial)
+        body.done = False
         begin_touches_again(body)
 
     @cython.cfunc
     def make_islands(self) -> cython.void:
         """Make the islands of those that are near."""
         island: Island
+        pair: Pair
         body: Body
         home: Body
         self.found = 0
@@ -297,10 +290,13 @@ class Mover:
             body.island = island
             island.bodies.append(body)
             if not body.kept:
-                body.keep()
+                body.kept = True
+                body.initial.begin_with(body)
                 keep_touches(body)
             if self.neighbours.at_wall(body):
-                self.add_pairs(island, body.wall_pairs)
+                for pair in body.wall_pairs:
+                    if pair.apart() <= body.way and not pair.hidden():
+                        island.pairs.append(pair)
         self.add_pairs_of_bodies()
 
     @cython.cfunc
@@ -317,14 +313,6 @@ class Mover:
         island.clear()
         self.found += 1
         return island
-
-    @cython.cfunc
-    def add_pairs(self, island: Island, pairs: list[Pair]) -> cython.void:
-        """Add those pairs of a body and walls that may touch."""
-        pair: Pair
-        for pair in pairs:
-            if pair.apart() <= pair.a.way and not pair.hidden():
-                island.pairs.append(pair)
 
     @cython.cfunc
     def add_pairs_of_bodies(self) -> cython.void:
@@ -344,21 +332,26 @@ class Mover:
     # -- who is free --------------------------------------------------------------------------
 
     @cython.cfunc
+    def carry_on(self, duration: cython.double, time: cython.double) -> cython.void:
+        """Carry those that nothing can reach, and end the control step."""
+        body: Body
+        self.neighbours.advance()
+        for body in self.bodies:
+            if not body.near:
+                end_touches(body, time)
+                self.carry(body, duration)
+            body.account_now()
+
+    @cython.cfunc
     def carry(self, body: Body, duration: cython.double) -> cython.void:
         """Move a body that nothing can reach, in closed form."""
         solver: Solver
         if body.solver is not None:
             solver = body.solver
             solver.leave(body)
-        body.slack, body.strain = self.accuracy.slack, 1.0
-        if body.is_robot:
-            body.since = 1 << 20
-        if not body.is_robot:
-            self.glide.over(body, duration)
-        elif body.limited:
-            self.thrust.over(body, duration)
-        else:
-            body.go_along(duration)
+        body.slack, body.load = self.accuracy.slack, 1.0
+        body.since = 1 << 20
+        predict(body, duration, self.glide, self.thrust)
         body.advance(duration)
 
     @cython.cfunc
@@ -463,10 +456,11 @@ class Mover:
             return False
         if body.limited:
             body.look()
-            if body.gathers:
+            if body.accelerates:
                 return False
         if body.is_robot:
-            share: cython.double = max(force / body.least_force(), torque / body.torque)
+            least: cython.double = min(body.force, body.grip_ahead, body.grip_across)
+            share: cython.double = max(force / least, torque / body.torque)
             if share > 1.0:
                 return False
             body.effort = max(body.effort, share)

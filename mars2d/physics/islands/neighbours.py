@@ -13,8 +13,9 @@ from typing import Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.body import Body, Piece
-from mars2d.physics.islands.pair import DiscPair, DiscWall, Pair, PiecePair, Wall
+from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.pair import Pair, PiecePair, Wall
+from mars2d.physics.islands.piece import Piece
 
 FEW = 32
 """Up to this number of bodies, all pairs are listed once and for all."""
@@ -38,17 +39,15 @@ class Neighbours:
     wide: cython.int
     size: cython.double
     first: list[int]
-    found: list[Any]
 
     def __init__(self, bodies: list[Body], walls: list[Wall], passing: set[Any]) -> None:
         """Take bodies, walls, and pairs of bodies that pass through each other."""
         self.bodies, self.walls, self.passing = bodies, walls, passing
-        self.pairs, self.found, self.first = [], [], []
+        self.pairs, self.first = [], []
         self.largest = max([body.radius for body in bodies])
         self.skin, self.size = -1.0, 1.0
         self.wide = 3 + int((4.0 * len(bodies)) ** 0.5)
         for body in bodies:
-            body.moved, body.wall_skin = 0.0, -1.0
             body.wall_gap = -1.0 if walls else 1e300
         if len(bodies) <= FEW:
             self.skin = 1e300
@@ -62,7 +61,7 @@ class Neighbours:
         if self.passing and (a.number, b.number) in self.passing:
             return
         if a.is_disc and b.is_disc:
-            self.pairs.append(DiscPair(a, b, None))
+            self.pairs.append(Pair(a, b, None))
             return
         p: Piece
         q: Piece
@@ -119,15 +118,18 @@ class Neighbours:
         """List the walls near a body, with a skin that lasts for many control steps."""
         wall: Wall
         piece: Piece
+        x: cython.double
+        y: cython.double
         body.wall_pairs = []
         body.wall_skin = 1e300
         if len(self.walls) > FEW_WALLS:
             body.wall_skin = max(32 * body.way, 4 * body.radius)
         for wall in self.walls:
-            if wall.gap(body.start_x, body.start_y) - body.radius > body.wall_skin:
+            x, y = wall.way(body.start_x, body.start_y)
+            if length(x, y) - body.radius > body.wall_skin:
                 continue
             if body.is_disc:
-                body.wall_pairs.append(DiscWall(body, body, wall))
+                body.wall_pairs.append(Pair(body, body, wall))
             else:
                 for piece in body.pieces:
                     body.wall_pairs.append(PiecePair(body, body, wall, piece, wall.piece))

@@ -9,11 +9,12 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.body import Body, Corner, Edge, Piece
-from mars2d.physics.islands.chipmunk import join
+from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.flush import PARALLEL, lay
+from mars2d.physics.islands.piece import Corner, Edge, Piece
 from mars2d.physics.islands.seams import Seams
 
 
@@ -91,18 +92,21 @@ class Wall:
         return False
 
     @cython.cfunc
-    def gap(self, x: cython.double, y: cython.double) -> cython.double:
-        """Return how far a point is from it."""
+    def way(self, x: cython.double, y: cython.double) -> tuple[cython.double, cython.double]:
+        """Return the shortest way from a point to it."""
         from_x: cython.double = x - self.x
         from_y: cython.double = y - self.y
         along: cython.double = from_x * self.share_x + from_y * self.share_y
         along = min(max(along, 0.0), 1.0)
-        return length(along * self.edge_x - from_x, along * self.edge_y - from_y)
+        return along * self.edge_x - from_x, along * self.edge_y - from_y
 
 
 @cython.cclass
 class Pair:
-    """The base of all pairs. b: the second body; where there is none, a wall stands still."""
+    """A pair of discs, or of a disc and a wall, and the base of `PiecePair`.
+
+    b: the second body; where there is none, the first one again, and a wall stands still.
+    """
 
     a: Body
     b: Body
@@ -126,9 +130,6 @@ class Pair:
         """Take two bodies, or one twice and a wall."""
         self.a, self.b = a, b
         self.is_wall = wall is not None
-        self.gap = self.normal_x = self.normal_y = 0.0
-        self.point_x = self.point_y = self.into_a = self.into_b = 0.0
-        self.next_touch, self.walled_in, self.start_gap = None, None, 0.0
         if wall is None:
             self.other, self.radii = b.number, a.radius + b.radius
         else:
@@ -137,10 +138,10 @@ class Pair:
     @cython.cfunc
     def apart(self) -> cython.double:
         """Return how far apart the circles were at the beginning of the control step."""
-        if self.is_wall:
-            return self.wall.gap(self.a.start_x, self.a.start_y) - self.radii
         x: cython.double = self.b.start_x - self.a.start_x
         y: cython.double = self.b.start_y - self.a.start_y
+        if self.is_wall:
+            x, y = self.wall.way(self.a.start_x, self.a.start_y)
         return length(x, y) - self.radii
 
     @cython.cfunc
@@ -163,16 +164,38 @@ class Pair:
     @cython.cfunc
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
-        raise NotImplementedError
+        x: cython.double
+        y: cython.double
+        if self.is_wall:
+            x, y = self.wall.way(self.a.x, self.a.y)
+        else:
+            x, y = self.b.x - self.a.x, self.b.y - self.a.y
+        far: cython.double = length(x, y)
+        scale: cython.double = 1.0 / max(far, 1e-12)
+        self.gap = far - self.radii
+        self.normal_x, self.normal_y = x * scale, y * scale
+        return self.gap <= 0
 
     @cython.cfunc
     def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return for how long they get no deeper than `depth`, or h if that is shorter.
 
-        A pair that is already that deep may get a little deeper, so that the solver is called again
-        soon after an impact that it could not stop at once.
+        Along straight lines, the distance to a convex shape is a convex function of time, so it
+        never falls faster than it does now. A pair that is already that deep may get a little
+        deeper, so that the solver is called again soon after an impact that it could not stop.
         """
-        raise NotImplementedError
+        x: cython.double = self.a.vx
+        y: cython.double = self.a.vy
+        turn: cython.double = self.a.acceleration
+        if not self.is_wall:
+            x = x - self.b.vx
+            y = y - self.b.vy
+            turn = turn + self.b.acceleration
+        closing: cython.double = max(x * self.normal_x + y * self.normal_y, 0.0)
+        room: cython.double = max(self.gap + depth, depth / 64)
+        if closing * h + 0.5 * turn * h * h <= room:
+            return h
+        return min(h, time_to_close(room, closing, turn))
 
     @cython.cfunc
     def lay(self, room: cython.double) -> cython.void:
@@ -198,78 +221,6 @@ def time_to_close(
     if closing < 0:
         total = bent / max(total, 1e-24)  # root - |closing|, without cancellation
     return 2 * room / (total + 1e-12)
-
-
-@cython.cfunc
-def measure_way(pair: Pair, x: cython.double, y: cython.double) -> cython.bint:
-    """Do `Pair.measure` of a disc, given the way from its middle to the other disc or the wall."""
-    far: cython.double = length(x, y)
-    scale: cython.double = 1.0 / max(far, 1e-12)
-    pair.gap = far - pair.radii
-    pair.normal_x, pair.normal_y = x * scale, y * scale
-    return pair.gap <= 0
-
-
-@cython.cfunc
-def disc_time(pair: Pair, h: cython.double, depth: cython.double) -> cython.double:
-    """Return `Pair.time_to_touch` of a disc and another, or a wall.
-
-    Along straight lines, the distance to a convex shape is a convex function of time, so it never
-    falls faster than it does now.
-    """
-    x: cython.double = pair.a.vx
-    y: cython.double = pair.a.vy
-    turn: cython.double = pair.a.bend
-    if not pair.is_wall:
-        x = x - pair.b.vx
-        y = y - pair.b.vy
-        turn = turn + pair.b.bend
-    closing: cython.double = max(x * pair.normal_x + y * pair.normal_y, 0.0)
-    room: cython.double = max(pair.gap + depth, depth / 64)
-    if closing * h + 0.5 * turn * h * h <= room:
-        return h
-    return min(h, time_to_close(room, closing, turn))
-
-
-@cython.final
-@cython.cclass
-class DiscPair(Pair):
-    """Two discs."""
-
-    @cython.cfunc
-    def measure(self) -> cython.bint:
-        """Measure the gap and the normal; return whether they touch."""
-        x: cython.double = self.b.x - self.a.x
-        y: cython.double = self.b.y - self.a.y
-        return measure_way(self, x, y)
-
-    @cython.cfunc
-    def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
-        """Return for how long they get no deeper than `depth`."""
-        return disc_time(self, h, depth)
-
-
-@cython.final
-@cython.cclass
-class DiscWall(Pair):
-    """A disc and a wall."""
-
-    @cython.cfunc
-    def measure(self) -> cython.bint:
-        """Measure the gap and the normal; return whether they touch."""
-        wall: Wall = self.wall
-        from_x: cython.double = self.a.x - wall.x
-        from_y: cython.double = self.a.y - wall.y
-        along: cython.double = from_x * wall.share_x + from_y * wall.share_y
-        along = min(max(along, 0.0), 1.0)
-        x: cython.double = along * wall.edge_x - from_x
-        y: cython.double = along * wall.edge_y - from_y
-        return measure_way(self, x, y)
-
-    @cython.cfunc
-    def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
-        """Return for how long they get no deeper than `depth`."""
-        return disc_time(self, h, depth)
 
 
 @cython.final
@@ -303,9 +254,6 @@ class PiecePair(Pair):
         Pair.__init__(self, a, b, wall)
         self.p, self.q = p, q
         self.rounding = p.radius + q.radius
-        self.between_x = self.between_y = self.way_x = self.way_y = self.square = 0.0
-        self.of_second, self.parted = False, -1e300
-        self.edge_x = self.edge_y = self.reach = 0.0
 
     @cython.cfunc
     def measure(self) -> cython.bint:
@@ -419,13 +367,13 @@ class PiecePair(Pair):
         spin: cython.double = 0.0 if still else body.spin
         vx: cython.double = 0.0 if still else -body.vx
         vy: cython.double = 0.0 if still else -body.vy
-        bends: cython.double = 0.0 if still else body.bend
+        bends: cython.double = 0.0 if still else body.acceleration
         own: cython.double = 0.0
         if not stands:
             own = other.spin
             vx = vx + other.vx
             vy = vy + other.vy
-            bends = bends + other.bend
+            bends = bends + other.acceleration
         nx: cython.double = self.edge_x
         ny: cython.double = self.edge_y
         corner: Corner
@@ -448,24 +396,25 @@ class PiecePair(Pair):
         """Return the time, at most h, that follows from the present normal.
 
         The distance along it is a lower bound of the gap at any time. A corner at r from its body's
-        pose moves with velocity + i spin r, which turns by at most bend + spin^2 |r|.
+        pose moves with velocity + i spin r, which turns by at most its acceleration + spin^2 |r|.
         """
         floor: cython.double = depth / 256
         base: cython.double = (
             self.normal_x * self.between_x + self.normal_y * self.between_y - self.rounding
         )
-        if self.clear(h, base + depth) and base + self.nearest() + depth >= floor:
+        nx: cython.double = self.normal_x
+        ny: cython.double = self.normal_y
+        nearest: cython.double = -self.q.front(-nx, -ny) - self.p.front(nx, ny)
+        if self.clear(h, base + depth) and base + nearest + depth >= floor:
             return h
         a: Body = self.a
         b: Body = self.b
-        nx: cython.double = self.normal_x
-        ny: cython.double = self.normal_y
         corner: Corner
         other: Corner
         for corner in self.p.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
-            turn: cython.double = a.bend + a.spin * a.spin * corner.lever
+            turn: cython.double = a.acceleration + a.spin * a.spin * corner.lever
             for other in self.q.corners:
                 room: cython.double = nx * other.x + ny * other.y - place + base + depth
                 closing: cython.double = speed
@@ -474,23 +423,11 @@ class PiecePair(Pair):
                     closing = closing - (
                         nx * b.vx + ny * b.vy + b.spin * (ny * other.x - nx * other.y)
                     )
-                    turns = turns + b.bend + b.spin * b.spin * other.lever
+                    turns = turns + b.acceleration + b.spin * b.spin * other.lever
                 room = max(room, floor)
                 if closing * h + 0.5 * turns * h * h > room:
                     h = min(h, time_to_close(room, closing, turns))
         return h
-
-    @cython.cfunc
-    def nearest(self) -> cython.double:
-        """Return the least distance of corners along the normal, as from coinciding poses."""
-        front: cython.double = -1e300
-        back: cython.double = 1e300
-        corner: Corner
-        for corner in self.p.corners:
-            front = max(front, self.normal_x * corner.x + self.normal_y * corner.y)
-        for corner in self.q.corners:
-            back = min(back, self.normal_x * corner.x + self.normal_y * corner.y)
-        return back - front
 
     @cython.cfunc
     def clear(self, h: cython.double, room: cython.double) -> cython.bint:
@@ -505,13 +442,13 @@ class PiecePair(Pair):
         corner: Corner
         for corner in self.p.corners:
             speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
-            turn: cython.double = a.bend + a.spin * a.spin * corner.lever
+            turn: cython.double = a.acceleration + a.spin * a.spin * corner.lever
             front = max(front, nx * corner.x + ny * corner.y + speed * h + turn * half)
         for corner in self.q.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             if not self.is_wall:
                 speed = nx * b.vx + ny * b.vy + b.spin * (ny * corner.x - nx * corner.y)
-                turn = b.bend + b.spin * b.spin * corner.lever
+                turn = b.acceleration + b.spin * b.spin * corner.lever
                 place = place + speed * h - turn * half
             back = min(back, place)
         return back - front + room >= 0.0
@@ -524,10 +461,10 @@ class PiecePair(Pair):
         if not self.meet_at_corners(2 * room):
             return
         if lay(self.p, self.q, x, y, self.b.number, room):
-            join(self.p.shape)
+            chipmunk.join(self.p.shape)
             self.a.laid = True
         if lay(self.q, self.p, -x, -y, self.a.number, room):
-            join(self.q.shape)
+            chipmunk.join(self.q.shape)
             self.b.laid = True
 
     @cython.cfunc
@@ -557,13 +494,9 @@ class PiecePair(Pair):
         """
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
-        front: cython.double = -1e300
-        back: cython.double = 1e300
+        front: cython.double = self.p.front(nx, ny)
+        back: cython.double = -self.q.front(-nx, -ny)
         corner: Corner
-        for corner in self.p.corners:
-            front = max(front, nx * corner.x + ny * corner.y)
-        for corner in self.q.corners:
-            back = min(back, nx * corner.x + ny * corner.y)
         low: cython.double = 1e300
         high: cython.double = -1e300
         along: cython.double

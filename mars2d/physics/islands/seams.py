@@ -11,18 +11,9 @@ Ericson, Real-Time Collision Detection, section 9.5.1 (2005).
 
 from __future__ import annotations
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    corner_of,
-    corners_of,
-    leave_out,
-    normal_of,
-    put_point,
-    set_normal,
-    shape_of,
-)
+from mars2d.physics.islands.chipmunk import Arbiter, Handle, Vector
 
 STRAIGHT = 1e-9
 """The sine up to which a contact's normal stands upright on a wall."""
@@ -64,18 +55,16 @@ class Seams:
     def __init__(self, numbers: list[float]) -> None:
         """Take x, y of the start, the direction, the length, `reach`, and the twelve of `met`."""
         self.x, self.y, self.ux, self.uy, self.far, self.reach = numbers[:6]
-        self.met, self.handle = numbers[6:], None
-        self.corners = 0
-        self.dx = self.dy = self.low = self.high = 0.0
+        self.met = numbers[6:]
 
     @cython.cfunc
-    def mend(self, arbiter: Handle, is_first: cython.bint) -> cython.void:
+    def mend(self, arbiter: Arbiter, is_first: cython.bint) -> cython.void:
         """Look at a contact before it is solved. is_first: whether the wall is its first shape."""
-        shape: Handle = shape_of(arbiter, True)
-        normal: Vector = normal_of(arbiter)
+        shape: Handle = chipmunk.shape_of(arbiter, True)
+        normal: Vector = arbiter.n
         nx: cython.double = normal.x if is_first else -normal.x
         ny: cython.double = normal.y if is_first else -normal.y
-        self.corners = corners_of(shape) if is_first else 0
+        self.corners = chipmunk.corners_of(shape) if is_first else 0
         self.dx, self.dy, self.low, self.high = nx, ny, 1e300, -1e300
         if self.corners > 0:
             self.pass_round(shape)
@@ -97,7 +86,7 @@ class Seams:
             return
         right: cython.bint = not self.holds(end, turn, turn)
         if right and not self.holds(end + 3, -turn, turn):  # it is beyond what is met there
-            leave_out(arbiter)
+            arbiter.count = 0
             return
         fx: cython.double = self.uy if right else -self.uy
         fy: cython.double = -self.ux if right else self.ux
@@ -110,14 +99,14 @@ class Seams:
         elif bulges and nx * self.met[end + 1] + ny * self.met[end + 2] <= STRAIGHT:
             return
         elif not bulges and nx * fx + ny * fy > NEARLY and self.corners > 0:
-            set_normal(arbiter, fx, fy)
+            arbiter.n.x, arbiter.n.y = fx, fy
             return
         self.put_out(arbiter, shape, 3 if right else 0, fx, fy)
 
     @cython.cfunc
     def pass_round(self, shape: Handle) -> cython.void:
         """Find the middle of a polygon as seen from the start, and where the line is in it."""
-        corner: Vector = corner_of(shape, self.corners - 1)
+        corner: Vector = chipmunk.corner_of(shape, self.corners - 1)
         above: cython.double = (corner.y - self.y) * self.ux - (corner.x - self.x) * self.uy
         at: cython.double = (corner.x - self.x) * self.ux + (corner.y - self.y) * self.uy
         k: cython.int
@@ -125,7 +114,7 @@ class Seams:
         for k in range(self.corners):
             before: cython.double = above
             last_at: cython.double = at
-            corner = corner_of(shape, k)
+            corner = chipmunk.corner_of(shape, k)
             self.dx += (corner.x - self.x) / self.corners
             self.dy += (corner.y - self.y) / self.corners
             above = (corner.y - self.y) * self.ux - (corner.x - self.x) * self.uy
@@ -150,7 +139,7 @@ class Seams:
     @cython.cfunc
     def put_out(
         self,
-        arbiter: Handle,
+        arbiter: Arbiter,
         shape: Handle,
         side: cython.int,
         fx: cython.double,
@@ -170,13 +159,13 @@ class Seams:
         py: cython.double = 0.0
         k: cython.int
         for k in range(self.corners):
-            corner: Vector = corner_of(shape, k)
+            corner: Vector = chipmunk.corner_of(shape, k)
             at: cython.double = (corner.x - self.x) * self.ux + (corner.y - self.y) * self.uy
             depth: cython.double = (self.x - corner.x) * fx + (self.y - corner.y) * fy
             if least <= at <= most and deepest < depth <= self.reach and depth >= 0.0:
                 deepest, px, py = depth, corner.x, corner.y
         if deepest < 0.0:
-            leave_out(arbiter)
+            arbiter.count = 0
             return
-        set_normal(arbiter, fx, fy)
-        put_point(arbiter, px + deepest * fx, py + deepest * fy, px, py)
+        arbiter.n.x, arbiter.n.y = fx, fy
+        chipmunk.put_point(arbiter, px + deepest * fx, py + deepest * fy, px, py)

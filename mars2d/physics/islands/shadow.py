@@ -22,7 +22,10 @@ Doubles: TypeAlias = "array[float]"
 
 
 def cclass(kind: type[T]) -> type[T]:
-    """Return the class as it is."""
+    """Return the class, whose attributes are zero, or None, until they are set, as in C."""
+    zeros = {"cython.double": 0.0, "cython.int": 0, "cython.bint": False}
+    for name, declared in kind.__annotations__.items():
+        setattr(kind, name, zeros.get(declared))
     return kind
 
 

@@ -4,64 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponential, length
-from mars2d.physics.islands.body import Body, Piece
+from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.chipmunk import (
     GEAR,
     GROOVE,
-    NOTHING,
     PIVOT,
     ROTARY_LIMIT,
     ROTARY_SPRING,
-    Arbiters,
     Handle,
     Vector,
-    add_body,
-    add_joint,
-    add_shape,
-    aim,
-    angle_of,
-    drag_of,
-    free_body,
-    free_joint,
-    free_shape,
-    free_space,
-    ground_of,
-    join,
-    make_joint,
-    new_body,
-    new_control,
-    new_disc,
-    new_ground,
-    new_polygon,
-    new_segment,
-    new_space,
-    position_of,
-    push,
-    put,
-    remove_body,
-    remove_joint,
-    remove_shape,
-    scale,
-    set_joint,
-    set_limits,
-    set_max_bias,
-    set_max_force,
-    settle_down,
-    sew,
-    show,
-    spin_of,
-    step,
-    twist_of,
-    used_of,
-    velocity_of,
-    watch,
-    weight_at,
 )
 from mars2d.physics.islands.floor import hold
 from mars2d.physics.islands.flush import Flush, lay
 from mars2d.physics.islands.pair import Wall
+from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.tie import Tie
 
 ENDS = ((0.0, 0.0), (0.0, 0.0))
@@ -78,10 +37,6 @@ class Held:
     handle: Handle
     ground: Handle
 
-    def __init__(self) -> None:
-        """Hold nothing yet."""
-        self.handle = self.ground = NOTHING
-
 
 @cython.final
 @cython.cclass
@@ -92,46 +47,42 @@ class Solver:
     bodies: list[Body]
     walls: dict[int, Held]
     ties: list[Tie]
-    arbiters: Arbiters
+    arbiters: chipmunk.Arbiters
     last_step: cython.double
     used: cython.bint  # in this control step
     idle: cython.bint  # whether it waits for an island
     stale: cython.bint  # whether bodies have moved without it since its last step
-    mend_rate: cython.double
-    joint_mend_rate: cython.double
-    mend_base: cython.double  # e to the power of minus the rate
-    joint_mend_base: cython.double
+    bias_rate: cython.double
+    joint_bias_rate: cython.double
+    bias_base: cython.double  # e to the power of minus the rate
+    joint_bias_base: cython.double
     hurries: cython.bint  # whether overlaps are to go as fast as what joints are off by
     hurried: cython.bint
-    mend: cython.double  # what the engine is told for steps as long as the last one
-    joint_mend: cython.double
+    bias: cython.double  # what the engine is told for steps as long as the last one
+    joint_bias: cython.double
     surfaces: object  # kept for the space, which knows its address
     room: cython.double
 
     def __init__(
-        self, slop: float, room: float, mend_rate: float, joint_mend_rate: float, surfaces: Any
+        self, slop: float, room: float, bias_rate: float, joint_bias_rate: float, surfaces: Any
     ) -> None:
         """Make an empty one.
 
         slop: the overlap that is left in steady contact, metres. room: up to which a step
-        between faces is not felt. mend_rate, joint_mend_rate: how what is beyond decays, and what
+        between faces is not felt. bias_rate, joint_bias_rate: how what is beyond decays, and what
         joints are off by, 1/s. surfaces: what settles friction and restitution; None: they are
         products.
         """
-        self.space, self.room = new_space(slop), room
-        self.mend_rate, self.joint_mend_rate = mend_rate, joint_mend_rate
-        self.mend_base, self.joint_mend_base = (
-            exponential(-mend_rate),
-            exponential(-joint_mend_rate),
-        )
-        self.mend = self.joint_mend = 0.0
-        self.hurries = self.hurried = False
+        self.space, self.room = chipmunk.new_space(slop), room
+        self.bias_rate, self.joint_bias_rate = bias_rate, joint_bias_rate
+        self.bias_base = exponential(-bias_rate)
+        self.joint_bias_base = exponential(-joint_bias_rate)
         self.surfaces = surfaces
         if surfaces is not None:
-            watch(self.space, surfaces)
+            chipmunk.watch(self.space, surfaces)
         self.bodies, self.walls, self.ties = [], {}, []
-        self.arbiters = Arbiters()
-        self.last_step, self.used, self.stale, self.idle = 1e300, False, False, False
+        self.arbiters = chipmunk.Arbiters()
+        self.last_step = 1e300
 
     # -- who is in it -------------------------------------------------------------------------
 
@@ -141,23 +92,23 @@ class Solver:
         if not body.made:
             self.make(body)
         shape: Held
-        add_body(self.space, body.handle)
+        chipmunk.add_body(self.space, body.handle)
         for shape in body.shapes:
-            add_shape(self.space, shape.handle)
+            chipmunk.add_shape(self.space, shape.handle)
         body.solver, body.placed = self, True
         self.bodies.append(body)
         if not body.is_robot and body.rest_grip > 0.0:  # the floor is another one in each space
             body.allowed = body.twist_allowed = body.held = body.twist_held = 0.0
-            self.hold_by(body, ground_of(self.space))
+            self.hold_by(body, chipmunk.ground_of(self.space))
             self.engage(body)
 
     @cython.cfunc
     def make(self, body: Body) -> cython.void:
         """Make a body, its shapes, and the joints that hold it."""
         body.made = True
-        body.handle = new_body(body.mass, body.moment, body.number)
-        if body.lead != 0.0:
-            weight_at(body.handle, body.lead)
+        body.handle = chipmunk.new_body(body.mass, body.moment, body.number)
+        if body.com != 0.0:
+            chipmunk.weight_at(body.handle, body.com)
         piece: Piece
         other: Piece
         for piece in body.pieces:
@@ -166,61 +117,59 @@ class Solver:
             body.shapes.append(shape)
             if len(points) == 1:
                 x, y = points[0]
-                shape.handle = new_disc(body.handle, piece.radius, x, y, body.surface)
+                shape.handle = chipmunk.new_disc(body.handle, piece.radius, x, y, body.surface)
             else:
-                shape.handle = new_polygon(body.handle, points, body.surface)
+                shape.handle = chipmunk.new_polygon(body.handle, points, body.surface)
             piece.shape, piece.flush = shape.handle, Flush(piece, self.room)
-            show(piece.shape, piece.flush)
+            chipmunk.show(piece.shape, piece.flush)
             for other in body.pieces:
                 if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room / 8):
-                    join(piece.shape)
+                    chipmunk.join(piece.shape)
         if body.is_robot:
-            body.control = new_control()
+            body.control = chipmunk.new_control()
             self.hold_by(body, body.control)
 
     @cython.cfunc
     def hold_by(self, body: Body, holder: Handle) -> cython.void:
         """Make the joints of a body start again: they make it move as its holder does."""
         if body.wheeled:  # grooves are free along
-            body.pivot = make_joint(GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
-            body.side = make_joint(GROOVE, body.side, holder, body.handle, ENDS, 1.0, 0.0, 0.0)
-            set_joint(body.side, 0.0, True)
-            set_max_bias(body.side, 0.0)
-            body.tread_ahead = body.tread_across = 0.0
+            body.pivot = chipmunk.make_joint(
+                GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0
+            )
+            body.side = chipmunk.make_joint(
+                GROOVE, body.side, holder, body.handle, ENDS, 1.0, 0.0, 0.0
+            )
+            chipmunk.set_joint(body.side, 0.0, True)
+            chipmunk.set_max_bias(body.side, 0.0)
+            body.traction_ahead = body.traction_across = 0.0
         else:
-            body.pivot = make_joint(PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0)
-        body.gear = make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
-        set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
-        set_joint(body.gear, 0.0, True)
-        if body.is_robot:
-            self.limit(body, body.bound, body.torque)
-        else:
-            self.limit(body, body.allowed, body.twist_allowed)
-
-    @cython.cfunc
-    def limit(self, body: Body, force: cython.double, torque: cython.double) -> cython.void:
-        """Bound the force and the torque of its joints, which never draw bodies together."""
-        set_max_bias(body.pivot, 0.0)
-        set_max_bias(body.gear, 0.0)
-        set_max_force(body.pivot, force)
-        set_max_force(body.gear, torque)
+            body.pivot = chipmunk.make_joint(
+                PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0
+            )
+        body.gear = chipmunk.make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
+        chipmunk.set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
+        chipmunk.set_joint(body.gear, 0.0, True)
+        chipmunk.set_max_bias(body.pivot, 0.0)  # they never draw bodies together
+        chipmunk.set_max_bias(body.gear, 0.0)
+        chipmunk.set_max_force(body.pivot, body.bound if body.is_robot else body.allowed)
+        chipmunk.set_max_force(body.gear, body.torque if body.is_robot else body.twist_allowed)
 
     @cython.cfunc
     def engage(self, body: Body) -> cython.void:
         """Let its joints act."""
-        add_joint(self.space, body.pivot)
+        chipmunk.add_joint(self.space, body.pivot)
         if body.wheeled:
-            add_joint(self.space, body.side)
-        add_joint(self.space, body.gear)
+            chipmunk.add_joint(self.space, body.side)
+        chipmunk.add_joint(self.space, body.gear)
         body.engaged = True
 
     @cython.cfunc
     def disengage(self, body: Body) -> cython.void:
         """Take its joints out."""
-        remove_joint(self.space, body.pivot)
+        chipmunk.remove_joint(self.space, body.pivot)
         if body.wheeled:
-            remove_joint(self.space, body.side)
-        remove_joint(self.space, body.gear)
+            chipmunk.remove_joint(self.space, body.side)
+        chipmunk.remove_joint(self.space, body.gear)
         body.engaged = False
 
     @cython.cfunc
@@ -229,13 +178,14 @@ class Solver:
         tie: Tie
         for tie in self.ties[:]:
             if tie.a is body or tie.b is body:
-                self.untie(tie)
+                self.remove_parts(tie)
+                self.ties.remove(tie)
         if body.engaged:
             self.disengage(body)
         shape: Held
         for shape in body.shapes:
-            remove_shape(self.space, shape.handle)
-        remove_body(self.space, body.handle)
+            chipmunk.remove_shape(self.space, shape.handle)
+        chipmunk.remove_body(self.space, body.handle)
         body.solver = None
         self.bodies.remove(body)
 
@@ -254,10 +204,10 @@ class Solver:
         """Take all walls out."""
         held: Held
         for held in self.walls.values():
-            remove_shape(self.space, held.handle)
-            remove_body(self.space, held.ground)
-            free_shape(held.handle)
-            free_body(held.ground)
+            chipmunk.remove_shape(self.space, held.handle)
+            chipmunk.remove_body(self.space, held.ground)
+            chipmunk.free_shape(held.handle)
+            chipmunk.free_body(held.ground)
         self.walls = {}
 
     @cython.cfunc
@@ -267,13 +217,13 @@ class Solver:
             return
         held = Held()
         self.walls[wall.number] = held
-        held.ground = new_ground(wall.other)
+        held.ground = chipmunk.new_ground(wall.other)
         ends = ((wall.x, wall.y), (wall.x + wall.edge_x, wall.y + wall.edge_y))
-        held.handle = new_segment(held.ground, ends, wall.surface)
+        held.handle = chipmunk.new_segment(held.ground, ends, wall.surface)
         if wall.seams is not None:
-            sew(held.handle, wall.seams)
-        add_body(self.space, held.ground)
-        add_shape(self.space, held.handle)
+            chipmunk.sew(held.handle, wall.seams)
+        chipmunk.add_body(self.space, held.ground)
+        chipmunk.add_shape(self.space, held.handle)
 
     # -- joints -------------------------------------------------------------------------------
 
@@ -289,11 +239,11 @@ class Solver:
     @cython.cfunc
     def make_parts(self, tie: Tie) -> cython.void:
         """Make the parts of a joint start again."""
-        if self.joint_mend == 0.0 and self.last_step < 1e300:
-            self.joint_mend = decay_base(self.joint_mend_rate, self.joint_mend_base, self.last_step)
+        if self.joint_bias == 0.0 and self.last_step < 1e300:
+            self.joint_bias = decay_base(self.joint_bias_rate, self.joint_bias_base, self.last_step)
         k: cython.int
         a: Handle = tie.a.handle
-        b: Handle = ground_of(self.space) if tie.to_world else tie.b.handle
+        b: Handle = chipmunk.ground_of(self.space) if tie.to_world else tie.b.handle
         ends = ((tie.anchor_ax, tie.anchor_ay), (tie.anchor_bx, tie.anchor_by))
         part: Held
         for k in range(len(tie.parts)):
@@ -304,24 +254,28 @@ class Solver:
             p, q, r = numbers
             first: Handle = b if turned else a
             second: Handle = a if turned else b
-            part.handle = make_joint(kind, part.handle, first, second, ends, p, q, r)
-            set_joint(part.handle, 0.0 if kind == ROTARY_LIMIT else self.joint_mend, not tie.pinned)
+            part.handle = chipmunk.make_joint(kind, part.handle, first, second, ends, p, q, r)
+            chipmunk.set_joint(
+                part.handle,
+                0.0 if kind == ROTARY_LIMIT else self.joint_bias,
+                not tie.pinned,
+            )
             if tie.is_rope and k == 0:
-                set_max_bias(part.handle, 0.0)
+                chipmunk.set_max_bias(part.handle, 0.0)
 
     @cython.cfunc
     def add_parts(self, tie: Tie) -> cython.void:
         """Put the parts of a joint in."""
         part: Held
         for part in tie.joints:
-            add_joint(self.space, part.handle)
+            chipmunk.add_joint(self.space, part.handle)
 
     @cython.cfunc
     def remove_parts(self, tie: Tie) -> cython.void:
         """Take the parts of a joint out."""
         part: Held
         for part in tie.joints:
-            remove_joint(self.space, part.handle)
+            chipmunk.remove_joint(self.space, part.handle)
 
     @cython.cfunc
     def pull_of(self, tie: Tie) -> cython.double:
@@ -332,23 +286,8 @@ class Solver:
         for k in range(len(tie.parts)):
             if tie.parts[k][0] != ROTARY_LIMIT and tie.parts[k][0] != ROTARY_SPRING:
                 part = tie.joints[k]
-                most = max(most, used_of(part.handle))
+                most = max(most, chipmunk.used_of(part.handle))
         return most
-
-    @cython.cfunc
-    def untie(self, tie: Tie) -> cython.void:
-        """Take a joint out."""
-        self.remove_parts(tie)
-        self.ties.remove(tie)
-
-    @cython.cfunc
-    def draw_in(self, tie: Tie, speed: cython.double) -> cython.void:
-        """Bound the speed at which a rope, if it is too long, is drawn in.
-
-        A body that is drawn in keeps moving, which makes the rope slack.
-        """
-        part: Held = tie.joints[0]
-        set_max_bias(part.handle, speed)
 
     @cython.cfunc
     def rebound(self, tie: Tie, h: cython.double) -> cython.void:
@@ -372,8 +311,8 @@ class Solver:
         for k in range(len(tie.parts)):
             if tie.parts[k][0] == ROTARY_LIMIT:
                 part = tie.joints[k]
-                set_limits(part.handle, least, largest)
-                set_max_bias(part.handle, speed)
+                chipmunk.set_limits(part.handle, least, largest)
+                chipmunk.set_max_bias(part.handle, speed)
 
     # -- a step -------------------------------------------------------------------------------
 
@@ -391,14 +330,14 @@ class Solver:
         self.stale = False
         k: cython.int
         if h != self.last_step or self.hurries != self.hurried:
-            self.last_step, self.hurried, self.joint_mend = h, self.hurries, 0.0
+            self.last_step, self.hurried, self.joint_bias = h, self.hurries, 0.0
             if self.hurries:
-                self.mend = decay_base(self.joint_mend_rate, self.joint_mend_base, h)
+                self.bias = decay_base(self.joint_bias_rate, self.joint_bias_base, h)
             else:
-                self.mend = decay_base(self.mend_rate, self.mend_base, h)
+                self.bias = decay_base(self.bias_rate, self.bias_base, h)
         if ratio != 1.0:
             for k in range(self.find_contacts()):
-                scale(self.arbiters.at(k), ratio)
+                chipmunk.scale(self.arbiters.at(k), ratio)
             tie: Tie
             for tie in self.ties:
                 self.remove_parts(tie)
@@ -421,25 +360,22 @@ class Solver:
         if body.is_robot:
             self.hold_by(body, body.control)
         else:
-            self.hold_by(body, ground_of(self.space))
+            self.hold_by(body, chipmunk.ground_of(self.space))
         self.engage(body)
 
     @cython.cfunc
-    def rests(self) -> cython.bint:
-        """Return whether nothing moves, and nothing is told, pulled or tied to."""
-        body: Body
-        for body in self.bodies:
-            if body.pulled or body.is_told() or body.top_speed() > STILL:
-                return False
-        return not self.ties
-
-    @cython.cfunc
     def relax(self) -> cython.void:
-        """Let bodies press each other no longer: rigid ones at rest keep no tension."""
-        self.stale = True
+        """Let bodies that rest press each other no longer: rigid ones keep no tension.
+
+        They do not if any moves, or is told or pulled or tied to.
+        """
         body: Body
         for body in self.bodies:
-            if body.engaged and (self.used_by(body) > 0.0 or used_of(body.gear) > 0.0):
+            if self.ties or body.pulled or body.is_told() or body.top_speed() > STILL:
+                return
+        self.stale = True
+        for body in self.bodies:
+            if body.engaged and (self.used_by(body) > 0.0 or chipmunk.used_of(body.gear) > 0.0):
                 self.renew(body)
 
     @cython.cfunc
@@ -462,56 +398,60 @@ class Solver:
             for body in self.bodies:
                 if body.solved and body.engaged:
                     self.renew(body)
-        if self.rests():
-            self.relax()
+        self.relax()
         self.forget(h)
         tie: Tie
         for tie in self.ties:
-            if tie.is_rope:
-                self.draw_in(tie, tie.turn * h)
+            if (
+                tie.is_rope
+            ):  # what a rope that is too long draws in fast would go on, and slacken it
+                rope: Held = tie.joints[0]
+                chipmunk.set_max_bias(rope.handle, tie.turn * h)
             tie.hits = tie.is_rope and tie.slack > 0.0
             if tie.largest < 1e300:
                 self.rebound(tie, h)
         for body in self.bodies:
             self.prepare(body, h)
-        step(self.space, h, self.mend)
+        chipmunk.step(self.space, h, self.bias)
         self.used = True
         for body in self.bodies:
-            where: Vector = position_of(body.handle)
-            fast: Vector = velocity_of(body.handle)
-            body.x, body.y, body.angle = where.x, where.y, angle_of(body.handle)
-            if self.ties:
-                body.advance_half(h)
+            where: Vector = chipmunk.position_of(body.handle)
+            fast: Vector = chipmunk.velocity_of(body.handle)
+            body.x, body.y, body.angle = where.x, where.y, chipmunk.angle_of(body.handle)
+            if self.ties:  # it began half a step behind: see `set_off`
+                half: cython.double = h / 2
+                body.displace(half * body.before_x, half * body.before_y, half * body.before_spin)
             body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
-            body.after_x, body.after_y, body.spin = fast.x, fast.y, spin_of(body.handle)
+            body.after_x, body.after_y, body.spin = fast.x, fast.y, chipmunk.spin_of(body.handle)
             if not body.is_robot and body.engaged:
-                body.held = used_of(body.pivot) / h
-                body.twist_held = used_of(body.gear) / h
+                body.held = chipmunk.used_of(body.pivot) / h
+                body.twist_held = chipmunk.used_of(body.gear) / h
             if body.is_robot and body.engaged and body.grip_across < 1e300:
                 self.feel(body, h)
             if body.is_robot and body.solved:
                 share: cython.double = self.used_by(body) / max(body.bound * h, 1e-300)
                 body.effort = max(body.effort, share)
-                share = used_of(body.gear) / (body.torque * h)
+                share = chipmunk.used_of(body.gear) / (body.torque * h)
                 body.effort = max(body.effort, share)
 
     @cython.cfunc
     def take_drag(self, body: Body) -> cython.void:
         """Find the impulse on a body of its drive, or of the floor under it."""
-        drag: Vector = drag_of(body.pivot, GROOVE if body.wheeled else PIVOT)
+        drag: Vector = chipmunk.drag_of(body.pivot, GROOVE if body.wheeled else PIVOT)
         body.drag_x, body.drag_y = drag.x, drag.y
         if body.wheeled:
-            drag = drag_of(body.side, GROOVE)
+            drag = chipmunk.drag_of(body.side, GROOVE)
             body.drag_x, body.drag_y = body.drag_x + drag.x, body.drag_y + drag.y
-        if body.lead != 0.0:
-            body.lean(body.angle)
-        body.drag_turn = twist_of(body.gear) - body.lead_x * body.drag_y + body.lead_y * body.drag_x
+        if body.com != 0.0:
+            body.place_com(body.angle)
+        turn: cython.double = chipmunk.twist_of(body.gear)
+        body.drag_turn = turn - body.com_x * body.drag_y + body.com_y * body.drag_x
 
     @cython.cfunc
     def used_by(self, body: Body) -> cython.double:
         """Return how large the impulse on a body of its drive, or of the floor, was, N s."""
-        used: cython.double = used_of(body.pivot)
-        return length(used, used_of(body.side)) if body.wheeled else used
+        used: cython.double = chipmunk.used_of(body.pivot)
+        return length(used, chipmunk.used_of(body.side)) if body.wheeled else used
 
     @cython.cfunc
     def lag(self, h: cython.double) -> cython.double:
@@ -521,13 +461,11 @@ class Solver:
     @cython.cfunc
     def feel(self, body: Body, h: cython.double) -> cython.void:
         """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
-        c: cython.double
-        s: cython.double
-        angle: cython.double = body.back_angle + self.lag(h) * body.back_spin
+        angle: cython.double = body.back.angle + self.lag(h) * body.back.spin
         c, s = cosine_sine(angle)
         self.take_drag(body)
-        body.tread_ahead = (c * body.drag_x + s * body.drag_y) / h
-        body.tread_across = (c * body.drag_y - s * body.drag_x) / h
+        body.traction_ahead = (c * body.drag_x + s * body.drag_y) / h
+        body.traction_across = (c * body.drag_y - s * body.drag_x) / h
         body.bear(body.drag_x, body.drag_y, angle, body.vx, body.vy)
 
     @cython.cfunc
@@ -540,20 +478,16 @@ class Solver:
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
         """
-        if body.lead != 0.0:
-            body.lean(body.angle)
-            body.x, body.y = body.x + body.lead_x, body.y + body.lead_y
-        body.x += shift * (body.after_x - body.before_x)
-        body.y += shift * (body.after_y - body.before_y)
-        body.angle += shift * (body.spin - body.before_spin)
+        body.displace(
+            shift * (body.after_x - body.before_x), shift * (body.after_y - body.before_y),
+            shift * (body.spin - body.before_spin),
+        )  # fmt: skip
         body.vx, body.vy, body.placed = body.after_x, body.after_y, True
         if body.eased:
-            settle_down(body.handle)
-        if body.lead != 0.0:
-            body.lean(body.angle)
-            body.x, body.y = body.x - body.lead_x, body.y - body.lead_y
-            body.vx += body.spin * body.lead_y
-            body.vy -= body.spin * body.lead_x
+            chipmunk.settle_down(body.handle)
+        if body.com != 0.0:
+            body.vx += body.spin * body.com_y
+            body.vy -= body.spin * body.com_x
         x: cython.double = (body.before_x + body.after_x) / 2
         y: cython.double = (body.before_y + body.after_y) / 2
         spin: cython.double = (body.before_spin + body.spin) / 2
@@ -593,24 +527,24 @@ class Solver:
                 self.tread(body, vx, vy, h)
             else:
                 body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
-                aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+                chipmunk.aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
                 if body.grips:
                     self.grasp(body, h)
             body.aim_x, body.aim_y, body.aim_spin = x, y, turning
         if not body.is_robot and body.rest_grip > 0.0:
             self.brake(body, h)
         body.pull_turn = body.pull_torque
-        if body.lead != 0.0:  # the engine's velocities and forces are those at the centre of mass
+        if body.com != 0.0:  # the engine's velocities and forces are those at the centre of mass
             if not body.solved:
-                body.lean(body.angle + h * body.aim_spin)
-            vx, vy = vx - spin * body.lead_y, vy + spin * body.lead_x
-            body.lean(body.angle)
-            body.pull_turn -= body.lead_x * body.pull_y - body.lead_y * body.pull_x
+                body.place_com(body.angle + h * body.aim_spin)
+            vx, vy = vx - spin * body.com_y, vy + spin * body.com_x
+            body.place_com(body.angle)
+            body.pull_turn -= body.com_x * body.pull_y - body.com_y * body.pull_x
         self.set_off(body, vx, vy, spin, h)
         body.placed = False
         if body.pulled:
-            push(body.handle, body.pull_x, body.pull_y, body.pull_turn)
-        aim(body.handle, vx, vy, spin)
+            chipmunk.push(body.handle, body.pull_x, body.pull_y, body.pull_turn)
+        chipmunk.aim(body.handle, vx, vy, spin)
         body.before_x, body.before_y, body.before_spin = vx, vy, spin
         body.account(vx, vy, spin)
 
@@ -630,23 +564,23 @@ class Solver:
         behind, since these are to act on it in the middle. vx, vy: of its centre of mass.
         """
         goes: cython.bint = vx != 0.0 or vy != 0.0 or spin != 0.0
-        x: cython.double = body.x + body.lead_x
-        y: cython.double = body.y + body.lead_y
+        x: cython.double = body.x + body.com_x
+        y: cython.double = body.y + body.com_y
         angle: cython.double = body.angle
         if not body.solved and (body.aim_x != vx or body.aim_y != vy or body.aim_spin != spin):
-            if body.lead != 0.0:
-                body.lean(angle + h * body.aim_spin)
-                x, y = body.x + body.lead_x, body.y + body.lead_y
+            if body.com != 0.0:
+                body.place_com(angle + h * body.aim_spin)
+                x, y = body.x + body.com_x, body.y + body.com_y
             x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
             angle += h * (body.aim_spin - spin)
         elif not body.placed and not (goes and self.ties):
             return
         if self.ties:
             x, y, angle = x - h / 2 * vx, y - h / 2 * vy, angle - h / 2 * spin
-        if body.lead != 0.0:
-            body.lean(angle)
-            x, y = x - body.lead_x, y - body.lead_y
-        put(body.handle, x, y, angle)
+        if body.com != 0.0:
+            body.place_com(angle)
+            x, y = x - body.com_x, y - body.com_y
+        chipmunk.put(body.handle, x, y, angle)
 
     @cython.cfunc
     def grasp(self, body: Body, h: cython.double) -> cython.void:
@@ -654,14 +588,14 @@ class Solver:
 
         That is where it has pushed in the step before, or where its command is.
         """
-        drag: Vector = drag_of(body.pivot, PIVOT)
+        drag: Vector = chipmunk.drag_of(body.pivot, PIVOT)
         if length(drag.x, drag.y) > 1e-9 * body.strength * h:
             body.bear(drag.x, drag.y, body.angle, body.vx, body.vy)
         else:
             x: cython.double = body.aim_x - body.vx
             y: cython.double = body.aim_y - body.vy
             body.bear(x, y, body.angle, body.vx, body.vy)
-        set_max_force(body.pivot, body.bound)
+        chipmunk.set_max_force(body.pivot, body.bound)
 
     @cython.cfunc
     def tread(
@@ -672,8 +606,6 @@ class Solver:
         vx, vy: its velocity. What it takes to move as commanded is what the wheels bore in the step
         before, and what was lacking then.
         """
-        c: cython.double
-        s: cython.double
         late: cython.double = self.lag(h)
         angle: cython.double = body.angle + late * (body.spin if body.solved else body.turning)
         c, s = cosine_sine(angle)
@@ -681,11 +613,11 @@ class Solver:
         y: cython.double = body.y + late * vy
         if not body.solved:
             x, y = x + h * (body.aim_x - vx), y + h * (body.aim_y - vy)
-        if body.solved and body.lead != 0.0:  # it goes round its centre of mass
-            body.lean(body.angle)
-            x += body.lead_x - late * body.spin * body.lead_y - body.lead * c
-            y += body.lead_y + late * body.spin * body.lead_x - body.lead * s
-        put(body.control, x, y, angle)
+        if body.solved and body.com != 0.0:  # it goes round its centre of mass
+            body.place_com(body.angle)
+            x += body.com_x - late * body.spin * body.com_y - body.com * c
+            y += body.com_y + late * body.spin * body.com_x - body.com * s
+        chipmunk.put(body.control, x, y, angle)
         body.follow(angle, 0.0)
         if late < h:  # it is to roll along its heading at the end, as fast as it does
             turned: cython.double = (h - late) * (body.spin if body.solved else body.turning)
@@ -695,13 +627,13 @@ class Solver:
             x, y = cosine_sine(turned)
             body.aim_x -= s * y * (speed - body.forward)
             body.aim_y += c * y * (speed - body.forward)
-        aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
+        chipmunk.aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
         x, y = body.aim_x - vx, body.aim_y - vy
         rate: cython.double = body.mass / h
-        ahead: cython.double = body.tread_ahead + rate * (c * x + s * y)
-        body.divide(ahead, body.tread_across + rate * (c * y - s * x), c * vx + s * vy)
-        set_max_force(body.pivot, body.bound_ahead)
-        set_max_force(body.side, body.bound_across)
+        ahead: cython.double = body.traction_ahead + rate * (c * x + s * y)
+        body.divide(ahead, body.traction_across + rate * (c * y - s * x), c * vx + s * vy)
+        chipmunk.set_max_force(body.pivot, body.bound_ahead)
+        chipmunk.set_max_force(body.side, body.bound_across)
 
     @cython.cfunc
     def brake(self, body: Body, h: cython.double) -> cython.void:
@@ -713,8 +645,8 @@ class Solver:
         else:
             body.allowed = body.twist_allowed = 0.0
         if body.allowed != force or body.twist_allowed != torque:
-            set_max_force(body.pivot, body.allowed)
-            set_max_force(body.gear, body.twist_allowed)
+            chipmunk.set_max_force(body.pivot, body.allowed)
+            chipmunk.set_max_force(body.gear, body.twist_allowed)
 
     # -- freeing ------------------------------------------------------------------------------
 
@@ -723,8 +655,7 @@ class Solver:
         """Free the space; nothing of it is used after that."""
         self.empty()
         self.take_walls_down()
-        free_space(self.space)
-        self.space = NOTHING
+        chipmunk.free_space(self.space)
 
 
 @cython.cfunc
@@ -732,7 +663,7 @@ def free_tie(tie: Tie) -> cython.void:
     """Free the joints of a tie that is in no space."""
     part: Held
     for part in tie.joints:
-        free_joint(part.handle)
+        chipmunk.free_joint(part.handle)
     tie.joints = []
 
 
@@ -744,13 +675,13 @@ def free_things_of(body: Body) -> cython.void:
     body.made = False
     shape: Held
     for shape in body.shapes:
-        free_shape(shape.handle)
+        chipmunk.free_shape(shape.handle)
     body.shapes = []
     if body.is_robot or body.rest_grip > 0.0:
-        free_joint(body.pivot)
+        chipmunk.free_joint(body.pivot)
         if body.wheeled:
-            free_joint(body.side)
-        free_joint(body.gear)
+            chipmunk.free_joint(body.side)
+        chipmunk.free_joint(body.gear)
     if body.is_robot:
-        free_body(body.control)
-    free_body(body.handle)
+        chipmunk.free_body(body.control)
+    chipmunk.free_body(body.handle)

@@ -8,20 +8,10 @@ from __future__ import annotations
 
 from math import sqrt
 
+from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import (
-    Handle,
-    Vector,
-    arm_of,
-    count_of,
-    first_of,
-    normal_of,
-    second_of,
-    set_surface,
-    spin_of,
-    velocity_of,
-)
+from mars2d.physics.islands.chipmunk import Arbiter, Vector
 
 
 @cython.final
@@ -76,15 +66,15 @@ class Surfaces:
         self.bodies, self.of_bodies, self.of_walls = bodies, of_bodies, of_walls
         self.rule, self.bounce_rule = rules
         self.frictions, self.statics, self.restitutions = pairs
-        self.sticks, self.count, self.handle = sticks, round(sqrt(len(pairs[0]))), None
+        self.sticks, self.count = sticks, round(sqrt(len(pairs[0])))
 
     @cython.cfunc
-    def settle(self, arbiter: Handle) -> cython.void:
+    def settle(self, arbiter: Arbiter) -> cython.void:
         """Set friction and restitution of a contact, as the solver is to use them now."""
-        if count_of(arbiter) == 0:
+        if chipmunk.count_of(arbiter) == 0:
             return
-        first: cython.int = first_of(arbiter)
-        second: cython.int = second_of(arbiter)
+        first: cython.int = chipmunk.first_of(arbiter)
+        second: cython.int = chipmunk.second_of(arbiter)
         a: Surface = self.surface_of(first)
         b: Surface = self.surface_of(second)
         friction: cython.double = -1.0
@@ -102,7 +92,7 @@ class Surfaces:
             restitution = blend(self.bounce_rule, a.restitution, b.restitution)
         if static > friction and self.slip(arbiter, first, second) < self.sticks:
             friction = static
-        set_surface(arbiter, friction, restitution)
+        chipmunk.set_surface(arbiter, friction, restitution)
 
     @cython.cfunc
     def surface_of(self, number: cython.int) -> Surface:
@@ -112,7 +102,7 @@ class Surfaces:
         return self.of_walls[-1 - number]
 
     @cython.cfunc
-    def slip(self, arbiter: Handle, first: cython.int, second: cython.int) -> cython.double:
+    def slip(self, arbiter: Arbiter, first: cython.int, second: cython.int) -> cython.double:
         """Return how fast two bodies slide along each other, before the substep, m/s."""
         vx: cython.double = 0.0
         vy: cython.double = 0.0
@@ -121,15 +111,15 @@ class Surfaces:
         fast: Vector
         if second >= 0:
             body = self.bodies[second]
-            arm, fast = arm_of(arbiter, 0, True), velocity_of(body.handle)
-            vx = fast.x - spin_of(body.handle) * arm.y
-            vy = fast.y + spin_of(body.handle) * arm.x
+            arm, fast = arbiter.contacts[0].r2, chipmunk.velocity_of(body.handle)
+            vx = fast.x - chipmunk.spin_of(body.handle) * arm.y
+            vy = fast.y + chipmunk.spin_of(body.handle) * arm.x
         if first >= 0:
             body = self.bodies[first]
-            arm, fast = arm_of(arbiter, 0, False), velocity_of(body.handle)
-            vx = vx - (fast.x - spin_of(body.handle) * arm.y)
-            vy = vy - (fast.y + spin_of(body.handle) * arm.x)
-        normal: Vector = normal_of(arbiter)
+            arm, fast = arbiter.contacts[0].r1, chipmunk.velocity_of(body.handle)
+            vx = vx - (fast.x - chipmunk.spin_of(body.handle) * arm.y)
+            vy = vy - (fast.y + chipmunk.spin_of(body.handle) * arm.x)
+        normal: Vector = arbiter.n
         along: cython.double = vy * normal.x - vx * normal.y
         return abs(along)
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
 from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.floor import Glide
 
 
 @cython.final
@@ -32,13 +33,7 @@ class Thrust:
     turns: cython.double
     keeps: cython.bint  # whether it moves as commanded
     bent: cython.bint  # whether the commanded velocity turns
-    strains: cython.bint  # whether its drive does all that it can
-
-    def __init__(self) -> None:
-        """Begin with nothing."""
-        self.way_x = self.way_y = self.angle = self.vx = self.vy = self.spin = 0.0
-        self.quickens = self.turns = 0.0
-        self.keeps = self.bent = self.strains = False
+    saturated: cython.bint  # whether its drive does all that it can
 
     @cython.cfunc
     def over(self, body: Body, h: cython.double) -> cython.void:
@@ -59,7 +54,7 @@ class Thrust:
                 self.follow(body, part)
                 break
             gone += self.advance(body, min(part, fine))
-        if self.strains:
+        if self.saturated:
             body.effort = 1.0
         elif body.limited:
             share: cython.double = body.pull_on_arc(body.turning) / body.force_across()
@@ -67,7 +62,7 @@ class Thrust:
         body.aim_x, body.aim_y = self.way_x / h, self.way_y / h
         body.aim_spin = (self.angle - body.angle) / h
         body.end_x, body.end_y, body.end_spin = self.vx, self.vy, self.spin
-        body.gathers = not self.keeps or body.lags(self.spin)
+        body.accelerates = not self.keeps or body.lags(self.spin)
 
     @cython.cfunc
     def begin(self, body: Body) -> cython.void:
@@ -80,7 +75,7 @@ class Thrust:
         self.bent = body.in_robot_frame and (body.spin != 0.0 or body.turning != 0.0)
         moves: cython.bint = body.wheeled and (body.vx != 0.0 or body.vy != 0.0)
         self.bent = self.bent and (moves or body.forward != 0.0 or body.left != 0.0)
-        self.strains = False
+        self.saturated = False
 
     @cython.cfunc
     def follow(self, body: Body, part: cython.double) -> cython.void:
@@ -105,7 +100,7 @@ class Thrust:
         rate: cython.double = 0.0
         meets: cython.bint = False
         if lack != 0.0:
-            self.strains = True
+            self.saturated = True
             rate = self.turns if lack > 0.0 else -self.turns
             meets = lack / rate <= part
         if meets:
@@ -147,7 +142,7 @@ class Thrust:
     @cython.cfunc
     def gain(self, body: Body, part: cython.double, rate: cython.double) -> cython.double:
         """Go towards the commanded velocity; return for how long, at most the part."""
-        self.strains = True
+        self.saturated = True
         body.follow(self.angle + part * (self.spin + rate * part / 2), 0.0)
         x: cython.double = body.aim_x - self.vx
         y: cython.double = body.aim_y - self.vy
@@ -182,10 +177,6 @@ class Thrust:
         turn: rad, by how much it turns. `aim` is the velocity that is commanded at the end. Forces
         along and across its heading half-way turn its velocity as it turns.
         """
-        c: cython.double
-        s: cython.double
-        near: cython.double
-        aside: cython.double
         c, s = cosine_sine(self.angle + turn / 2)
         near, aside = cosine_sine(turn / 2)
         x: cython.double = body.aim_x - self.vx
@@ -213,6 +204,17 @@ class Thrust:
         self.way_y += part * (self.vy + s * push / 2 + c * hold * share)
         self.vx += c * push - s * hold
         self.vy += s * push + c * hold
+
+
+@cython.cfunc
+def predict(body: Body, h: cython.double, glide: Glide, thrust: Thrust) -> cython.void:
+    """Aim a body at where it will be after h s if nothing touches it, in closed form."""
+    if not body.is_robot:
+        glide.over(body, h)
+    elif body.follows():
+        body.go_along(h)
+    else:
+        thrust.over(body, h)
 
 
 @cython.cfunc

@@ -72,16 +72,10 @@ class Tie:
         self.springy = is_what["springy"]
         self.least, self.largest, self.rebound = limits
         self.parts, self.joints = parts, []
-        self.arm_ax = self.arm_ay = self.arm_bx = self.arm_by = 0.0
-        self.normal_x = self.normal_y = self.apart = self.slack = self.turn = 0.0
-        self.angle = self.turning = 0.0
-        self.hits = False
 
     @cython.cfunc
     def measure(self) -> cython.void:
         """Measure where its ends are."""
-        c: cython.double
-        s: cython.double
         c, s = cosine_sine(self.a.angle)
         self.arm_ax = c * self.anchor_ax - s * self.anchor_ay
         self.arm_ay = s * self.anchor_ax + c * self.anchor_ay
@@ -112,18 +106,18 @@ class Tie:
         return self.slack <= way
 
     @cython.cfunc
-    def holds(self, taut: cython.double) -> cython.bint:
-        """Return whether it holds its bodies now; taut: the slack of a rope that is straight."""
-        return self.always or self.slack <= taut
+    def holds(self, tolerance: cython.double) -> cython.bint:
+        """Return whether it holds its bodies now; tolerance: the slack of a straight rope, m."""
+        return self.always or self.slack <= tolerance
 
     @cython.cfunc
     def time_to_jerk(
-        self, stretch: cython.double, give: cython.double, taut: cython.double
+        self, stretch: cython.double, play: cython.double, tolerance: cython.double
     ) -> cython.double:
         """Return how long a substep may be, seconds.
 
         Until then no rope gets longer by more than `stretch` metres, and no joint is pulled apart
-        by more than `give`, since its ends go straight on instead of round.
+        by more than `play`, since its ends go straight on instead of round.
         """
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
@@ -131,11 +125,11 @@ class Tie:
         b: Body = self.b
         part_x: cython.double = a.spin * self.arm_ay - a.vx
         part_y: cython.double = -a.vy - a.spin * self.arm_ax
-        turn: cython.double = a.bend + a.spin * a.spin * length(self.arm_ax, self.arm_ay)
+        turn: cython.double = a.acceleration + a.spin * a.spin * length(self.arm_ax, self.arm_ay)
         if not self.to_world:
             part_x = part_x + b.vx - b.spin * self.arm_by
             part_y = part_y + b.vy + b.spin * self.arm_bx
-            turn = turn + b.bend + b.spin * b.spin * length(self.arm_bx, self.arm_by)
+            turn = turn + b.acceleration + b.spin * b.spin * length(self.arm_bx, self.arm_by)
         along: cython.double = part_x * nx + part_y * ny
         if self.length > 0:  # motion across a rope or rod lengthens it, too
             across: cython.double = part_x * ny - part_y * nx
@@ -146,19 +140,19 @@ class Tie:
             room: cython.double = max(self.slack + stretch, stretch / 64)
             rate: cython.double = max(along, 0.0)
             h = 2 * room / (rate + sqrt(rate * rate + 2 * turn * room) + 1e-12)
-        if self.slack <= taut and self.rigid:
+        if self.slack <= tolerance and self.rigid:
             # The ends of a hinge may part in any direction at the start, those of a rod along it.
             speed: cython.double = 0.0
             if self.length <= 0:
                 speed = length(part_x, part_y)
             elif not self.is_rope:
                 speed = abs(along)
-            h = min(h, 2 * give / (speed + sqrt(speed * speed + 2 * turn * give) + 1e-12))
-        return min(h, self.time_to_stop(give))
+            h = min(h, 2 * play / (speed + sqrt(speed * speed + 2 * turn * play) + 1e-12))
+        return min(h, self.time_to_stop(play))
 
     @cython.cfunc
-    def time_to_stop(self, give: cython.double) -> cython.double:
-        """Return when bodies have turned beyond a limit by so little that no tip goes `give` m."""
+    def time_to_stop(self, play: cython.double) -> cython.double:
+        """Return when bodies have turned beyond a limit by so little that no tip goes `play` m."""
         self.turning = self.a.spin
         self.angle = self.a.angle
         reach: cython.double = self.a.reach
@@ -169,5 +163,5 @@ class Tie:
         room: cython.double = self.largest - self.angle
         if self.turning < 0.0:
             room = self.angle - self.least
-        give = give / reach
-        return max(room + give, give / 64) / max(abs(self.turning), 1e-300)
+        play = play / reach
+        return max(room + play, play / 64) / max(abs(self.turning), 1e-300)

@@ -239,6 +239,8 @@ def serve(descriptor: int) -> None:
                 living.discard(process)
                 told = _ended(process, grace)
             line.sendall(REPLY.pack(*told))
+    except (BrokenPipeError, ConnectionResetError):
+        return  # the match was killed
     finally:
         for process in living - {-1}:
             _ended(process, 0.0)

@@ -67,7 +67,7 @@ def unclosed(name: str, path: Path, until: float = 8.0) -> Record:
     """Run an example with a log that is left as it was at the last step, as by kill -9."""
     log = Log(path)
     experiment = open_experiment(name, {"stop_time": until})
-    world = World(experiment.scenario, experiment.control, 1, filename=experiment.filename)
+    world = World(experiment.scenario, experiment.control, 1, filename=experiment.source.name)
     while not world.over:
         world.step()
         log.follow(world)
@@ -364,7 +364,7 @@ def test_a_world_that_one_steps_oneself_can_be_logged(tmp_path) -> None:
 def test_steps_that_were_not_followed_one_by_one_are_caught_up_with(tmp_path) -> None:
     experiment = open_experiment("many_push_one", {"stop_time": 6.0})
     with Log(tmp_path / "run.mcap") as log:
-        world = World(experiment.scenario, experiment.control, filename=experiment.filename)
+        world = World(experiment.scenario, experiment.control, filename=experiment.source.name)
         while not world.over:
             world.step()
             if world.iteration % 7 == 0:
@@ -425,6 +425,11 @@ def check_kills(count: int, tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_a_run_that_is_killed_loses_no_finished_step(tmp_path) -> None:
     check_kills(6, tmp_path)
+
+
+@pytest.mark.nightly
+def test_a_run_that_is_killed_a_hundred_times_loses_no_finished_step(tmp_path) -> None:
+    check_kills(100, tmp_path)
 
 
 @pytest.mark.slow

@@ -1,0 +1,91 @@
+"""The layout of the engine's structs: do they have their numbers where `chipmunk` expects them?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from itertools import chain
+
+from pymunk._chipmunk_cffi import ffi, lib
+
+from mars2d.physics.islands import chipmunk
+from mars2d.physics.islands.arithmetic import cosine_sine, exponential
+
+STEP = 0.0625
+"""Seconds."""
+
+
+@cache
+def misplaced() -> str:
+    """Return which numbers are elsewhere; empty if none. A body and joints are tried out."""
+    for what, struct, wanted in chain(_of_bodies(), _of_joints()):
+        numbers = ffi.cast("double *", struct)
+        for place, values in wanted.items():
+            if any(abs(numbers[place + k] - value) > 1e-12 for k, value in enumerate(values)):
+                return f"its {what} elsewhere"
+    return ""
+
+
+Places = dict[int, tuple[float, ...]]
+
+
+def _of_bodies() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
+    """Yield a body, and the numbers that it should have from some places on."""
+    body = lib.cpBodyNew(2.0, 3.0)
+    lib.cpBodySetCenterOfGravity(body, (0.25, -0.5))
+    lib.cpBodySetAngle(body, 0.75)
+    lib.cpBodySetPosition(body, (4.0, 5.0))
+    chipmunk.aim(body, 6.0, 7.0, 8.0)
+    c, s = cosine_sine(0.75)
+    yield (
+        "bodies have their poses",
+        body,
+        {
+            chipmunk.LEAD: (0.25, -0.5),
+            chipmunk.CENTER: (4 + 0.25 * c + 0.5 * s, 5 + 0.25 * s - 0.5 * c),
+            chipmunk.FAST: (6.0, 7.0),
+            chipmunk.ANGLE: (0.75, 8.0),
+            chipmunk.TURN: (c, s, -s, c, 4.0, 5.0),
+            chipmunk.BIAS: (0.0, 0.0, 0.0),
+        },
+    )
+    chipmunk.free_body(body)
+
+
+def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
+    """Yield joints that have acted on a body for a step, and the numbers that they should have."""
+    space, body = chipmunk.new_space(0.0), chipmunk.new_body(2.0, 3.0, 0)
+    chipmunk.add_body(space, body)
+    lost = [1.0 - exponential(-1.5 * STEP / felt) for felt in (2.0, 3.0)]
+    rest = (0.125, 4.0, 1.5)
+    impulses, damping = "joints have their impulses", "springs have their damping"
+    tried: tuple[tuple[str, int, tuple[float, float], Places], ...] = (
+        (impulses, chipmunk.PIVOT, (0.0, 0.0), {chipmunk.PIVOT_IMPULSE: (-3.0, 4.0)}),
+        (impulses, chipmunk.GEAR, (0.0, 1.0), {chipmunk.GEAR_IMPULSE: (-12.0,)}),
+        (impulses, chipmunk.GROOVE, (0.0, 1.0), {chipmunk.GROOVE_IMPULSE: (-3.0, 0.0)}),
+        (damping, chipmunk.DAMPED_SPRING, rest[:2],
+         {chipmunk.REST: rest, chipmunk.LOST: (lost[0],), chipmunk.FELT: (2.0,)}),
+        (damping, chipmunk.ROTARY_SPRING, rest[:2],
+         {chipmunk.REST_ANGLE: rest, chipmunk.LOST_TURNING: (lost[1],),
+          chipmunk.FELT_TURNING: (3.0,)}),
+    )  # fmt: skip
+    for what, kind, numbers, wanted in tried:
+        chipmunk.put(body, 0.0, 0.0, 0.0)
+        chipmunk.aim(body, 1.5, -2.0, 4.0)
+        ends = (0.0, 0.0), (0.0, 0.0)
+        joint = chipmunk.make_joint(
+            kind, None, chipmunk.ground_of(space), body, ends, *numbers, 0.0
+        )
+        chipmunk.set_max_bias(joint, 0.0)
+        if kind == chipmunk.DAMPED_SPRING:  # as the engine damps, not as we do
+            lib.cpDampedSpringSetDamping(joint, rest[2])
+        elif kind == chipmunk.ROTARY_SPRING:
+            lib.cpDampedRotarySpringSetDamping(joint, rest[2])
+        chipmunk.add_joint(space, joint)
+        chipmunk.step(space, STEP, 0.5)
+        yield what, joint, wanted
+        chipmunk.remove_joint(space, joint)
+        chipmunk.free_joint(joint)
+    chipmunk.remove_body(space, body)
+    chipmunk.free_body(body)
+    chipmunk.free_space(space)

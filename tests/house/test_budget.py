@@ -1,0 +1,56 @@
+"""What the project costs whoever reads it and runs its tests: numbers that only go down."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
+
+LINES = {
+    "addons": 4_236,
+    "bodies": 1_843,
+    "cli": 3_496,
+    "core": 2_975,
+    "geometry": 2_033,
+    "output": 15_790,
+    "physics": 8_167,
+    "record": 1_573,
+    "reports": 2_666,
+    "rl": 776,
+    "scenario": 5_967,
+    "sensors": 2_041,
+    "study": 8_482,
+    "testing": 1_372,
+    "window": 15_204,
+    "world": 3_814,
+    "tests": 68_691,
+}
+"""Lines at most, by room of the package, and of all tests."""
+
+ITEMS = 3_700
+"""Tests at most that `pytest` runs without further words."""
+
+
+def count(folder: Path) -> int:
+    """Count the lines of code below a folder, with docstrings, comments and blank ones."""
+    files = [path for path in folder.rglob("*") if path.suffix in CODE]
+    return sum(path.read_bytes().count(b"\n") for path in files)
+
+
+def test_no_room_grows() -> None:
+    rooms = [path for path in (ROOT / "mars2d").iterdir() if (path / "__init__.py").exists()]
+    found = {path.name: count(path) for path in [*rooms, ROOT / "tests"]}
+    over = {name: (n, LINES.get(name)) for name, n in found.items() if n > LINES.get(name, 0)}
+    assert not over, f"more lines than allowed: {over}. Remove as many as you add."
+
+
+def test_the_quick_suite_is_no_larger(request: pytest.FixtureRequest) -> None:
+    items = request.session.items
+    rooms = Counter(item.path.relative_to(ROOT / "tests").parts[0] for item in items)
+    if len(rooms) < 15 or any(item.get_closest_marker("slow") for item in items):
+        pytest.skip("not the whole quick suite was collected")
+    assert len(items) <= ITEMS, f"more items than allowed, go through cases in one test: {rooms}"
