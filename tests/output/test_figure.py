@@ -6,8 +6,6 @@ import dataclasses
 import pickle
 import subprocess
 import sys
-import time
-from io import BytesIO
 
 import numpy as np
 import pytest
@@ -467,27 +465,6 @@ def test_a_record_of_one_row_is_drawn(record):
         record, time=record.time[:1], pose=record.pose[:1], command=record.command[:1]
     )
     assert one.plot().get_title().endswith("t = 0 s")
-
-
-def test_a_hundred_robots_of_a_thousand_rows_are_drawn_quickly(record):
-    steps = np.random.default_rng(3).normal(size=(1000, 3, 100)) * 0.05
-    grid = [Robot(pose=(x, y, 0)) for x in range(10) for y in range(10)]
-    scenario = Scenario(robots=grid, workspace=None, sampling_time=1, stop_time=999)
-    pose = scenario.initial_pose + np.cumsum(steps, axis=0)
-    large = dataclasses.replace(
-        record,
-        scenario=scenario,
-        time=np.arange(1000.0),
-        pose=pose,
-        prop_pose=np.empty((1000, 3, 0)),
-        effort=np.zeros((1000, 100)),
-        velocity=np.empty(0),
-        prop_velocity=np.empty(0),
-        work=np.empty(0),
-    )
-    begin = time.process_time()
-    large.plot().figure.savefig(BytesIO(), format="png")
-    assert time.process_time() - begin < 5  # it takes 0.3 s
 
 
 # -- paint ------------------------------------------------------------------------------------

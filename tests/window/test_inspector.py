@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -345,19 +344,6 @@ def test_a_contact_that_begins_or_ends_is_seen_at_once():
     for contacts in (touch[:0], touch, touch[:0]):
         again = picture(Inspector(Painter(), 0), contacts)
         assert np.array_equal(picture(kept, contacts), again)
-
-
-def test_it_takes_little_time(world):
-    inspector = Inspector(Painter(), 0, clock=lambda: 0.0)
-    surface = pygame.Surface((344, 580), 0, 32)
-    frame, rect = world.frame, surface.get_rect()
-    inspector.draw(surface, rect, frame)
-    taken = []
-    for _ in range(50):
-        start = time.thread_time()
-        inspector.draw(surface, rect, frame)
-        taken.append(time.thread_time() - start)
-    assert min(taken) < 0.002
 
 
 @each_case("width", [220, 300, 344])

@@ -220,20 +220,6 @@ def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monke
     assert frames_of(film.stop())
 
 
-def test_to_take_a_picture_is_quick(tmp_path):
-    picture = painted("white", (1280, 720))
-    film = Filming(tmp_path / "film.mp4")
-    took = []
-    for k in range(60):
-        picture.fill("red", (20 * k, 300, 80, 80))
-        start = time.thread_time()  # the film is written in another thread
-        film.take(picture)
-        took.append(time.thread_time() - start)
-        time.sleep(1 / 60)
-    film.stop()
-    assert np.median(took) < 0.008
-
-
 def test_a_scenario_is_kept_with_short_numbers_which_are_those_of_the_file_for_what_stands():
     third = 1 / 3
 
