@@ -23,7 +23,7 @@ from mars2d.world.world import World
 
 STAGES = {
     "sense": "_observe",
-    "law": "_laws.commands",
+    "law": "laws.commands",
     "limits": "_saturate",
     "record": "_write_row",
     "motion": "_drive",

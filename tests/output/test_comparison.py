@@ -332,8 +332,10 @@ def test_collisions_are_counted_as_they_happen():
     assert 1.4 < collisions[0] < 1.8
 
 
-@each_case("size", [(640, 360), (1280, 720), (1920, 1080)])
-@each_case("corners", [(10, 1), (1, 10), (10, 10)])
+@each_case(
+    "size, corners",
+    [((640, 360), (10, 1)), ((1280, 720), (1, 10)), ((1920, 1080), (10, 10))],
+)
 def test_panels_and_drift_share_the_height(size, corners):
     width, height = corners
     outline = [(0, 0), (width, 0), (width, height), (0, height)]

@@ -10,6 +10,7 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.core.usercode import users_line
 from mars2d.output.excerpt import Excerpt, excerpt_of
 from mars2d.scenario.experiment import load_law, open_experiment
+from tests.cases import each_case
 
 LAW = """\
 import math
@@ -81,7 +82,7 @@ def test_the_file_that_starts_the_command_line_is_no_code_of_the_user():
     assert users_line(traceback.StackSummary.from_list([outer, law])) == "walk.py, line 12"
 
 
-@pytest.mark.parametrize("name", ["<string>", "", "<stdin>"])
+@each_case("name", ["<string>", "", "<stdin>"])
 def test_code_that_was_made_by_eval_has_no_place_in_a_file(name):
     made = {}
     exec(compile("def law(world):\n    return 1 / 0\n", name, "exec"), made)
@@ -106,7 +107,7 @@ def test_a_line_beyond_the_end_of_a_file_that_has_changed(folder):
     assert excerpt_of(error) is None
 
 
-@pytest.mark.parametrize(("line", "count", "first"), [(5, 1, 5), (5, 3, 4), (3, 3, 3), (7, 3, 5)])
+@each_case("line, count, first", [(5, 1, 5), (5, 3, 4), (3, 3, 3), (7, 3, 5)])
 def test_the_nearest_lines_hold_the_one_that_is_meant(folder, line, count, first):
     excerpt = Excerpt(folder / "walk.py", line, 3, tuple("abcde")).nearest(count)
     assert excerpt.first == first

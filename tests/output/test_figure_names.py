@@ -39,7 +39,7 @@ def labels(figure):
     }
 
 
-@each_case("n", [1, 2, 9, 20, 21, 60, 100])
+@each_case("n", [1, 21, 60])
 def test_no_name_lies_over_another(n):
     found = labels(plot_paths(crowd(n), layers=Layers(names=True)).figure)
     assert len(found) == n

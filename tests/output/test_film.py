@@ -2,8 +2,6 @@
 
 import builtins
 import itertools
-import subprocess
-import sys
 
 import numpy as np
 import pygame
@@ -193,31 +191,6 @@ def test_a_film_that_fails_leaves_the_old_one_alone(tmp_path, suffix):
     assert list(tmp_path.iterdir()) == [target]
 
 
-@pytest.mark.slow
-@each_case("suffix", ["gif", "mp4"])
-def test_a_film_that_may_not_grow_is_one_error_and_nothing_more_is_printed(tmp_path, suffix, child):
-    pytest.importorskip("resource")
-    if suffix == "mp4":
-        pytest.importorskip("av")
-    target = tmp_path / f"film.{suffix}"
-    target.write_bytes(b"the old film")
-    code = (
-        "import resource, mars2d, numpy as np\n"
-        "from mars2d import Scenario\n"
-        "record = mars2d.run(Scenario(stop_time=2), control=lambda w: np.array([[1.0], [2.0]]))\n"
-        "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))\n"
-        "try:\n"
-        f"    record.film({str(target)!r}, size=(320, 240))\n"
-        "except mars2d.InputError as error:\n"
-        "    print(error)\n"
-    )
-    result = child(code)
-    assert result.stdout == f"{target}: can't be written: File too large\n"
-    assert result.stderr == ""
-    assert target.read_bytes() == b"the old film"
-    assert list(tmp_path.iterdir()) == [target]
-
-
 @each_case("speed", [0.5, 1, 10])
 @each_case("sampling_time", [0.01, 0.1, 1.0])
 def test_a_film_lasts_its_time_over_its_speed(speed, sampling_time):
@@ -239,13 +212,6 @@ def test_a_film_of_one_row_is_one_frame():
 def test_rates_must_be_positive_numbers(speed, fps):
     with pytest.raises(InputError, match="expected a number > 0"):
         film_rows([0, 1], speed, fps)
-
-
-def test_the_film_module_is_imported_without_pygame():
-    code = (
-        "import sys, mars2d.output.films.film;assert not {'pygame', 'av', 'PIL'} & set(sys.modules)"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 # -- films of records -----------------------------------------------------------------------------

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import time
 from io import BytesIO
 
 import numpy as np
@@ -243,15 +242,13 @@ def test_from_pi_to_minus_pi_there_is_no_line(record):
     np.testing.assert_array_equal(ax.lines[0].get_ydata(), [3.1, np.nan, -3.1, -3.0])
 
 
-def test_a_million_rows_are_drawn_quickly_small_and_without_losing_a_peak(record):
+def test_a_million_rows_are_drawn_small_and_without_losing_a_peak(record):
     effort = np.random.default_rng(1).uniform(0, 0.5, 1_000_000)
     effort[123_457] = 1.0
     run = with_effort(record, effort)
-    begin = time.process_time()
     (ax,) = run.plot_signals("effort")
     file = BytesIO()
     ax.figure.savefig(file, format="pdf")
-    assert time.process_time() - begin < 8  # it takes 0.4 s
     assert len(file.getvalue()) < 200_000
     points = data(ax)[0]
     assert len(points) < 6000

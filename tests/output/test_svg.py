@@ -145,7 +145,7 @@ def test_marks_stand_along_a_line_and_not_nearer_than_nine_points(mark):
 
 
 def test_a_long_path_loses_corners_but_lies_within_the_tolerance():
-    t = np.linspace(0, 12 * np.pi, 50_000)
+    t = np.linspace(0, 12 * np.pi, 5_000)
     points = np.column_stack([2 + 1.9 * np.cos(t) * t / 40, 1 + 0.9 * np.sin(1.3 * t)])
     scene = Scene()
     scene.line(points, stroke="black")

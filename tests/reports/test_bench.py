@@ -10,11 +10,11 @@ import pytest
 from PIL import Image
 from shapely import MultiPoint, Point
 
-from mars2d import InputError, Robot, Scenario, World
+from mars2d import Robot, Scenario, World
 from mars2d.cli import command_line as cli
 from mars2d.reports.bench import suite
 from mars2d.reports.bench.gaps import Gaps
-from mars2d.reports.bench.report import ALIKE, FORMAT, Change, Figures, Report, Row, load_report
+from mars2d.reports.bench.report import ALIKE, Change, Figures, Report, Row, load_report
 from mars2d.reports.bench.scenes import FORCE, LEVER, SCENES, TORQUE, Scene, Turns, team
 from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
@@ -368,41 +368,6 @@ def test_a_file_that_is_not_there_is_named(tmp_path, capsys):
     assert "gone.json: can't be read: No such file" in refused(
         capsys, "--compare", tmp_path / "gone.json"
     )
-
-
-def test_a_record_is_not_a_saved_suite(tmp_path, capsys):
-    World(Scenario(stop_time=0)).record.save(tmp_path / "run.npz")
-    message = refused(capsys, "--compare", tmp_path / "run.npz")
-    assert "run.npz: not saved by mars2d bench, or damaged" in message
-
-
-@each_case(
-    "change",
-    [
-        {"kind": "something else"},
-        {"format": 0},
-        {"rows": []},
-        {"rows": [{"name": "S2 default", "title": "", "rounds": [], "figures": None}]},
-        {"rows": [{"name": "S2 default", "title": "", "rounds": [[0, 1]], "figures": None}]},
-        {"rows": [{"name": "S2 default", "title": "", "rounds": [[1, "NaN"]], "figures": None}]},
-        {"rows": [{"name": "S2 default"}]},
-        {"versions": None},
-    ],
-)
-def test_a_damaged_file_is_refused(tmp_path, change):
-    path = tmp_path / "a.json"
-    path.write_text(json.dumps(Report((row(1e-3),)).as_data() | change))
-    with pytest.raises(InputError, match=r"a\.json: not saved by mars2d bench, or damaged"):
-        load_report(path)
-
-
-def test_a_file_of_a_newer_version_says_so(tmp_path):
-    path = tmp_path / "a.json"
-    data = Report((row(1e-3),)).as_data() | {"format": FORMAT + 1, "rows": "otherwise"}
-    data["versions"]["mars2d"] = "9.1"
-    path.write_text(json.dumps(data))
-    with pytest.raises(InputError, match=r"written by a newer version of MARS2D, 9\.1"):
-        load_report(path)
 
 
 # -- the scripts in benchmarks/ -------------------------------------------------------------------

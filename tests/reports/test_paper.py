@@ -279,6 +279,7 @@ def test_the_seed_is_that_of_the_runs(paper):
     assert "--seed 7" in made["pictures"][0]["command"]
 
 
+@pytest.mark.slow
 def test_its_own_folder_is_replaced_with_all_that_was_in_it(paper, cheap):
     shutil.copytree(cheap, "out")
     Path("out/fig7_radius.png").write_bytes(b"of an earlier run")
@@ -290,9 +291,8 @@ def test_its_own_folder_is_replaced_with_all_that_was_in_it(paper, cheap):
         assert Path("out", name).read_bytes() == (cheap / name).read_bytes()
 
 
-@pytest.mark.parametrize(
-    "name", ["notes.txt", "fig2_mine.png", "index.html", "fig2_random_walk.png/"]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["notes.txt", "index.html", "fig2_random_walk.png/"])
 def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, cheap, name):
     shutil.copytree(cheap, "out")
     before = {path.name: path.read_bytes() for path in Path("out").iterdir()}
@@ -332,13 +332,6 @@ def test_what_can_not_be_done_is_said_in_one_line(paper, arguments, words):
     assert len(err.splitlines()) == 1
     assert not Path("out").exists()
     assert Path("file.txt").read_text() == "a file"
-
-
-@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="needs a folder nobody can write")
-def test_a_folder_that_can_not_be_written_is_known_before_the_first_run(paper):
-    code, out, err = paper("/proc/figures")
-    assert (code, out) == (2, "")
-    assert "/proc/figures: can't be written" in err
 
 
 def test_a_folder_of_which_nothing_is_left_but_the_pictures_is_still_its_own(tmp_path):
@@ -471,13 +464,10 @@ def is_group(number):
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child there")
-@pytest.mark.parametrize(
-    "only", [pytest.param("2,4,7", marks=pytest.mark.nightly), "7"]
-)  # in processes of their own, and in one
-def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
+def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path):
     folder = tmp_path / "out"
     child = subprocess.Popen(
-        [sys.executable, "-m", "mars2d", "paper", str(folder), "--only", only],
+        [sys.executable, "-m", "mars2d", "paper", str(folder), "--only", "7"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
     )  # fmt: skip
     while not list(folder.glob("*.pdf")):

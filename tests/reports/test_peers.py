@@ -11,6 +11,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.cases import each_case
+
 pytestmark = pytest.mark.nightly
 
 FOLDER = Path(__file__).parents[2] / "benchmarks" / "peers"
@@ -104,39 +106,7 @@ def test_scenes_of_contacts_have_a_table_of_their_own(tmp_path):
         assert 0.2 < rows[label]["warm_up"]["robots"] < 0.31  # of 0.3 m in 20 steps
 
 
-def test_a_page_without_the_marks_is_not_written(tmp_path):
-    (tmp_path / "page.md").write_text("mine\n")
-    done = run("--scenes", "S1", "--steps", 8, "--rounds", 1, "--markdown", "page.md", cwd=tmp_path)
-    assert done.returncode == 2
-    assert "page.md: no such file with the lines <!-- robots: start -->" in done.stderr
-    assert (tmp_path / "page.md").read_text() == "mine\n"
-
-
-@pytest.mark.parametrize(
-    ("given", "says"),
-    [
-        ("navgroud=python", "no peer 'navgroud'; did you mean 'navground'?"),
-        ("gazebo=python", "no peer 'gazebo'. There are pymunk, Box2D, navground, ir-sim, vmas,"),
-        ("vmas", "--peer vmas: say which interpreter has it, vmas=DIR/bin/python"),
-        ("ir-sim=nowhere/python", "--peer ir-sim: there is no interpreter nowhere/python"),
-        ("ir-sim=nowhere/python", "pip install ir-sim=="),
-    ],
-)
-def test_what_is_wrong_with_a_peer_is_said(given, says, tmp_path):
-    done = run("--peer", given, cwd=tmp_path)
-    assert done.returncode == 2
-    assert says in done.stderr
-    assert "Traceback" not in done.stderr
-
-
-def test_an_interpreter_without_the_peer_gets_the_line_for_pip(bare, tmp_path):
-    done = run("--peer", f"navground={bare}", cwd=tmp_path)
-    assert done.returncode == 2
-    assert f"--peer navground: {bare} has no navground" in done.stderr
-    assert f"{bare} -m pip install navground==" in done.stderr
-
-
-@pytest.mark.parametrize("script", [*SCRIPTS.values(), "mars2d_peer.py"])
+@each_case("script", [*SCRIPTS.values(), "mars2d_peer.py"])
 def test_each_script_says_what_its_peer_does_not_do_and_what_was_set(script):
     text = (FOLDER / script).read_text()
     assert "What was set, and how: " in text
@@ -176,15 +146,15 @@ def drawn(peer, **wrong):
     return Drawn
 
 
-@pytest.mark.parametrize("scene", ["S1", "S2", "S3", "P1", "P2", "P3"])
+@each_case("scene", ["S1", "S2", "S3", "P1", "P2", "P3"])
 def test_a_run_that_does_as_it_is_told_is_fit_to_be_timed(scene, peer):
     run = peer.Run(drawn(peer), peer.SCENES[scene](), "")
     assert run.looked_at(8, 60.0)["steps"] == 8
     assert run.timed(5, 60.0)["steps"] == 5
 
 
-@pytest.mark.parametrize(
-    ("scene", "wrong", "says"),
+@each_case(
+    "scene, wrong, says",
     [
         ("S2", {"pace": 0.0}, "which nothing is near, was told to go 0.0150 m"),
         ("S2", {"pace": 1.1}, "it went 0.0165 m"),

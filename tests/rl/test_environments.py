@@ -89,6 +89,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 def test_one_line_makes_an_environment_also_in_processes_without_another_import(tmp_path):
     (tmp_path / "vector.py").write_text(IN_PROCESSES)
     command = [sys.executable, "-W", "error", "-P", str(tmp_path / "vector.py")]

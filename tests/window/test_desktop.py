@@ -91,8 +91,8 @@ def test_windows_is_asked_not_to_enlarge_unless_somebody_has_said_otherwise(monk
     assert os.environ["SDL_WINDOWS_DPI_AWARENESS"] == "unaware"
 
 
-@pytest.mark.parametrize(
-    ("screen", "scale", "size"),
+@each_case(
+    "screen, scale, size",
     [
         ((3840, 2160), 2.0, (2560, 1440)),
         ((2560, 1440), 2.0, (2304, 1296)),  # nine tenths

@@ -96,8 +96,7 @@ def test_only_the_newest_few_are_shown():
     assert board.seen(0.0)[1] > 0.6 * board.layout.plot.bottom
 
 
-@SIZES
-@each_case("text", [1.0, max(TEXT_SIZES)])
+@each_case("size, text", [((640, 480), 1.0), ((1280, 720), max(TEXT_SIZES))])
 def test_long_notes_are_wrapped_and_stay_within_the_picture(size, text):
     board = Board(LIGHT, size, text)
     for kind in ("info", "warning", "error"):

@@ -326,8 +326,9 @@ def test_while_the_camera_moves_a_slow_picture_is_enlarged_and_then_drawn_anew(m
     assert differing(fresh, fine) == 0
 
 
-@each_case("size", [(1920, 1080), (1280, 720), (800, 600), (300, 200), (40, 30)])
-@each_case("fails_at", [None, 3])
+@each_case(
+    "size, fails_at", [((1280, 720), None), ((800, 600), 3), ((300, 200), None), ((40, 30), 3)]
+)
 def test_the_window_draws_itself_at_any_size(size, fails_at):
     window = Window(Circling(rows=5, fails_at=fails_at), "max")
     for _ in range(10):

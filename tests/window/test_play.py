@@ -99,8 +99,10 @@ def test_scores_are_kept_by_game_and_role(memory):
     assert Scores(again, "corner_game, mu = 0.8").of("evader").won == 1
 
 
-@pytest.mark.parametrize("text", ["", "[]", '{"g": 3}', '{"g": {"r": {"played": "x"}}}', "\0"])
-def test_a_file_of_scores_that_can_not_be_read_is_empty(memory, tmp_path, text):
+@each_case("text", ["", "[]", '{"g": 3}', '{"g": {"r": {"played": "x"}}}', "\0"])
+def test_a_file_of_scores_that_can_not_be_read_is_empty(monkeypatch, tmp_path, text):
+    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
+    memory = Memory()
     Scores(memory, "g").add("r", won=True, time=1.0)
     (tmp_path / "memory" / "scores.json").write_text(text)
     assert Scores(memory, "g").of("r") == Tally()

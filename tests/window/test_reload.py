@@ -8,6 +8,7 @@ from mars2d import LawError
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.reload import Reload
 from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 
 WALK = """
 from mars2d import Robot, Scenario, load_law
@@ -69,15 +70,16 @@ def test_without_a_change_nothing_is_said(desk):
     assert desk.wait() == []
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "command"),
+@each_case(
+    "name, text, command",
     [
         ("walk", WALK.replace("SLOW, 0.0", "SLOW, 0.3"), [[0.1, 0.3], [0.2, 0.1]]),
         ("speeds", "SLOW = 0.15\n", [[0.15, 0.0], [0.2, 0.1]]),
         ("other", OTHER.replace("0.2, 0.1", "0.2, -0.1"), [[0.1, 0.0], [0.2, -0.1]]),
     ],
 )
-def test_each_file_that_was_read_is_watched(desk, name, text, command):
+def test_each_file_that_was_read_is_watched(tmp_path, name, text, command):
+    desk = Desk(tmp_path)
     desk.run(5)
     desk.write(name, text)
     (said,) = desk.wait()
@@ -116,8 +118,8 @@ def test_a_file_saved_as_it_was_is_no_change(desk):
     assert desk.wait() == []
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "where"),
+@each_case(
+    "name, text, where",
     [
         ("walk", WALK.replace("return SLOW", "return SLOW +"), "walk.py, line 5"),
         ("speeds", "SLOW = 1 +\n", "speeds.py, line 1"),
@@ -126,7 +128,8 @@ def test_a_file_saved_as_it_was_is_no_change(desk):
         ("walk", WALK.replace("SLOW, 0.0", "SLOW / 0, 0.0"), "walk.py, line 5: law raised"),
     ],
 )
-def test_an_error_is_told_of_and_the_law_of_before_goes_on(desk, name, text, where):
+def test_an_error_is_told_of_and_the_law_of_before_goes_on(tmp_path, name, text, where):
+    desk = Desk(tmp_path)
     desk.run(5)
     desk.write(name, text)
     (said,) = desk.wait()

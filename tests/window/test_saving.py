@@ -1,7 +1,5 @@
 """What is kept of a window: never over another file, and films that show what was shown."""
 
-import os
-import signal
 import subprocess
 import sys
 import time
@@ -220,47 +218,6 @@ def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monke
     assert film.path.name == "walk_1.gif"
     film.take(painted("red"))
     assert frames_of(film.stop())
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("suffix", [".mp4", pytest.param(".gif", marks=pytest.mark.nightly)])
-def test_a_film_of_a_program_that_is_killed_can_be_seen(suffix, tmp_path):
-    code = (
-        "import sys, time, pygame; from pathlib import Path\n"
-        "from mars2d.output.films.filming import Filming\n"
-        "film = Filming(Path(sys.argv[1])); surface = pygame.Surface((320, 240), 0, 32)\n"
-        "start = time.time()\n"
-        "while True:\n"
-        "    surface.fill((int(60 * (time.time() - start)) % 256, 90, 200))\n"
-        "    film.take(surface); time.sleep(0.01)\n"
-        "    if film.seconds > 3: print('now', flush=True)\n"
-    )
-    path = tmp_path / f"film{suffix}"
-    process = subprocess.Popen(
-        [sys.executable, "-c", code, str(path)],
-        stdout=subprocess.PIPE,
-        text=True,
-        env={**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1"},
-    )
-    assert process.stdout.readline() == "now\n"
-    process.send_signal(signal.SIGKILL)
-    process.wait(PATIENCE)
-    process.stdout.close()
-    assert frames_of(path)[-1][0] > 1.0
-
-
-def test_to_take_a_picture_is_quick(tmp_path):
-    picture = painted("white", (1280, 720))
-    film = Filming(tmp_path / "film.mp4")
-    took = []
-    for k in range(60):
-        picture.fill("red", (20 * k, 300, 80, 80))
-        start = time.thread_time()  # the film is written in another thread
-        film.take(picture)
-        took.append(time.thread_time() - start)
-        time.sleep(1 / 60)
-    film.stop()
-    assert np.median(took) < 0.008
 
 
 def test_a_scenario_is_kept_with_short_numbers_which_are_those_of_the_file_for_what_stands():

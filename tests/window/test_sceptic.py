@@ -14,6 +14,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.window.editor import Outcome
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 
 ROOM = """
 from mars2d import Robot, Scenario
@@ -136,7 +137,7 @@ def desk(monkeypatch, tmp_path):
 # -- pulling --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("key", ["left", "home", "page up"])
+@each_case("key", ["left", "home"])
 def test_to_look_back_while_pulling_lets_go_and_makes_no_branch(desk, key):
     desk = desk()
     desk.play(12)

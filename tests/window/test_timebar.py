@@ -67,7 +67,7 @@ def test_the_ends_and_the_handle_have_their_times():
 
 @each_case("size", SIZES)
 @each_case("text", TEXT_SIZES)
-@each_case("row", [0, 7, 200, 399, 400])
+@each_case("row", [0, 399])
 def test_its_words_do_not_touch_each_other(size, text, row):
     drawn = Drawn(state(row=row), size=size, text=text, pointer=(100, size[1] - 70))
     assert not drawn.surface.crowded()
@@ -204,7 +204,7 @@ def test_the_speed_stands_beside_it_and_what_is_reached(speed, reached, texts):
 
 @each_case("size", SIZES)
 @each_case("text", TEXT_SIZES)
-@each_case("speed, reached", [(100.0, 12.3), (0.0, None), (inf, 340.0)])
+@each_case("speed, reached", [(100.0, 12.3), (inf, 340.0)])
 def test_its_words_are_whole_at_any_size(size, text, speed, reached):
     slid = Slid(speed, reached, size=size, text=text)
     assert times(speed) in slid.surface.texts

@@ -16,7 +16,6 @@ from mars2d.core.errors import InputError
 from mars2d.window import keys
 from mars2d.window.display import display_available
 from mars2d.window.window import Window
-from tests.cases import each_case
 from tests.processes import HIDDEN, PATIENCE
 from tests.window.circling import Circling
 from tests.window.person import (
@@ -373,18 +372,6 @@ def test_without_a_display_the_error_says_what_to_do_instead(no_display):
     assert not display_available()
     with pytest.raises(InputError, match=r"--headless.*--figure.*--video"):
         Window(Circling(), 1).run()
-
-
-@each_case("driver", ["dummy", "offscreen"])
-def test_a_driver_that_shows_nothing_is_no_display(monkeypatch, driver):
-    monkeypatch.setenv("SDL_VIDEODRIVER", driver)
-    assert not display_available()
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X is of Linux")
-def test_a_display_that_is_gone_is_no_display(no_display, monkeypatch):
-    monkeypatch.setenv("DISPLAY", ":987")
-    assert not display_available()
 
 
 @needs_screen

@@ -58,17 +58,17 @@ def test_the_footer_has_the_keys_that_serve_now(window):
     assert {"drive", "slowly"} <= set(words(window))
 
 
-@pytest.mark.parametrize(("size", "text"), [((1024, 768), 1.7), (SMALL, 1.0), (LARGE, 1.0)])
-def test_no_panel_covers_a_legend(window, size, text):
+def test_no_panel_covers_a_legend(window):
     do(window, "forces", "select")
     window.dock.open(["parameters", "scopes"])
     window.scopes.switch("speed", (0, 1))
-    for _ in range(2):
-        words(window, size, text)
-    image, corner = window._stage._legend
-    legend = image.get_rect(topleft=corner)
-    assert legend.width > 50
-    assert legend.collidelist(list(window.dock.plates.values())) == -1
+    for size, text in [((1024, 768), 1.7), (SMALL, 1.0), (LARGE, 1.0)]:
+        for _ in range(2):
+            words(window, size, text)
+        image, corner = window._stage._legend
+        legend = image.get_rect(topleft=corner)
+        assert legend.width > 50
+        assert legend.collidelist(list(window.dock.plates.values())) == -1
 
 
 def test_the_inspector_leaves_the_arena_to_one_who_drives(window):

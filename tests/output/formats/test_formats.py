@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
-import subprocess
-from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 
@@ -78,6 +74,7 @@ def test_any_bits_come_back(record, tmp_path_factory):
         assert (again.contents, again.seed) == (record.contents, record.seed)
 
 
+@settings(max_examples=15)
 @given(names=st.lists(st.text(), unique=True))
 def test_names_for_other_programs_are_plain_and_differ(names):
     plain = plain_names([*names, 70 * "a", 70 * "a" + "b", *KEYWORDS])
@@ -103,21 +100,6 @@ def test_a_foreign_file_is_refused(suffix, content, tmp_path):
     path = tmp_path / f"foreign{suffix}"
     path.write_bytes(content)
     refused(path, "not a record of MARS2D, or damaged")
-
-
-@each_case("path", [None, 3, b"run.npz", "run\0.npz", ["run.npz"]])
-def test_what_is_no_name_of_a_file_is_refused(path):
-    for call in (mars2d.load, everything().save):
-        with pytest.raises(InputError, match=r"expected the name of a file, such as 'run.npz'"):
-            call(path)
-
-
-@each_format
-def test_a_pipe_is_refused(suffix, tmp_path):
-    if not hasattr(os, "mkfifo"):
-        pytest.skip("there are no pipes in folders here")
-    os.mkfifo(tmp_path / f"pipe{suffix}")
-    refused(tmp_path / f"pipe{suffix}", "not a file; expected a record")
 
 
 @each_format
@@ -146,97 +128,11 @@ def test_a_truncated_file_is_refused(suffix, tmp_path):
 
 
 @each_format
-def test_a_file_with_a_flipped_bit_is_refused_or_unharmed(suffix, tmp_path):
-    record = everything()
-    whole = record.save(tmp_path / f"whole{suffix}").read_bytes()
-    path = tmp_path / f"flipped{suffix}"
-    rng = np.random.default_rng(0)
-    refusals, places = 0, rng.choice(len(whole), 100, replace=False)
-    for place in [*range(8), *places]:
-        damaged = bytearray(whole)
-        damaged[place] ^= 1 << int(rng.integers(8))
-        path.write_bytes(damaged)
-        try:
-            assert mars2d.load(path).digest == record.digest
-        except InputError as error:
-            refusals += 1
-            assert str(error).startswith(str(path))  # noqa: PT017 - both outcomes are right
-    assert refusals > 50
-
-
-@each_format
 @each_case("version, words", [(9, "a newer"), (1, "an older")])
 def test_a_file_of_another_version_says_so(suffix, version, words, tmp_path):
     path = everything().save(tmp_path / f"run{suffix}")
     _rewrite_header(path, {"format": version, "versions": {"mars2d": "7.7"}, "scenario": "gone"})
     refused(path, f"written by {words} version of MARS2D, 7.7: ")
-
-
-@each_format
-@each_case(
-    "change",
-    [
-        {"format": "1"}, {"format": None}, {"scenario": None}, {"scenario": {"type": "Robot"}},
-        {"scenario": {"type": ["x"]}}, {"scenario": {"type": "Scenario", "robts": 3}},
-        {"sensor_robots": []}, {"sensor_robots": {"beams": 3}}, {"digest": "0"}, {"digest": None},
-        {"over_message": 5}, {"versions": None}, {"seed": -1}, {"messages": False},
-    ],
-)  # fmt: skip
-def test_a_header_that_makes_no_sense_is_refused(suffix, change, tmp_path):
-    path = everything().save(tmp_path / f"run{suffix}")
-    _rewrite_header(path, change)
-    refused(path)
-
-
-@each_format
-@each_case(
-    "change",
-    [
-        {"format": True}, {"format": 3.0}, {"format": float("nan")}, {"seed": 2**63},
-        {"over_message": "caf\udce9"}, {"filename": "caf\udce9.py"},
-        {"sensor_robots": {"proximity": [0], "grid": [2, 2], "x": [2], "größe": [2]}},
-    ],
-)  # fmt: skip
-def test_a_header_that_no_run_has_is_refused(suffix, change, tmp_path):
-    path = everything().save(tmp_path / f"run{suffix}")
-    _rewrite_header(path, change)
-    refused(path)
-
-
-@each_case(
-    "number, change",
-    [
-        (0, {"body": 5}), (0, {"body": -1}), (0, {"body": "robot0"}), (0, {"body": True}),
-        (0, {"pose": [1, 2]}), (0, {"pose": [1, 2, float("nan")]}), (0, {"pose": None}),
-        (0, {"row": -1}), (0, {"row": 3}), (1, {"grip": None}), (1, {"target": [1]}),
-        (1, {"force": "strong"}), (1, {"speed": float("inf")}), (2, {"robot": 3}),
-        (2, {"driven": "yes"}), (3, {"scenario": 5}), (3, {"moved": [[7, [0, 0, 0]]]}),
-        (3, {"moved": ["ab"]}), (3, {"row": 22}), (3, {"type": "Burst"}),
-    ],
-)  # fmt: skip
-def test_what_cannot_have_been_done_to_a_run_is_refused(number, change, tmp_path):
-    path = everything().save(tmp_path / "run.npz")
-    done = _header(path)["interventions"]
-    done[number] |= change
-    _rewrite_header(path, {"interventions": done})
-    refused(path, "not a record of MARS2D, or damaged")
-
-
-@each_case(
-    "column",
-    [["<f8", [-1, 3, 3]], ["<f8", [3, 3]], ["|O", [21, 3, 3]], ["<f8", "x"], 5, None],
-)  # fmt: skip
-def test_a_header_that_lies_about_a_column_is_refused(column, tmp_path):
-    path = everything().save(tmp_path / "run.csv")
-    header = _header(path)
-    header["columns"]["pose"] = column
-    _rewrite_header(path, header)
-    refused(path, "not a record of MARS2D, or damaged|digest")
-
-
-def test_a_record_of_a_robot_with_a_long_name_comes_back(tmp_path):
-    record = mars2d.run(mars2d.Scenario(robots=[mars2d.Robot(name="r" * 140_000)], stop_time=0.2))
-    assert mars2d.load(record.save(tmp_path / "run.csv")).digest == record.digest
 
 
 def _header(path: Path) -> dict:
@@ -304,26 +200,6 @@ def test_an_edit_of_a_header_is_refused_and_named(suffix, edit, said, tmp_path):
     refused(path, f"damaged: {said}.*changed since it was saved")
 
 
-@each_case("physics", ["contact", "stop"])
-def test_an_edit_of_the_physics_is_refused(physics, tmp_path):
-    path = everything().save(tmp_path / "run.npz")
-    header = _header(path)
-    if header["scenario"].get("physics", "contact") == physics:
-        physics = "ideal"
-    _rewrite_header(path, {"scenario": header["scenario"] | {"physics": physics}}, json.dumps)
-    refused(path, "its scenario")
-
-
-def test_without_its_check_sums_a_header_is_refused(tmp_path):
-    path = everything().save(tmp_path / "run.npz")
-    header = _header(path)
-    del header["sums"]
-    with np.load(path) as data:
-        text = np.frombuffer(json.dumps(header).encode(), np.uint8)
-        np.savez(path, **{**data, "header": text})
-    refused(path, "damaged")
-
-
 @each_case("change", [("robot1", "robot9"), ("0.1,", "0.2,")])
 def test_a_table_whose_bodies_or_times_were_mixed_up_is_refused(change, tmp_path):
     scenario = Scenario(robots=[Robot(), Robot(pose=(2, 0, 0))], stop_time=0.3)
@@ -348,40 +224,6 @@ def test_where_nothing_can_be_written_it_says_so(suffix, tmp_path):
     with pytest.raises(InputError, match="can't be written: this is a folder"):
         everything().save(tmp_path / f"folder{suffix}")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["file", f"folder{suffix}"]
-
-
-@pytest.fixture
-def small_disk(tmp_path) -> Iterator[Path]:
-    """A disk of 8 kB."""
-    folder = tmp_path / "disk"
-    folder.mkdir()
-    mount = ["mount", "-t", "tmpfs", "-o", "size=8k", "tmpfs", str(folder)]
-    if shutil.which("mount") is None or os.name != "posix":
-        pytest.skip("there is no mount")
-    if subprocess.run(mount, capture_output=True, check=False).returncode:
-        pytest.skip("disks can't be mounted here")
-    yield folder
-    subprocess.run(["umount", str(folder)], check=True)
-
-
-@pytest.mark.parametrize("suffix", FORMATS)
-def test_on_a_full_disk_it_says_so_and_the_file_before_stays(suffix, small_disk):
-    path = small_disk / f"run{suffix}"
-    path.write_bytes(b"before")
-    with pytest.raises(InputError, match="can't be written: No space left on device"):
-        _large().save(path)
-    assert [each.name for each in small_disk.iterdir()] == [path.name]
-    assert path.read_bytes() == b"before"
-    path.unlink()
-
-
-def _large() -> mars2d.Record:
-    rng, robots = np.random.default_rng(0), 2
-    return mars2d.Record(
-        mars2d.Scenario(robots=robots), 0, np.arange(1000.0), rng.normal(size=(1000, 3, robots)),
-        rng.normal(size=(1000, 2, robots)), np.arange(1000.0), np.empty((1000, 3, 0)),
-        rng.normal(size=(1000, robots)),
-    )  # fmt: skip
 
 
 # -- what is installed ----------------------------------------------------------------------

@@ -11,7 +11,6 @@ import pytest
 
 import mars2d
 from mars2d.output.formats.header import as_text
-from tests.cases import each_case
 from tests.output.formats.records import everything, refused
 
 
@@ -65,16 +64,6 @@ def _rewrite(source, target, changes: dict[str, bytes | None]) -> None:
                 new.writestr(name, content)
 
 
-@each_case(
-    "part",
-    ["pose.npy", "time.npy", "header.npy", "contact:time.npy", "contact:slip.npy",
-     "sensor:x.npy", "prop_pose.npy", "effort.npy"],
-)  # fmt: skip
-def test_a_file_without_a_part_is_refused(record, tmp_path, part):
-    _rewrite(record.save(tmp_path / "good.npz"), tmp_path / "bad.npz", {part: None})
-    refused(tmp_path / "bad.npz", "damaged")
-
-
 def test_a_file_whose_columns_were_changed_is_refused(record, tmp_path):
     good = record.save(tmp_path / "good.npz")
     _rewrite(good, tmp_path / "bad.npz", {"pose.npy": _npy(record.pose + 1e-12)})
@@ -98,22 +87,6 @@ def _encoded(header) -> bytes:
             (as_text if isinstance(header, dict) else json.dumps)(header).encode(), dtype=np.uint8
         )
     )
-
-
-@each_case("key", ["format", "scenario", "seed", "digest", "finished"])
-def test_a_header_without_an_entry_is_refused(record, tmp_path, key):
-    good = record.save(tmp_path / "good.npz")
-    header = _header(good)
-    del header[key]
-    _rewrite(good, tmp_path / "bad.npz", {"header.npy": _encoded(header)})
-    refused(tmp_path / "bad.npz", "damaged")
-
-
-@each_case("header", [[], 5, None, "x"])
-def test_a_header_of_another_kind_is_refused(record, tmp_path, header):
-    good = record.save(tmp_path / "good.npz")
-    _rewrite(good, tmp_path / "bad.npz", {"header.npy": _encoded(header)})
-    refused(tmp_path / "bad.npz", "damaged")
 
 
 def test_a_file_of_format_1_says_that_the_experiment_is_to_be_run_again(record, tmp_path):

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import shutil
-import subprocess
 from dataclasses import replace
 
 import numpy as np
@@ -195,23 +193,6 @@ def test_octave_reads_the_numbers_of_a_csv(tmp_path):
     assert [float(line) for line in octave(code, tmp_path)] == record.prop_pose[0, 0].tolist()
 
 
-@pytest.mark.skipif(shutil.which("Rscript") is None, reason="R is not installed")
-def test_r_reads_a_csv_without_options(tmp_path):
-    record = everything()
-    record.save(tmp_path / "run.csv")
-    code = (
-        "run <- read.csv('run.csv'); own <- run[run$body == 'robot2', ];"
-        "cat(sprintf('%.17g', own$x), sep='\\n'); cat(class(run$grid_0_2), class(run$proximity));"
-        "cat('\\n'); cat(own$grid_1_1[1:2], own$grid_0_2[1:2])"
-    )
-    command = ["Rscript", "--vanilla", "-e", code]
-    result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
-    *numbers, classes, odd = result.stdout.splitlines()
-    assert [float(number) for number in numbers] == record.pose[:, 0, 2].tolist()
-    assert classes.split() == ["numeric", "integer"]
-    assert odd.split() == ["Inf", "Inf", "NaN", "NaN"]
-
-
 # -- xarray and netCDF ----------------------------------------------------------------------
 
 
@@ -265,12 +246,3 @@ def test_a_netcdf_file_is_the_dataset_without_what_is_empty(tmp_path):
     with xr.open_dataset(bare) as read:
         assert "prop_pose" not in read
         assert "contact_time" not in read
-
-
-@pytest.mark.skipif(shutil.which("ncdump") is None, reason="ncdump is not installed")
-def test_ncdump_reads_a_netcdf_file(tmp_path):
-    path = everything().save(tmp_path / "run.nc")
-    command = ["ncdump", "-h", str(path)]
-    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    assert "double pose(time, axis, robot)" in text
-    assert 'pose:units = "m, m, rad"' in text

@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from mars2d.bodies.colors import MATERIAL_COLORS, OBSTACLE
-from mars2d.core.scene import _NAMED, PALETTE, THEORY, Scene
+from mars2d.core.scene import NAMED, PALETTE, THEORY, Scene
 from mars2d.output.layers.bodies import INK, prop_edge
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
@@ -116,9 +116,9 @@ def test_words_of_a_scene_can_be_read(color):
     assert contrast(DARK.shade(color), DARK.paper) >= READABLE
 
 
-@each_case("name", [name for name in _NAMED if _NAMED[name] != "#ffffff"])
+@each_case("name", [name for name in NAMED if NAMED[name] != "#ffffff"])
 def test_each_colour_with_a_name_is_seen(name):
-    assert contrast(DARK.shade(_NAMED[name]), DARK.paper) >= SEEN
+    assert contrast(DARK.shade(NAMED[name]), DARK.paper) >= SEEN
 
 
 @each_case("material", MATERIAL_COLORS)
