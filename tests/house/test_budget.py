@@ -17,7 +17,7 @@ LINES = {
     "core": 3_477,
     "geometry": 2_003,
     "output": 15_701,
-    "physics": 8_818,
+    "physics": 8_158,
     "record": 1_573,
     "reports": 2_666,
     "rl": 776,
