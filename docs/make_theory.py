@@ -405,8 +405,8 @@ def of_examples() -> dict[str, list[Prediction]]:
     found = {}
     for name, path in examples().items():
         experiment = open_experiment(path)
-        if experiment.checks is not None:
-            found[name] = list(experiment.checks(simulate(experiment).record))
+        if experiment.source.checks is not None:
+            found[name] = list(experiment.source.checks(simulate(experiment).record))
     return found
 
 

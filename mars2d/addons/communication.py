@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from mars2d.addons.base import Addon
-from mars2d.core.arithmetic import whole_power
 from mars2d.core.checks import instance, optional
 from mars2d.core.description import Description, entry, flag, number
 from mars2d.core.errors import InputError
@@ -63,7 +62,7 @@ class Burst(Description):
         """
         share = self.share_bad
         if bad is not None:
-            share += (float(bad) - share) * whole_power(1 - self.to_bad - self.to_good, steps)
+            share += (float(bad) - share) * _whole_power(1 - self.to_bad - self.to_good, steps)
         return bool(rng.random() < share)
 
     def loses(self, bad: bool, rng: np.random.Generator) -> bool:
@@ -121,3 +120,14 @@ class Communication(Addon):
                 f"Communication.loss = {self.loss:g}: with a burst there are the losses of its "
                 "loss_good and loss_bad; leave one of both out"
             )
+
+
+def _whole_power(x: float, exponent: int) -> float:
+    """Return a number to the power of a whole one, which is 0 or more."""
+    result = 1.0
+    while exponent:
+        if exponent % 2:
+            result *= x
+        x *= x
+        exponent //= 2
+    return result

@@ -83,8 +83,6 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
                 require_av(path)
         if name == "record":
             formats.require(path)
-        if name == "figure":
-            figure.require_matplotlib()
 
 
 def check_snapshots(arguments: argparse.Namespace) -> None:

@@ -55,7 +55,7 @@ def _report(record: Record, table: Table, then: Result, experiment: Experiment) 
         what = "changed by hand" if record.interventions else "cut short"
         tell(f"the run was {what}, so there is nothing to compare")
         return
-    now = {name: _measure(name, experiment.functions, record) for name in table.measures}
+    now = {name: _measure(name, experiment.source.functions, record) for name in table.measures}
     tell(_compared(then, now, record))
 
 

@@ -119,13 +119,13 @@ def print_predictions(experiment: Experiment, record: Record) -> None:
     """Print the predictions of an experiment's checks as a table, if it has any."""
     predictions = predictions_of(experiment, record)
     if predictions:
-        title = [experiment.summary] if experiment.summary else []
+        title = [experiment.source.summary] if experiment.source.summary else []
         tell("", *title, table(predictions), sep="\n")
 
 
 def warn_unchecked(experiment: Experiment, happened: str) -> None:
     """Print why an experiment's checks were not made, if it has any."""
-    if experiment.checks is not None:
+    if experiment.source.checks is not None:
         warn(f"the run was {happened}, so its checks were not made")
 
 

@@ -7,7 +7,7 @@ The engine has the same sines: see ``mars2d/physics/islands/arithmetic.py``.
 
 from __future__ import annotations
 
-from math import floor, fmod, frexp, inf, isfinite, isinf, nan, sqrt
+from math import floor, fmod, inf, isfinite, isinf, nan, sqrt
 from typing import Any
 
 import numpy as np
@@ -45,14 +45,9 @@ def cosine_sine(angle: float) -> tuple[float, float]:
     r = r - quarters * QUARTER[1]
     r = r - quarters * QUARTER[2]
     c, s = _cosine_near_zero(r), _sine_near_zero(r)
-    match quarters % 4:
-        case 0:
-            return c, s
-        case 1:
-            return -s, c
-        case 2:
-            return -c, -s
-    return s, -c
+    if quarters % 2:
+        c, s = -s, c
+    return (-c, -s) if quarters % 4 > 1 else (c, s)
 
 
 def cosines_sines(angles: ArrayLike) -> tuple[Float, Float]:
@@ -119,41 +114,6 @@ def norms(x: ArrayLike, y: ArrayLike) -> Float:
             x, y = x / 1e200, y / 1e200
             size = np.where(size == inf, 1e200 * np.sqrt(x * x + y * y), size)
     return size
-
-
-def logarithm(x: float) -> float:
-    """Return the natural logarithm of a number x > 0."""
-    m, k = frexp(x)
-    if m < 0.7071067811865476:
-        m, k = m * 2, k - 1
-    rest = _double_artanh((m - 1) / (m + 1))
-    return k * 6.93147180369123816490e-01 + (k * 1.90821492927058770002e-10 + rest)
-
-
-def whole_power(x: float, exponent: int) -> float:
-    """Return a number to the power of a whole one, which is 0 or more."""
-    result = 1.0
-    while exponent:
-        if exponent % 2:
-            result *= x
-        x *= x
-        exponent //= 2
-    return result
-
-
-def arsinh(x: float) -> float:
-    """Return the inverse hyperbolic sine of a number."""
-    more = abs(x) + x * x / (1 + sqrt(x * x + 1))
-    size = _double_artanh(more / (2 + more)) if more < 0.4 else logarithm(1 + more)
-    return -size if x < 0 else size
-
-
-def _double_artanh(s: float) -> float:
-    """Return ln((1 + s) / (1 - s)) for |s| <= 0.172."""
-    z, p = s * s, 0.0
-    for odd in range(21, 1, -2):
-        p = (p + 1 / odd) * z
-    return 2 * s * (1 + p)
 
 
 # -- near zero ------------------------------------------------------------------------------------

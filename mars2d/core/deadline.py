@@ -35,9 +35,7 @@ _Pending = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 
 def patience() -> float:
     """Return how long a call of a law may take, seconds. Raises InputError for a bad variable."""
-    text = os.environ.get(VARIABLE)
-    if not text:
-        return PATIENCE
+    text = os.environ.get(VARIABLE) or f"{PATIENCE}"
     try:
         seconds = float(text)
     except ValueError:
@@ -124,7 +122,8 @@ class Deadline:
                     if ended.is_set():
                         return
                     self.where, self._looks, self._fired = line, 0, True
-                    _raise_in(self._thread, due)
+                    thread = ctypes.c_ulong(self._thread)  # between two steps of its Python code
+                    ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(due))
             elif self._meanwhile is not None and self._looks >= SOON and not self._waits:
                 self._waits = True
                 ctypes.pythonapi.Py_AddPendingCall(self._ask, None)
@@ -160,9 +159,3 @@ class Deadline:
 
 def _late(why: str) -> type[Late]:
     return type("Late", (Late,), {"why": why})
-
-
-def _raise_in(thread: int, error: type[BaseException]) -> None:
-    """Raise an exception in another thread, between two steps of its Python code."""
-    raised = ctypes.py_object(error)
-    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)

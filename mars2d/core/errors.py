@@ -140,5 +140,8 @@ def one_line(text: object, most: int = MAX_TEXT) -> str:
 
 def shown(value: Any, limit: int = 60) -> str:
     """Return `value` as quoted in a message: its repr, cut to `limit` characters."""
-    text = " ".join(repr(value).split())
+    try:
+        text = " ".join(repr(value).split())
+    except Exception as error:  # such as a number of too many digits
+        text = f"<{type(value).__name__}: {error}>"
     return text if len(text) <= limit else text[: limit - 3] + "..."

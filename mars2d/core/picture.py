@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from functools import cached_property, lru_cache
 from io import BytesIO
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,15 +99,6 @@ class Picture:
         dark = (255_000 - luma) / 255_000
         dark.flags.writeable = False
         return np.asarray(dark)
-
-
-@runtime_checkable
-class Pictured(Protocol):
-    """A part that has a picture from a file."""
-
-    @property
-    def picture(self) -> Picture:
-        """The picture. Raises InputError where its file can't be read."""
 
 
 def read_picture(name: str, image: str, color: str | None = None) -> Picture:

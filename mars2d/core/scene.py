@@ -10,13 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from math import dist
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.core.arithmetic import cosines_sines, norm
+from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.description import accepts
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.plane import Outline
@@ -35,7 +34,7 @@ INK = "#3d4852"
 THEORY = "#7b3294"
 """The colour of theoretical predictions."""
 
-_NAMED = {
+NAMED = {
     "black": "#000000", "white": "#ffffff", "gray": "#808080", "grey": "#808080",
     "red": "#d62728", "green": "#2ca02c", "blue": "#1f77b4", "orange": "#ff7f0e",
     "purple": "#9467bd", "brown": "#8c564b", "pink": "#e377c2", "cyan": "#17becf",
@@ -44,6 +43,7 @@ _NAMED = {
     "k": "#000000", "r": "#d62728", "g": "#2ca02c", "b": "#1f77b4", "m": "#c2187f",
     "c": "#17becf", "y": "#e8c500", "w": "#ffffff",
 }  # fmt: skip
+"""Colours by their words."""
 
 WAKE_LINES = ("--", "-.", "-", ":")
 WAKE_MARKERS = (".", "o", "x", "+", "*", "s")
@@ -54,15 +54,15 @@ def color(name: str, value: object) -> str:
     """Return a colour as ``#rrggbb`` or ``#rrggbbaa``; field `name` is for the error message."""
     if isinstance(value, str):
         lower = value.strip().lower()
-        if lower in _NAMED:
-            return _NAMED[lower]
+        if lower in NAMED:
+            return NAMED[lower]
         digits = lower.removeprefix("#")
         if lower.startswith("#") and all(c in "0123456789abcdef" for c in digits):
             if len(digits) in (6, 8):
                 return lower
             if len(digits) == 3:
                 return "#" + "".join(2 * c for c in digits)
-    hint = nearest(value, [k for k in _NAMED if len(k) > 1]) if isinstance(value, str) else ""
+    hint = nearest(value, [k for k in NAMED if len(k) > 1]) if isinstance(value, str) else ""
     raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
 
 
@@ -115,18 +115,6 @@ def color_of(values: Iterable[float]) -> str:
     '#ff0033'
     """
     return "#" + "".join(f"{round(255 * min(max(value, 0.0), 1.0)):02x}" for value in values)
-
-
-def color_word(value: str) -> str:
-    """Return the word for a colour ``#rrggbb``: the nearest named one.
-
-    >>> color_word("#0072b2")
-    'blue'
-    """
-    return min(
-        (word for word in _NAMED if len(word) > 1),
-        key=lambda word: dist(rgb(_NAMED[word]), rgb(value)),
-    )
 
 
 @accepts({"type": "string"})
@@ -293,30 +281,6 @@ class Scene:
     def extend(self, shapes: Iterable[Shape]) -> None:
         """Add the shapes of another scene."""
         self.shapes.extend(shapes)
-
-
-HEAD_LENGTH, HEAD_WIDTH = 4.0, 3.4
-"""Length and width of an arrow's head, in widths of its shaft."""
-
-MIN_ARROW_LENGTH = 1.6
-"""Shorter arrows are drawn smaller as a whole, in lengths of their head."""
-
-
-def arrow_outline(
-    tail: tuple[float, float], tip: tuple[float, float], width: float
-) -> NDArray[np.float64]:
-    """Return the corners (7, 2) of an arrow whose shaft is `width` wide, all in one unit."""
-    dx, dy = tip[0] - tail[0], tip[1] - tail[1]
-    length = float(norm(dx, dy))
-    if length == 0.0:
-        return np.tile(np.array([tail], dtype=float), (7, 1))
-    width = min(width, length / (MIN_ARROW_LENGTH * HEAD_LENGTH))
-    axes = np.array([[dx, dy], [-dy, dx]]) / length
-    neck = length - HEAD_LENGTH * width
-    half, head = width / 2, HEAD_WIDTH * width / 2
-    corners = [(0, half), (neck, half), (neck, head), (length, 0)]
-    corners += [(along, -across) for along, across in corners[2::-1]]
-    return np.array(corners) @ axes + tail
 
 
 def _points(points: ArrayLike | Outline) -> NDArray[np.float64]:

@@ -23,12 +23,10 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "id number index label": "name='...'",
         "wheelbase wheelradius": "drive=Differential(wheel_radius=...) or Car(wheelbase=...)",
         "weight": "mass=...",
-        "lidar sensing perception": "sensors=[RangeFinder(...)], of mars2d.sensors",
     },
     "Prop": {
         _PLACE: "pose=(x, y, theta)",
         "r size": "diameter=... or radius=..., for a Box length=... and width=...",
-        "weight density": "mass=... or material='...'",
     },
     "Scenario": {
         "n number numrobots agents": "robots=3, or robots=[Robot(...), ...]",
@@ -42,18 +40,15 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "sensor sensors": "Robot(sensors=[...])",
         "seed randomseed": "--seed 3, or mars2d.run(scenario, seed=3)",
         "gravity": "ground_friction=... of a prop: one looks at the plane from above",
-        "name": "title='...'",
     },
     "Sensor": {
         "distance maxrange reach maxdistance": "range=...",
         "fov angle aperture opening": "field_of_view=...",
         "n rays numbeams numrays": "beams=...",
-        f"{_PLACE} offset": "mount=(x, y, theta)",
     },
     "Drive": {
         _SPEED: "max_linear_speed=...",
         _TURN: "max_angular_speed=...",
-        "wheelseparation track axle axletrack l": _WHEELS,
     },
     "Unicycle": {"wheelbase": _WHEELS},
     "Differential": {"wheelbase": _WHEELS},
@@ -74,14 +69,11 @@ _INSTEAD: dict[str, dict[str, str]] = {
     "a world": {
         "n count number": "len(world.robots)",
         "x state states poses positions getposes": "world.pose, an array (3, n)",
-        "theta heading": "world.pose[2]",
         "t now": "world.time",
         "dt ts": "world.sampling_time",
-        "agents robot": "world.robots",
     },
     "a room": {
         "lidar laser laserscanner rangesensor scanner": "RangeFinder, of mars2d.sensors",
-        "sonar ultrasonic": "SonarRing or RangeFinder, of mars2d.sensors",
         "camera vision": "LineCamera, RangeBearing or Ground, of mars2d.sensors",
         "ir infrared proximitysensor": "Proximity, of mars2d.sensors",
         "gps compass": "Pose, of mars2d.sensors",
@@ -89,9 +81,6 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "gyro accelerometer": "Imu, of mars2d.sensors",
         "wall walls obstacle obstacles": "Map, of mars2d.addons: Map([[(x, y), ...]])",
         "simulator simulation simulate sim environment env": "run: mars2d.run(scenario)",
-        "circle disc rectangle square": "Puck or Box, of mars2d.bodies",
-        "radio comms network": "Communication, of mars2d.addons",
-        "plot animate show": "the command: mars2d run FILE, or mars2d plot RECORD",
     },
     "mars2d": {
         "help h": "mars2d --help",

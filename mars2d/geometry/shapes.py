@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core import checks
-from mars2d.core.arithmetic import arsinh, cosine_sine, norm, norms
+from mars2d.core.arithmetic import cosine_sine, norm, norms
 from mars2d.core.description import Description, accepts, entry, real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point
+from mars2d.geometry.logarithm import arsinh
 
 Float = NDArray[np.float64]
 

@@ -69,8 +69,8 @@ def as_text(content: Any) -> str:
         size = len(text.encode())
     except UnicodeEncodeError:
         raise _unfit("content", content, "half a character, which no file can hold") from None
-    except ValueError:
-        raise _unfit("content", content, "a whole number of too many digits") from None
+    except ValueError:  # so that it can't be shown, either
+        raise LawError("robot.send: content has a whole number of too many digits") from None
     if size > MAX_BYTES:
         raise _unfit("content", content, f"{size} bytes, of at most {MAX_BYTES}")
     return text

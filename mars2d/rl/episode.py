@@ -54,7 +54,7 @@ class Episode:
         self._source, self._options = source, dict(options or {})
         opened = open_experiment(source, self._options, seed=0)
         self.experiment = str(source) if isinstance(source, (str, Path)) else ""
-        self._draws = "seed" not in self._options and _takes_seed(opened.function)
+        self._draws = "seed" not in self._options and _takes_seed(opened.source.function)
         if not self._draws:  # without a seed its `random_starts` are not drawn yet: each reset does
             opened = open_experiment(source, self._options)
         scenario = opened.scenario
@@ -71,7 +71,7 @@ class Episode:
             )
         self._reward = won_or_lost if reward is None else reward
         self.world = World(
-            self._cast(scenario), opened.control, 0, filename=opened.filename, record=record
+            self._cast(scenario), opened.control, 0, filename=opened.source.name, record=record
         )
         self.world.observe()
         self.observations = [

@@ -6,7 +6,7 @@ import dataclasses
 import difflib
 import inspect
 import sys
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -54,36 +54,43 @@ class Run(Protocol):
 
 
 @dataclass(frozen=True)
-class Experiment:
-    """A scenario, the law of its team, and the other contents of its file.
+class Source:
+    """What a file says besides its scenario and its law.
 
-    filename: the file's name, or empty. checks: the function of the record that compares a run with
-    theory, or None. summary: the first line of the file's docstring, or empty. path: of the file,
-    or None. options: those that it was opened with. opened: opens it again with other options, or
-    None. alone: whether its laws then share nothing with these, since its file is run again.
-    function: that has made the scenario, or None. seed: that it was opened with, or None. plain:
-    the experiment without those options that set fields and laws, if there are any. files: all
-    files read for it; written: when these were written, ns. functions: the public functions that
-    its file defines, by name. scopes: what its window plots at first: names of columns, and
-    functions of the record that return a number for each row.
+    name: of the file, or of a module without one; "" for a Scenario. path: of the file, or None.
+    summary: the first line of its docstring. checks: the function of the record that compares a run
+    with theory, or None. function: that makes the scenario, or None. functions: its public ones by
+    name. scopes: what a window plots at first: names of columns, and functions of the record that
+    return a number for each row. written: when it and the files that it read were written, ns.
+    """
+
+    name: str = ""
+    path: Path | None = None
+    summary: str = ""
+    checks: Callable[[Any], Any] | None = None
+    function: Callable[..., Any] | None = None
+    functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
+    scopes: tuple[str | Callable[[Any], Any], ...] = ()
+    written: Mapping[Path, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A scenario and the law of its team, as a file and options say.
+
+    options, seed: with which it was opened. opened: opens it again with other options, or None.
+    alone: whether its laws then share nothing with these, since its file is run again. plain: the
+    experiment without those options that set fields and laws, if there are any.
     """
 
     scenario: Scenario
     control: Callable[[Any], Any] | None = None
-    filename: str = ""
-    checks: Callable[[Any], Any] | None = None
-    summary: str = ""
-    path: Path | None = None
+    source: Source = field(default_factory=Source)
     options: Mapping[str, Any] = field(default_factory=dict)
+    seed: int | None = None
     opened: Callable[[Mapping[str, Any]], Experiment] | None = None
     alone: bool = False
-    function: Callable[..., Any] | None = None
-    seed: int | None = None
     plain: Experiment | None = None
-    files: frozenset[Path] = frozenset()
-    written: Mapping[Path, int] = field(default_factory=dict)
-    functions: Mapping[str, Callable[..., Any]] = field(default_factory=dict)
-    scopes: tuple[str | Callable[[Any], Any], ...] = ()
 
     def reopened(self) -> Experiment:
         """Return the experiment opened again, or itself if it does not come from a file.
@@ -107,7 +114,7 @@ class Experiment:
         They come from the same version of the same files, and their arguments are the same.
         """
         return (
-            self.written == other.written
+            self.source.written == other.source.written
             and len(self._laws) == len(other._laws)
             and all(map(law_parameters.same, self._laws, other._laws))
             and self.scenario.addons == other.scenario.addons
@@ -132,8 +139,13 @@ class Experiment:
             )
 
         before = self.options
-        drawn = scenario.replace(robots=robots)
-        return dataclasses.replace(self, scenario=drawn, opened=opened, plain=None, function=None)
+        return dataclasses.replace(
+            self,
+            scenario=scenario.replace(robots=robots),
+            source=dataclasses.replace(self.source, function=None),
+            opened=opened,
+            plain=None,
+        )
 
     def parameters(self, body: int | None = None) -> list[Parameter]:
         """Return the numbers that can be set: of the scenario function, and of laws.
@@ -144,7 +156,7 @@ class Experiment:
         plain = self if self.plain is None else self.plain
         if body is not None:
             return [*parameters.of_body(self.scenario, plain.scenario, body)]
-        made, given = self.function, self.options
+        made, given = self.source.function, self.options
         own = [] if made is None else [*parameters.of_arguments(made, given, self.seed)]
         names = {each.name for each in own}
         laws = law_parameters.of_laws(self._laws, plain._laws)
@@ -169,11 +181,7 @@ class Experiment:
         Raises LawError, which points at file and line, if `checks` raises, or returns anything but
         predictions.
         """
-        if self.checks is None or not record.finished or record.interventions or len(record) < 2:
-            return ()
-        predictions: list[Prediction] = []
-        self._check(record, predictions)
-        return tuple(predictions)
+        return tuple(self._checked(record)) if record.finished else ()
 
     def predictions_so_far(self, record: Run) -> tuple[tuple[Prediction, ...], LawError | None]:
         """Return the predictions for a run that goes on, and the error that ended `checks`, if any.
@@ -183,22 +191,23 @@ class Experiment:
         no predictions for a run that has not a single step, or was changed by hand.
         """
         predictions: list[Prediction] = []
-        if self.checks is None or record.interventions or len(record) < 2:
-            return (), None
         try:
             with quiet(), catch_warnings():
                 simplefilter("ignore")
-                self._check(record, predictions)
+                for prediction in self._checked(record):
+                    predictions.append(prediction)  # noqa: PERF402 - those before an error count
         except LawError as error:
             return tuple(predictions), error
         return tuple(predictions), None
 
-    def _check(self, record: Run, predictions: list[Prediction]) -> None:
-        """Add the predictions that `checks` makes of a record."""
-        assert self.checks is not None
+    def _checked(self, record: Run) -> Iterator[Prediction]:
+        """Yield the predictions that `checks` makes of a record, if it can be compared."""
+        checks = self.source.checks
+        if checks is None or record.interventions or len(record) < 2:
+            return
         expected = "expected a list of Prediction(name, predicted, measured, tolerance)"
-        with called("checks", self.checks):
-            made = self.checks(record)
+        with called("checks", checks):
+            made = checks(record)
             if made is None:
                 raise LawError(f"checks returned nothing: {expected}")
             if isinstance(made, (str, bytes, Mapping)) or not isinstance(made, Iterable):
@@ -206,7 +215,7 @@ class Experiment:
             for k, prediction in enumerate(made):  # which runs a generator
                 if not isinstance(prediction, Prediction):
                     raise LawError(f"checks returned {shown(prediction)} as item {k}: {expected}")
-                predictions.append(prediction)
+                yield prediction
 
 
 LISTED = "; mars2d list shows the examples"
@@ -242,17 +251,18 @@ def open_experiment(
             if of_laws:
                 experiment = experiment._with_laws(of_laws)
         except Mars2dError as error:
-            error.where = error.where or plain.filename or None
+            error.where = error.where or plain.source.name or None
             raise
+    read = files if control is None else ()
+    written = {path: path.stat().st_mtime_ns for path in read if path.exists()}
     return dataclasses.replace(
         experiment,
+        source=dataclasses.replace(experiment.source, written=written),
         options=given,
+        seed=seed,
         opened=partial(open_experiment, source, control=control, seed=seed),
         alone=control is None and isinstance(source, (str, Path)),
-        seed=seed,
         plain=None if experiment is plain else plain,
-        files=frozenset(files) if control is None else experiment.files,
-        written={path: path.stat().st_mtime_ns for path in files if path.exists()},
     )
 
 
@@ -281,7 +291,7 @@ def _opened(
         if path.suffix.lower() == ".toml":
             note_file(path)
             drawn, law = toml_file.read(path)
-            found = Experiment(drawn, control or law, path.name, path=path.absolute())
+            found = Experiment(drawn, control or law, Source(path.name, path.absolute()))
             return found, MapOption.popped(options, path)
         module, name = module_in(path), str(path)
     else:
@@ -301,7 +311,6 @@ def _opened(
     except Mars2dError as error:
         error.where = error.where or Path(name).name
         raise
-    law = own if control is None else control
     summary = (module.__doc__ or "").strip().partition("\n")[0]
     lies = Path(name).absolute() if isinstance(source, (str, Path)) else None
     functions = {
@@ -309,11 +318,8 @@ def _opened(
         for key, value in vars(module).items()
         if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
     }
-    opened = Experiment(
-        scenario, law, Path(name).name, check, summary, lies, functions=functions,
-        function=function, scopes=scopes,
-    )  # fmt: skip
-    return opened, chart
+    said = Source(Path(name).name, lies, summary, check, function, functions, scopes)
+    return Experiment(scenario, own if control is None else control, said), chart
 
 
 def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
@@ -367,12 +373,6 @@ def load_law(
     return law_in(file, name, given=(arguments, values))
 
 
-def _scripts(path: Path) -> list[Path]:
-    """Return the experiments beside a path: Python files and scenario files."""
-    files = path.parent.iterdir() if path.parent.is_dir() else ()
-    return [file for file in files if file.suffix in (".py", ".toml")]
-
-
 def _find(source: str | Path) -> Path:
     path = Path(source)
     if path.is_file():
@@ -385,7 +385,8 @@ def _find(source: str | Path) -> Path:
         raise InputError(
             f"{path}: {kind}; expected an experiment, a file that ends in .py or .toml"
         )
-    beside = [str(file) for file in _scripts(path)]
+    files = path.parent.iterdir() if path.parent.is_dir() else ()
+    beside = [str(file) for file in files if file.suffix in (".py", ".toml")]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
     near = likely(source, [*beside, *known], 0.75)
     raise InputError(f"{source}: there is no such {kind}{near or LISTED}")

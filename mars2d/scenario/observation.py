@@ -246,10 +246,6 @@ def _read_sensor(view: Any, name: str, look: Any) -> list[float]:  # noqa: ARG00
     return _numbers_of(reading, f"{view.name}: sensor {key!r}").tolist()  # type: ignore[no-any-return]
 
 
-def _read_pose(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
-    return [look.x, look.y, *look.ahead]
-
-
 def _read_positions(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
     row, me = look.others(2), look.me
     for j in look.world.neighbour_indices(me):
@@ -274,7 +270,7 @@ def _read_props(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG0
 
 
 READERS: Mapping[str, Callable[[Any, str, Any], list[float]]] = {
-    "pose": _read_pose,
+    "pose": lambda view, name, look: [look.x, look.y, *look.ahead],  # noqa: ARG005
     "positions": _read_positions,
     "poses": _read_poses,
     "props": _read_props,

@@ -133,7 +133,8 @@ def arguments_of(function: Callable[..., Any]) -> dict[str, Argument]:
         if is_number(default):
             if bounds is not None:
                 bounds.check(f"the default of {_of(function, name)}", default)
-            found[name] = Argument(default, _is_whole(default, kind), bounds)
+            whole = isinstance(default, numbers.Integral) and kind in (int, inspect.Parameter.empty)
+            found[name] = Argument(default, whole, bounds)
         elif bounds is not None:
             found[name] = Argument(None, kind is int, bounds)
     return found
@@ -144,10 +145,6 @@ def is_number(value: object) -> bool:
     return (
         isinstance(value, numbers.Real) and not isinstance(value, bool) and isfinite(float(value))
     )
-
-
-def _is_whole(value: object, kind: object) -> bool:
-    return isinstance(value, numbers.Integral) and kind in (int, inspect.Parameter.empty)
 
 
 def _of(function: Callable[..., Any], name: str) -> str:
@@ -209,7 +206,8 @@ def of_body(scenario: Scenario, plain: Scenario, body: int) -> Iterator[Paramete
 
     scenario, plain: as it is now, and as its file has it. body: an index of `Scenario.bodies`.
     """
-    part, usual = (_part(each, body) for each in (scenario, plain))
+    both: list[list[Robot | Prop]] = [[*each.robots, *each.props] for each in (scenario, plain)]
+    part, usual = (bodies[body] for bodies in both)
     index = body - len(scenario.robots)
     family, index = ("robots", body) if index < 0 else ("props", index)
     key = str(index) if set(str(part.name)) & set(".*") else part.name
@@ -223,11 +221,6 @@ def of_body(scenario: Scenario, plain: Scenario, body: int) -> Iterator[Paramete
             low = high / STEPS  # they can't be 0
         bounds = min(low, value), max(high, value)
         yield Parameter(f"{family}.{key}.{name}", value, default, *bounds, _unit_of(part, name))
-
-
-def _part(scenario: Scenario, body: int) -> Robot | Prop:
-    n = len(scenario.robots)
-    return scenario.robots[body] if body < n else scenario.props[body - n]
 
 
 def _numbers_of(part: Robot | Prop) -> Iterator[tuple[str, float]]:

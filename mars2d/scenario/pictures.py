@@ -8,7 +8,7 @@ from typing import Any
 from mars2d.addons.base import Addon
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError, one_line
-from mars2d.core.picture import Pictured, holds_pixels, image_file, picture_name, without_pixels
+from mars2d.core.picture import Picture, holds_pixels, image_file, picture_name, without_pixels
 from mars2d.scenario import serialize
 from mars2d.scenario.scenario import Scenario
 
@@ -26,10 +26,10 @@ def enclosed(value: Any) -> Any:
 def _enclosed(addon: Addon) -> Addon:
     named = [name for name in _images(type(addon)) if getattr(addon, name) is not None]
     try:
-        if not named or not isinstance(addon, Pictured):
-            return addon
-        picture = addon.picture
+        picture: Picture | None = getattr(addon, "picture", None) if named else None
     except InputError:
+        return addon
+    if picture is None:
         return addon
     return addon.replace(**{name: picture.as_text(getattr(addon, name)) for name in named})
 

@@ -198,6 +198,7 @@ def _place(
     if area is None:
         raise InputError(f"{where}: expected an area, since the scenario has no workspace")
     corners, first = np.array(area), len(taken)
+    xmin, xmax, ymin, ymax = bounds_of(area)
     for body in bodies:
         heading = rng.uniform(-pi, pi) if starts.heading is None else starts.heading
         reach = _reach(body) + MARGIN
@@ -205,7 +206,8 @@ def _place(
         apart = others[:, 2] + reach
         apart[first:] = np.maximum(apart[first:], starts.least_distance)
         for _ in range(BATCHES):
-            x, y = places = _candidates(area, rng)
+            u, v = rng.random((2, BATCH))
+            x, y = places = xmin + (xmax - xmin) * u, ymin + (ymax - ymin) * v
             gaps = norms(x[:, None] - others[:, 0], y[:, None] - others[:, 1]) - apart
             free = inside_polygon(x, y, corners) & (gaps >= 0).all(axis=1)
             found = np.flatnonzero(free & room.free(places, reach))
@@ -217,13 +219,6 @@ def _place(
         taken.append((*place, reach))
         poses[body.name] = (*place, float(heading))
     return None
-
-
-def _candidates(area: Outline, rng: np.random.Generator) -> Points:
-    """Return places in the rectangle round an area."""
-    xmin, xmax, ymin, ymax = bounds_of(area)
-    x, y = rng.random((2, BATCH))
-    return xmin + (xmax - xmin) * x, ymin + (ymax - ymin) * y
 
 
 def _reach(body: Rigid) -> float:

@@ -135,14 +135,10 @@ def _walk(family: str) -> Iterator[type[Description]]:
         for name, kind in vars(module).items():
             is_part = isinstance(kind, type) and issubclass(kind, base)
             own = is_part and kind.__module__ == module.__name__ and name[0] != "_"
-            if own and info.name != "base" and not _leaves_methods(kind):
+            methods = (getattr(kind, name, None) for name in dir(kind))  # abstract in a Contest
+            abstract = any(getattr(method, "__isabstractmethod__", False) for method in methods)
+            if own and info.name != "base" and not abstract:
                 yield kind
-
-
-def _leaves_methods(kind: type) -> bool:
-    """Return whether a class has abstract methods, like Contest."""
-    methods = (getattr(kind, name, None) for name in dir(kind))
-    return any(getattr(method, "__isabstractmethod__", False) for method in methods)
 
 
 def misspelt_groups() -> list[str]:

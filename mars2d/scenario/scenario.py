@@ -189,7 +189,9 @@ class Scenario(Description):
                 "Scenario.command_delay", self.command_delay,
                 f"at most a million sampling times of {self.sampling_time:g} s",
             )  # fmt: skip
-        self._check_sensors()
+        for robot in robots:
+            for sensor in robot.sensors:
+                sensor.check_timing(f"{type(sensor).__name__} of {robot.name}", self.sampling_time)
         self.neighbours.check_size(len(self.robots))
         self._check_bodies()
         if self.random_starts:
@@ -221,12 +223,6 @@ class Scenario(Description):
             Robot(pose=(x + radius * c, y + radius * s, a + pi if count > 1 else 0.0))
             for a, (c, s) in zip(angles, ways, strict=True)
         )
-
-    def _check_sensors(self) -> None:
-        """Refuse sensors that would measure between control steps, or whose latency is too long."""
-        for robot in self.robots:
-            for sensor in robot.sensors:
-                sensor.check_timing(f"{type(sensor).__name__} of {robot.name}", self.sampling_time)
 
     def _check_bodies(self) -> None:
         """Refuse bodies that contacts can't hold."""

@@ -100,16 +100,12 @@ def changed(part: Description, index: int = 0) -> dict[str, Any]:
     found = {}
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
+        factory = field.default_factory
+        usual = field.default if factory is dataclasses.MISSING else factory()
         by_itself = field.name == "name" and value == _default_name(part, index)
-        if not (by_itself or _is_default(field, value)):
+        if not (by_itself or usual == value):  # without a default, MISSING equals nothing
             found[field.name] = value
     return found
-
-
-def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
-    if field.default_factory is not dataclasses.MISSING:
-        return bool(field.default_factory() == value)
-    return bool(field.default == value)  # of a field without one, MISSING equals nothing
 
 
 def _default_name(part: Description, index: int) -> str | None:
@@ -123,7 +119,9 @@ def from_description(value: Any) -> Any:
     if isinstance(value, Description):
         kind = type(value)
         if kind.__module__.startswith("mars2d."):
-            return {"type": _type_of(kind), **_fields(value)}
+            with_family = f"{family_of(kind)}.{kind.__name__}"  # where two have one name
+            name = with_family if with_family in _kinds() else kind.__name__
+            return {"type": name, **_fields(value)}
         for base in (Scenario, Robot, Animation):  # a derived class counts as one of them
             if isinstance(value, base):
                 return {"type": base.__name__, **_fields(value, base)}
@@ -298,12 +296,6 @@ def _kinds() -> dict[str, type[Description]]:
         for name, kind in members(family).items():
             kinds[f"{family}.{name}" if name in kinds else name] = kind
     return kinds
-
-
-def _type_of(kind: type[Description]) -> str:
-    """Return the name of a class in files, with its family if two have the same name."""
-    own = f"{family_of(kind)}.{kind.__name__}"
-    return own if own in _kinds() else kind.__name__
 
 
 _KNOWN = (

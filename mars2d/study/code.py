@@ -19,7 +19,7 @@ def code_of(experiment: Experiment, otherwise: str = "") -> str:
 
     Files count by name and content, wherever they lie. otherwise: returned if there are no files.
     """
-    if not experiment.files:
+    if not experiment.source.written:
         return otherwise
     return _hash(experiment, _content)[:CODE_DIGITS]
 
@@ -30,14 +30,14 @@ def code_of_run(experiment: Experiment) -> str:
     These are functions of the experiment's file whose only parameter is ``record``, and which
     nothing else in it mentions.
     """
-    return _hash(experiment, lambda file: _content(file, measures=file != experiment.path))
+    return _hash(experiment, lambda file: _content(file, measures=file != experiment.source.path))
 
 
 def _hash(experiment: Experiment, content: Callable[[Path], bytes | None]) -> str:
     import mars2d
 
     sha = hashlib.sha256(mars2d.__version__.encode())
-    for file in sorted(experiment.files, key=lambda path: (path.name, str(path))):
+    for file in sorted(experiment.source.written, key=lambda path: (path.name, str(path))):
         sha.update(f"\n{file.name} ".encode(errors="backslashreplace"))
         sha.update(content(file) or b"")
     return sha.hexdigest()

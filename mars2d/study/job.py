@@ -111,7 +111,7 @@ def measures_of(
     scenario: if given, it is checked for what the built-in measures need.
     """
     return {
-        name_in(measure): measure_named(measure, experiment.functions, scenario)
+        name_in(measure): measure_named(measure, experiment.source.functions, scenario)
         if isinstance(measure, str)
         else measure
         for measure in measures

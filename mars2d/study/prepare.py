@@ -86,7 +86,7 @@ def prepared(
             continue
         first = first or found
         codes[cells_of(point)] = code_of(found, code)
-        watched.add(found.files)
+        watched.add(found.source.written)
     assert first is not None  # or `_probes` has raised
     chosen = measures or _sensible(first.scenario)
     measures_of(chosen, first, first.scenario)

@@ -78,9 +78,8 @@ class _Subject(Subject):
 
     def __init__(self, addon: Addon) -> None:
         self.addon, self.kind = addon, type(addon)
-        name, labels = self.kind.__name__, (f"add-on {addon.key!r}", f"{self.kind.__name__}.")
-        keep = "Keep things in attributes of self, set in on_start"
-        super().__init__(name, labels, "self.rng, the add-on's own stream", keep)
+        stream, label = "self.rng, the add-on's own stream", f"add-on {addon.key!r}"
+        super().__init__(self.kind.__name__, stream, label=label)
         self._own = own_methods(addon, Addon)
         self._painted: set[str] = set()  # attributes that on_draw sets
         self._shapes = 0
@@ -179,7 +178,7 @@ class _Subject(Subject):
             self.report.wrong(str(watched.error))
         painted = {f"add-on {self.addon.key}.{attribute}" for attribute in self._painted}
         found = difference(first, watched, lambda what: what not in painted)
-        if self.ended(watched, trial.deadline) and self.report.sound and found:
+        if self.report.sound and found:
             self.report.wrong(
                 f"{self.name}.on_draw changes how the run goes, from {found}: it is called only "
                 "where somebody watches, so what it sets must not matter to the other hooks"

@@ -76,7 +76,7 @@ def controller_findings(
     """
     of_team = is_of_a_team(law) if team is None else team
     name = name_of(law)
-    subject = Subject(name, (f"{name} ",), STREAM[of_team], KEEP[of_team])
+    subject = Subject(name, STREAM[of_team], KEEP[of_team])
     try:
         checks.function(name, law, "the world" if of_team else "the robot")
     except InputError as error:

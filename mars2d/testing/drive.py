@@ -68,7 +68,7 @@ class _Subject(Subject):
         self.drive = drive
         keep = "A drive is the same at each step and for all robots that have it, and keeps nothing"
         stream = "nothing: the field `noise` is there for that"
-        super().__init__(type(drive).__name__, (), stream, keep)
+        super().__init__(type(drive).__name__, stream, keep)
 
     def placed(self) -> tuple[Scenario, None]:
         """Try its methods; return a small world, whose robots have the drive if it is sound."""

@@ -71,9 +71,8 @@ class _Subject(Subject):
 
     def __init__(self, sensor: Sensor) -> None:
         self.sensor, self.kind = sensor, type(sensor)
-        name, labels = self.kind.__name__, (f"sensor {sensor.key!r}", f"{self.kind.__name__}.")
-        keep = "Keep things in attributes of self, set in on_start"
-        super().__init__(name, labels, "rng, the sensor's own stream", keep)
+        stream, label = "rng, the sensor's own stream", f"sensor {sensor.key!r}"
+        super().__init__(self.kind.__name__, stream, label=label)
         self._drawn = 0
         self._unstable = False
 

@@ -30,6 +30,8 @@ Part = TypeVar("Part", bound=Description)
 
 ControlLaw = Callable[[Any], Any]
 
+KEEP = "Keep things in attributes of self, set in on_start"
+
 Placed = tuple[Scenario, ControlLaw | None]
 """A scenario, and the law of its team."""
 
@@ -37,13 +39,14 @@ Placed = tuple[Scenario, ControlLaw | None]
 class Subject:
     """A part or law on trial, and what has been found.
 
-    name: of the class or function. labels: how the errors of a run begin for which it is
-    responsible. stream: the random generator that it should use, in words. keep: where it should
+    name: of the class or function. label: how else than by its name the errors begin for which it
+    is responsible. stream: the random generator that it should use, in words. keep: where it should
     keep things, as a sentence. tried: whether the first run is over; others are only compared.
     """
 
-    def __init__(self, name: str, labels: tuple[str, ...], stream: str, keep: str) -> None:
-        self.name, self.labels, self.stream, self.keep = name, labels, stream, keep
+    def __init__(self, name: str, stream: str, keep: str = KEEP, label: str = "") -> None:
+        self.name, self.stream, self.keep = name, stream, keep
+        self.labels = tuple(filter(None, (f"{name} ", f"{name}.", label)))
         self.report = Report()
         self.shares = self.tried = False
 
@@ -75,13 +78,11 @@ class Subject:
         place: returns a scenario with the part or law in it, and the law of its team. small:
         whether that is the small world, in which nothing else can fail.
         """
-        trial = Trial(lambda seed: World(*place(), seed), limit)
+        trial = Trial(self.name, lambda seed: World(*place(), seed), limit)
         run = trial.run(look)
         self.tried = True
-        if self.ended(run, limit) and run.error is None:
-            return trial, run
         if run.error is None:
-            return None
+            return trial, run
         if small and _asks_for_a_sensor(run.error):
             self.report.wrong(
                 f"{run.error}. It was tried in a small world, whose robots don't carry such a "
@@ -93,16 +94,6 @@ class Subject:
         else:
             self.report.wrong(f"{self.name}: its scenario does not run: {run.error}", untried=True)
         return None
-
-    def ended(self, run: Run, limit: Deadline) -> bool:
-        """Report a run that was broken off; return whether it was not."""
-        if run.late is not None:
-            where = f"{run.late}: " if run.late else ""
-            self.report.wrong(
-                f"{where}{self.name} did not come to an end within {limit.patience:g} s, and was "
-                "broken off. Is there a loop that never ends? A law that waits yields at each step"
-            )
-        return run.late is None
 
     def check_repeatable(self, trial: Trial, first: Run, own: tuple[str, ...]) -> None:
         """Report if the same seed does not give the same run, alone or beside another world.

@@ -97,21 +97,21 @@ class Run:
     """One run of a trial.
 
     rows: the contents of the world after each control step, by name, in causal order. error: the
-    one that ended the run. late: the line that did not come to an end, or "", if there was one.
+    one that ended the run.
     """
 
     rows: list[dict[str, bytes]] = field(default_factory=list)
     error: InputError | None = None
-    late: str | None = None
 
 
 @dataclass(frozen=True)
 class Trial:
     """A world of a scenario and its team's law that can be run repeatedly; made anew by `make`.
 
-    make: a function of the seed. deadline: a run that it breaks off is late.
+    name: of what is tried. make: a function of the seed. deadline: of each control step.
     """
 
+    name: str
     make: Callable[[int], World]
     deadline: Deadline
 
@@ -150,7 +150,12 @@ class Trial:
                     if worlds[0].over:
                         break
             except Late:
-                run.late = self.deadline.arrived()
+                run.error = InputError(
+                    f"{self.name} did not come to an end within {self.deadline.patience:g} s, and "
+                    "was broken off. Is there a loop that never ends? A law that waits yields at "
+                    "each step"
+                )
+                run.error.where = self.deadline.arrived() or None
             except InputError as error:
                 run.error = error
             except Exception as error:  # whatever a user's object raises

@@ -305,7 +305,7 @@ class Director:
             return None
         self._player.pause()
         self.let_go()
-        path, control = timeline.experiment.path, timeline.world.control
+        path, control = timeline.experiment.source.path, timeline.world.control
         return Editor(self.scenario_now(), looks, path=path, live=True, control=control)
 
     def apply(self, outcome: Outcome) -> None:

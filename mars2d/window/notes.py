@@ -201,6 +201,6 @@ class Ending:
     def _excerpt_of(self, error: Mars2dError) -> Excerpt | None:
         if error is not self._error:
             source = self._player.source
-            path = source.experiment.path if isinstance(source, Timeline) else None
+            path = source.experiment.source.path if isinstance(source, Timeline) else None
             self._error, self._excerpt = error, excerpt_of(error, path)
         return self._excerpt

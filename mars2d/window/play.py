@@ -241,7 +241,7 @@ def game_of(experiment: Experiment, settings: Mapping[str, Any]) -> str:
     >>> game_of(open_experiment("corner_game"), {"mu": 0.8})
     'corner_game, mu = 0.8'
     """
-    path = experiment.path
+    path = experiment.source.path
     name = experiment.scenario.title if path is None else str(path.absolute())
     if path is not None and path in examples().values():
         name = path.stem

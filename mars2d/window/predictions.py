@@ -85,7 +85,7 @@ class Predictions(Panel):
     @property
     def offered(self) -> bool:
         """Whether the experiment has checks."""
-        return self._timeline is not None and self._timeline.experiment.checks is not None
+        return self._timeline is not None and self._timeline.experiment.source.checks is not None
 
     def look(self, *, playing: bool) -> bool:
         """Read the run again if it has gone on; return whether there is something new to see."""

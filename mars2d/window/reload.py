@@ -77,7 +77,7 @@ class Reload:
     def _adopt(self) -> None:
         """Watch the files of the timeline's experiment."""
         self._experiment = self._timeline.experiment
-        self._watch(self._experiment.files)
+        self._watch(self._experiment.source.written)
 
     def _watch(self, files: Iterable[Path]) -> None:
         before = self._stamps, self._contents

@@ -140,6 +140,6 @@ def show_comparison(
 
 def _remember(memory: Memory, experiment: Experiment, window: Window) -> None:
     """Note that the file of an experiment was opened, unless it is a shipped example."""
-    path = experiment.path
+    path = experiment.source.path
     if path is not None and path.parent not in {each.parent for each in examples().values()}:
         memory.opened(path, window.arena())

@@ -140,7 +140,7 @@ class Window(PlayerWindow):
             self.toolbar,
             lambda: self.player.frame,
             lambda: self.selected,
-            lambda: () if timeline is None else timeline.experiment.scopes,
+            lambda: () if timeline is None else timeline.experiment.source.scopes,
         )
 
     @property
@@ -574,7 +574,7 @@ class Window(PlayerWindow):
             return
         experiment = timeline.experiment
         idle = standing_still(experiment.scenario, experiment.control)
-        drawn = experiment.path is not None and experiment.path.suffix == ".toml"
+        drawn = experiment.source.path is not None and experiment.source.path.suffix == ".toml"
         all_idle = len(idle) == len(experiment.scenario.robots) and not experiment.scenario.props
         if not idle or not (drawn or all_idle):
             return
@@ -634,5 +634,5 @@ def _cast(source: Source) -> tuple[list[str | None], list[str | None]]:
 
 def _stem(source: Source) -> str:
     """Return the name for saved files, without a number."""
-    path = source.experiment.path if isinstance(source, Timeline) else None
+    path = source.experiment.source.path if isinstance(source, Timeline) else None
     return source.scenario.title if path is None else path.stem

@@ -84,6 +84,8 @@ def simulate(
                 error.record = world.record
                 raise
             except Late as error:  # between two calls of the user's code
+                if not error.why:  # a limit that somebody else has set
+                    raise
                 late = LawError(f"the user's code {error.why}")
                 late.time, late.record = world.time, world.record
                 raise late from None
@@ -106,13 +108,13 @@ def open_world(
             experiment.scenario,
             experiment.control,
             seed,
-            filename=experiment.filename,
+            filename=experiment.source.name,
             watch=watch_by(watchers),
             storage=storage,
             settings=experiment.options,
         )
     except InputError as error:
-        error.where = error.where or experiment.filename or None
+        error.where = error.where or experiment.source.name or None
         raise
 
 

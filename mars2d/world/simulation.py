@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.communication import Communication
+from mars2d.bodies.delay import DelayLine
 from mars2d.bodies.team import Cuts, Drives
 from mars2d.core.arrays import locked
-from mars2d.core.delay import DelayLine
 from mars2d.core.description import whole
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.hints import described

@@ -90,11 +90,11 @@ def ask_again(
     if own != theirs:
         first = next((a, b) for a, b in zip_longest(own, theirs) if a != b)
         raise InputError(
-            f"{experiment.filename or 'the experiment'} has other robots and props than the "
+            f"{experiment.source.name or 'the experiment'} has other robots and props than the "
             f"record: {first[1] or 'none'} instead of {first[0] or 'none'}"
         )
     scenario = _as_long(experiment.scenario, record)
-    world = World(scenario, experiment.control, record.seed, filename=experiment.filename)
+    world = World(scenario, experiment.control, record.seed, filename=experiment.source.name)
     by_hand = dict.fromkeys(range(len(scenario.robots)), False)
     found: list[Departure] = []
 

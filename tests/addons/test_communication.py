@@ -911,7 +911,7 @@ def test_figures_show_messages():
 def run(name: str, seed: int = 0, **options):
     experiment = open_experiment(name, options)
     record = simulate(experiment, seed).record
-    return {p.name: p for p in experiment.checks(record)}, record
+    return {p.name: p for p in experiment.source.checks(record)}, record
 
 
 @each_case("loss", [0.0, 0.5, 0.8])

@@ -341,7 +341,7 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
     answer = ROOT / "examples" / "solutions" / f"{name}.py"
     assert f"(../../examples/solutions/{name}.py)" in page.read_text(encoding="utf-8")
     experiment = open_experiment(answer)
-    assert experiment.checks is not None
+    assert experiment.source.checks is not None
 
 
 @each_case("page", PURSUIT_PAGES)
@@ -355,7 +355,7 @@ def test_a_pursuit_page_has_a_formula_bodies_exercises_and_their_answer(page):
     assert "**The referee counts" in text
     assert re.search(r"\b(1[6-9]|20)\d\d\b|geometry is our own", text), "whose formula?"
     assert f"(../../examples/solutions/{name}.py)" in text
-    assert open_experiment(ROOT / "examples" / "solutions" / f"{name}.py").checks is not None
+    assert open_experiment(ROOT / "examples" / "solutions" / f"{name}.py").source.checks is not None
     assert f"({page.name})" in (page.parent / "index.md").read_text(encoding="utf-8")
 
 
@@ -497,7 +497,7 @@ def test_each_example_that_checks_itself_is_a_lesson_with_a_picture():
     pages = [*(ROOT / "docs" / name for name in courses), *EXPERIMENTS, *PURSUIT]
     text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
     lessons = set(re.findall(r"^mars2d run (\w+) .*--figure", text, flags=re.M))
-    checked = {name for name, path in examples().items() if open_experiment(path).checks}
+    checked = {name for name, path in examples().items() if open_experiment(path).source.checks}
     assert checked <= lessons
 
 

@@ -18,7 +18,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from tests.faults.commands import started
 
 import mars2d
 from mars2d.cli import command_line as cli
@@ -291,7 +290,9 @@ def test_its_own_folder_is_replaced_with_all_that_was_in_it(paper, cheap):
         assert Path("out", name).read_bytes() == (cheap / name).read_bytes()
 
 
-@each_case("name", ["notes.txt", "fig2_mine.png", "index.html", "fig2_random_walk.png/"])
+@pytest.mark.parametrize(
+    "name", ["notes.txt", "fig2_mine.png", "index.html", "fig2_random_walk.png/"]
+)
 def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, cheap, name):
     shutil.copytree(cheap, "out")
     before = {path.name: path.read_bytes() for path in Path("out").iterdir()}
@@ -493,17 +494,6 @@ def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path, only):
     check_numbers(folder)
     assert not list(folder.glob("fig7*"))  # nor half a picture
     wait_until(lambda: not is_group(child.pid))  # no worker is left behind
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-def test_no_process_outlives_it_however_it_ends(tmp_path, number):
-    command = started(tmp_path, "paper", "out", "--only", "2,4,7")
-    wait_until(lambda: [*(tmp_path / "out").glob("*.pdf")])
-    os.kill(command.pid, number)
-    assert command.end().code == (130 if number == signal.SIGTERM else -number)
-    assert command.left() == []
 
 
 # -- formulas, and the browser ----------------------------------------------------------------

@@ -184,7 +184,7 @@ def test_checks_are_a_list_or_a_generator_of_predictions(tmp_path, body):
 
 def test_a_file_without_checks_and_a_scenario_have_no_predictions(tmp_path):
     experiment = opened(tmp_path, "")
-    assert experiment.checks is None
+    assert experiment.source.checks is None
     assert experiment.predictions(finished(experiment)) == ()
     assert open_experiment(experiment.scenario).predictions(finished(experiment)) == ()
 
@@ -264,8 +264,8 @@ def test_checks_that_are_no_function_of_the_record_are_refused_before_the_run(
 
 def test_an_experiment_keeps_the_first_line_of_its_docstring(tmp_path):
     (tmp_path / "mine.py").write_text('"""How far does it go?\n\nMore.\n"""\n' + HEAD)
-    assert open_experiment(tmp_path / "mine.py").summary == "How far does it go?"
-    assert opened(tmp_path, "").summary == ""
+    assert open_experiment(tmp_path / "mine.py").source.summary == "How far does it go?"
+    assert opened(tmp_path, "").source.summary == ""
 
 
 def test_an_exact_zero_is_short_where_the_tolerance_is_tiny():

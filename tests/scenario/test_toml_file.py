@@ -189,7 +189,7 @@ def test_the_law_of_the_team_is_taken_from_the_file(tmp_path):
     read(tmp_path, 'format = 1\ncontrol = "walk.py:team"\nstop_time = 1.0\n')
     experiment = open_experiment(tmp_path / "scene.toml")
     assert experiment.control.__name__ == "team"
-    assert experiment.path == tmp_path / "scene.toml"
+    assert experiment.source.path == tmp_path / "scene.toml"
     record = mars2d.run(tmp_path / "scene.toml")
     assert record.pose[-1, 0, 0] == pytest.approx(0.2)
     stands = mars2d.run(tmp_path / "scene.toml", control=lambda world: (0.0, 0.0))

@@ -163,6 +163,6 @@ def test_what_a_measure_of_a_file_raises_points_at_its_line(tmp_path: Path):
     )
     experiment = open_experiment(file)
     record = simulate(experiment).record
-    function = measure_named("half_way", experiment.functions)
+    function = measure_named("half_way", experiment.source.functions)
     with pytest.raises(LawError, match=r"study.py, line 4: half_way raised .*did you mean 'pose'"):
         measured("half_way", function, record)

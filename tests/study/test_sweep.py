@@ -268,8 +268,8 @@ def test_a_measure_that_failed_is_corrected_without_a_run(here):
     assert runs(here) <= max(2, made)
 
 
-@each_case(
-    "change, again",
+@pytest.mark.parametrize(
+    ("change", "again"),
     [
         (("robot.rng.uniform()", "robot.rng.uniform() / 2"), True),  # a law
         (("Robots drift", "Robots dream"), True),

@@ -12,7 +12,7 @@ PICTURES = 3
 
 
 def unseen(function):
-    """Hide a function from the watchdog, which would take it for slow code of the user."""
+    """Hide a function from the time limit, which would take it for slow code of the user."""
     function.__code__ = function.__code__.replace(co_filename="<observer>")
     return function
 

@@ -4,7 +4,7 @@ import pytest
 
 from mars2d.output.raster.layout import Layout
 from mars2d.scenario.controllers import ByHand, FollowWaypoints, Wander
-from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.experiment import Experiment, Source
 from mars2d.scenario.hot_reload import carried
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -16,7 +16,7 @@ from tests.cases import each_case
 
 
 def window_of(scenario, path=None):
-    return Window(Timeline(Experiment(scenario, path=path)))
+    return Window(Timeline(Experiment(scenario, source=Source(path=path))))
 
 
 def middle(viewpoint):

@@ -200,7 +200,7 @@ def test_a_scenario_file_and_its_laws_are_watched(tmp_path):
     text = 'format = 1\n[[robots]]\npose = [0, 0, 0]\ncontroller = "law.py:control"\n'
     scenario.write_text(text)
     timeline = Timeline(open_experiment(scenario))
-    assert timeline.experiment.files == {scenario, tmp_path / "law.py"}
+    assert set(timeline.experiment.source.written) == {scenario, tmp_path / "law.py"}
     reload = Reload(timeline)
     (tmp_path / "law.py").write_text(OTHER.replace("0.2, 0.1", "0.15, 0.1"))
     said = [reload.poll(1.0), reload.poll(2.0)]

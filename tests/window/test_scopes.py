@@ -111,7 +111,7 @@ def test_a_function_of_ones_own_is_traced_and_its_mistakes_are_told(timeline):
     while timeline.row < 10:
         timeline.advance()
     record, frame = timeline.recorded, timeline.frame
-    (gap,) = Trace(timeline.experiment.functions["gap"]).read(record, frame)
+    (gap,) = Trace(timeline.experiment.source.functions["gap"]).read(record, frame)
     np.testing.assert_array_equal(gap.values[:, 0], record.pose[:, 0, 1] - record.pose[:, 0, 0])
     (two,) = Trace(lambda r: {"a": r.time, "b": -r.time}).read(record, frame)
     assert two.curves == ("a", "b")
@@ -296,7 +296,7 @@ def test_a_mistake_stands_in_the_panel(timeline, kind):
 def test_a_file_names_its_scopes(tmp_path):
     path = tmp_path / "named.py"
     path.write_text(PUSHING + '\n\nscopes = ["speed", gap]\n')
-    speed, gap = open_experiment(path).scopes
+    speed, gap = open_experiment(path).source.scopes
     assert (speed, gap.__name__) == ("speed", "gap")
     path.write_text(PUSHING + "\n\nscopes = 'speed'\n")
     with pytest.raises(InputError, match="scopes = 'speed': expected a list of columns") as error:

@@ -285,7 +285,7 @@ def _description(experiment: Experiment) -> list[tuple[str, str]]:
         ("time", f"{scenario.stop_time:g} s in steps of {scenario.sampling_time:g} s"),
         ("laws", ", ".join(laws) or "none: all robots stand still"),
     ]
-    if experiment.checks is not None:
+    if experiment.source.checks is not None:
         rows.append(("checks", "checks(record), made after a whole run"))
     return rows
 

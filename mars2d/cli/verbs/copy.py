@@ -27,7 +27,7 @@ def execute(arguments: argparse.Namespace) -> None:
     if name not in examples():
         raise InputError(f"there is no example {name!r}{nearest(name, examples())}")
     path = examples()[name]
-    read = {file.relative_to(path.parent).parts[0] for file in open_experiment(path).files}
+    read = {file.relative_to(path.parent).parts[0] for file in open_experiment(path).source.written}
     sources = [path, *(path.parent / each for each in sorted(read - {path.name}))]
     for source in sources:
         if (folder / source.name).exists():

@@ -69,4 +69,4 @@ def _kept_in(source: str, experiment: Experiment) -> Path:
     """
     if not Path(source).is_file() and source in examples():
         return Path(f"{source}.toml")
-    return Path(source) if experiment.path is None else experiment.path
+    return Path(source) if experiment.source.path is None else experiment.source.path

@@ -145,7 +145,7 @@ def _live(arguments: argparse.Namespace) -> Iterator[list[Watcher]]:
 
 def _law_meant(experiment: Experiment) -> str:
     """Return how a function of the file that is no law becomes one, or ""."""
-    for name, function in experiment.functions.items():
+    for name, function in experiment.source.functions.items():
         first = next(iter(inspect.signature(function).parameters), "")
         if first == "robot":
             return f"; give {name}(robot) to a robot: Robot(controller={name})"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import replace
+from math import dist
 from pathlib import Path
 
 from mars2d.cli.arguments import add_preferences, add_workers, preferences_of, workers_of
@@ -11,7 +12,7 @@ from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError, counted, one_line
 from mars2d.core.files import atomic_write
-from mars2d.core.scene import color_word
+from mars2d.core.scene import NAMED, rgb
 from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
@@ -223,7 +224,7 @@ def _described(match: Match, rules: Rules | None) -> str:
 def _who(match: Match, rules: Rules | None, between: str) -> str:
     """Return which law plays which role, and the colours of its robots."""
     colors = {} if rules is None else rules.colors
-    words = {role: ", ".join(dict.fromkeys(map(color_word, of))) for role, of in colors.items()}
+    words = {role: ", ".join(dict.fromkeys(map(_color_word, of))) for role, of in colors.items()}
     return between.join(
         f"{role} {law}" + (f" ({words[role]})" if words.get(role, role) != role else "")
         for role, law in match.laws.items()
@@ -247,3 +248,9 @@ def _view(arguments: argparse.Namespace, record: Record, title: str) -> None:
     speed = record.scenario.animation.playback_speed
     titled = replace(record, scenario=record.scenario.replace(title=title))
     show_record(titled, speed, preferences_of(arguments))
+
+
+def _color_word(value: str) -> str:
+    """Return the word for a colour ``#rrggbb``: the nearest named one."""
+    words = (word for word in NAMED if len(word) > 1)
+    return min(words, key=lambda word: dist(rgb(NAMED[word]), rgb(value)))

@@ -16,9 +16,9 @@ from mars2d.core.scene import (
     Scene,
     Shape,
     Text,
-    arrow_outline,
     split_wake_style,
 )
+from mars2d.output.arrow import arrow_outline
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import textwrap
 from collections.abc import Callable
 from dataclasses import replace
@@ -235,17 +234,6 @@ def save_drawing(
     with atomic_write(path) as file:
         file.write(made.getbuffer())
     return path
-
-
-def require_matplotlib() -> None:
-    """Raise InputError where matplotlib refuses the variable MPLBACKEND, which it reads first."""
-    try:
-        import matplotlib as mpl  # noqa: F401
-    except ValueError as error:
-        backend = os.environ.get("MPLBACKEND")
-        raise InputError(
-            f"MPLBACKEND={shown(backend)}: matplotlib has no such backend; unset it, or set agg"
-        ) from error
 
 
 def new_figure(width: float, height: float, *, layout: Layout = "constrained") -> Figure:

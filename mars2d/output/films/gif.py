@@ -1,7 +1,6 @@
 """Animated GIFs: one palette for all frames, and of each frame only the part that has changed.
 
-Pillow compresses the parts. Its own writer of animations keeps all frames in memory until the end,
-and makes films of robots 4 to 13 times as large.
+Pillow compresses the parts. Its own writer of animations keeps all frames in memory until the end.
 """
 
 from __future__ import annotations

@@ -21,9 +21,9 @@ from mars2d.core.scene import (
     Polygon,
     Scene,
     Text,
-    arrow_outline,
     split_wake_style,
 )
+from mars2d.output.arrow import arrow_outline
 from mars2d.output.figures.extent import View
 
 Float = NDArray[np.float64]

@@ -23,9 +23,9 @@ from mars2d.core.scene import (
     Polygon,
     Shape,
     Text,
-    arrow_outline,
     split_wake_style,
 )
+from mars2d.output.arrow import arrow_outline
 from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Rgba, rgba
 from mars2d.output.raster.camera import Camera

@@ -110,9 +110,7 @@ def _played(match: Match, limits: Limits, replays: bool) -> tuple[Played, Record
 
 def _record(experiment: Experiment, guard: Guard, seed: int) -> Record:
     """Return the record of a match, even if the failure of a guarded law ended it."""
-    guarded = Experiment(
-        guard.scenario, experiment.control, experiment.filename, options=experiment.options
-    )
+    guarded = Experiment(guard.scenario, experiment.control, experiment.source, experiment.options)
     try:
         return simulate(guarded, seed).record
     except LawError as error:

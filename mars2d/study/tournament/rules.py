@@ -93,7 +93,7 @@ class Rules:
     @classmethod
     def of(cls, experiment: Experiment, contest: Contest) -> Rules:
         """Return the rules of an experiment with a contest."""
-        scenario, path = experiment.scenario, experiment.path
+        scenario, path = experiment.scenario, experiment.source.path
         game = scenario.title if path is None else path.name
         if path is not None and examples().get(path.stem) == path:
             game = path.stem

@@ -85,7 +85,7 @@ def schedule(
         if tuple(role for role, _ in other.roles) != names:
             raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
     _check_names(plan.settings, names)
-    beside = None if opened.path is None else opened.path.parent
+    beside = None if opened.source.path is None else opened.source.path.parent
     taking_part = entrants(names, roles or {}, players or (), beside)
     pairings = list(pairings_of(taking_part))
     if not pairings:
@@ -93,7 +93,7 @@ def schedule(
     count = len(rounds) * len(pairings) * len(plan.seeds)
     if count > MAX_RUNS:
         raise InputError(f"these are {count:,} matches: {MAX_RUNS:,} at most")
-    named = str(experiment) if str(experiment) in examples() else str(opened.path)
+    named = str(experiment) if str(experiment) in examples() else str(opened.source.path)
     law_names = names_of(law for laws in taking_part.values() for law in laws)
     matches = tuple(
         Match(
@@ -114,7 +114,7 @@ def schedule(
         roles=names,
         settings=tuple(plan.settings),
         matches=matches,
-        files=opened.files,
+        files=frozenset(opened.source.written),
         rules=Rules.of(opened, contest),
     )
 
@@ -130,7 +130,7 @@ def trial_matches(
     names = tuple(name for name, _ in contest_of(opened.scenario, experiment).roles)
     if role not in names:
         raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
-    beside = None if opened.path is None else opened.path.parent
+    beside = None if opened.source.path is None else opened.source.path.parent
     files = _all_files(laws, beside)
     check_meant(role, files, names)
     each = itertools.product(files, range(TRIALS))

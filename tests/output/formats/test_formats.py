@@ -334,29 +334,6 @@ def test_a_table_whose_bodies_or_times_were_mixed_up_is_refused(change, tmp_path
     refused(path, "damaged")
 
 
-@each_case("suffix", FORMATS)
-def test_a_flipped_bit_is_refused_or_changes_nothing_that_is_read(suffix, tmp_path):
-    """What only other programs read, for example names of units, may change."""
-    path = everything().save(tmp_path / f"run{suffix}")
-    record = mars2d.load(path)
-    data, rng, loaded = path.read_bytes(), np.random.default_rng(7), 0
-    for _ in range(120):
-        flipped = bytearray(data)
-        flipped[rng.integers(len(data))] ^= 1 << int(rng.integers(8))
-        path.write_bytes(flipped)
-        try:
-            again = mars2d.load(path)
-        except InputError:
-            continue
-        loaded += 1
-        if again.over_message == record.over_message:  # a log is read as far as it is sound
-            assert again.digest == record.digest
-        assert (again.seed, again.scenario) == (record.seed, record.scenario)
-        assert again.versions == record.versions
-        assert again.sensor_robots == record.sensor_robots
-    assert loaded < 120
-
-
 # -- where it can't be written --------------------------------------------------------------
 
 
@@ -387,7 +364,7 @@ def small_disk(tmp_path) -> Iterator[Path]:
     subprocess.run(["umount", str(folder)], check=True)
 
 
-@each_format
+@pytest.mark.parametrize("suffix", FORMATS)
 def test_on_a_full_disk_it_says_so_and_the_file_before_stays(suffix, small_disk):
     path = small_disk / f"run{suffix}"
     path.write_bytes(b"before")
@@ -395,6 +372,7 @@ def test_on_a_full_disk_it_says_so_and_the_file_before_stays(suffix, small_disk)
         _large().save(path)
     assert [each.name for each in small_disk.iterdir()] == [path.name]
     assert path.read_bytes() == b"before"
+    path.unlink()
 
 
 def _large() -> mars2d.Record:

@@ -78,6 +78,9 @@ def test_a_client_sees_poses_scans_contacts_and_the_scene_as_they_are():
 
     with Live(0) as live:
         world = World(pushing(), watch=live)
+        while not len(world.contacts):  # then all topics are there before somebody asks for them
+            world.step([[0.3], [0.0]])
+        world.step([[0.3], [0.0]])
         client = Client(live.address)
         wanted = {"/poses", "/tf", "/scene", "/contacts", "/red/eye"}
 

@@ -69,7 +69,7 @@ def unclosed(name: str, path: Path, until: float = 8.0) -> Record:
     """Run an example with a log that is left as it was at the last step, as by kill -9."""
     log = Log(path)
     experiment = open_experiment(name, {"stop_time": until})
-    world = World(experiment.scenario, experiment.control, 1, filename=experiment.filename)
+    world = World(experiment.scenario, experiment.control, 1, filename=experiment.source.name)
     while not world.over:
         world.step()
         log.follow(world)
@@ -366,7 +366,7 @@ def test_a_world_that_one_steps_oneself_can_be_logged(tmp_path) -> None:
 def test_steps_that_were_not_followed_one_by_one_are_caught_up_with(tmp_path) -> None:
     experiment = open_experiment("many_push_one", {"stop_time": 6.0})
     with Log(tmp_path / "run.mcap") as log:
-        world = World(experiment.scenario, experiment.control, filename=experiment.filename)
+        world = World(experiment.scenario, experiment.control, filename=experiment.source.name)
         while not world.over:
             world.step()
             if world.iteration % 7 == 0:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mars2d import Holonomic, Robot, Scenario, World
-from mars2d.core.delay import DelayLine
+from mars2d.bodies.delay import DelayLine
 
 
 @given(
