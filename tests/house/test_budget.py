@@ -17,7 +17,7 @@ LINES = {
     "core": 2_975,
     "geometry": 2_033,
     "output": 15_790,
-    "physics": 8_167,
+    "physics": 8_158,
     "record": 1_573,
     "reports": 2_666,
     "rl": 776,
