@@ -11,10 +11,10 @@ ROOT = Path(__file__).parents[2]
 CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 
 LINES = {
-    "addons": 4_236,
+    "addons": 4_243,
     "bodies": 1_843,
     "cli": 3_496,
-    "core": 2_975,
+    "core": 2_956,
     "geometry": 2_033,
     "output": 15_790,
     "physics": 8_158,
@@ -27,7 +27,7 @@ LINES = {
     "testing": 1_372,
     "window": 15_204,
     "world": 3_814,
-    "tests": 68_710,
+    "tests": 68_212,
 }
 """Lines at most, by room of the package, and of all tests."""
 
