@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
 import pytest
 
@@ -36,10 +37,10 @@ def plot(folder, tmp_path, monkeypatch, capsys):
 
 
 @each_case("kind", KINDS)
-def test_each_kind_of_figure_is_drawn_and_its_file_named(plot, tmp_path, kind):
+def test_each_kind_of_figure_is_drawn_and_its_file_named(plot, kind):
     extra = ["--at", "0,2"] if kind == "snapshots" else []
     assert plot(kind, *extra) == (0, f"duel_{kind}.png")
-    assert (tmp_path / f"duel_{kind}.png").read_bytes().startswith(b"\x89PNG")
+    assert Path(f"duel_{kind}.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_without_a_kind_the_paths_are_drawn_and_no_file_is_overwritten(plot, tmp_path):
