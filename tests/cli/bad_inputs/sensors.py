@@ -81,7 +81,7 @@ CHECKED = [
 
 
 def _checked(name: str, code: str, *words: str) -> Case:
-    return typed(name, "mars2d check bad.py", "bad.py", "Mine", *words, bad__py=HEAD + code + "\n")
+    return typed(name, "mars2d check bad.py", "bad.py", *words, bad__py=HEAD + code + "\n")
 
 
 CASES = [
