@@ -13,6 +13,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.physics import settings
 from mars2d.physics.motion import Motion, Start
 from mars2d.physics.translation import iterations_of
 from mars2d.scenario.scenario import Scenario
@@ -26,7 +27,8 @@ class Engine(Motion):
     def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
         """Build all that moves or is touched; see `Motion`."""
         super().__init__(scenario, start)
-        self._depth_of_push = 0.15 * scenario.max_overlap * iterations_of(scenario)
+        depth = settings.PUSH_DEPTH * scenario.max_overlap  # of one iteration
+        self._depth_of_push = depth * iterations_of(scenario)
 
     def drive(self, twist: Float, duration: float, time: float) -> None:
         """Move all bodies for `duration` seconds under constant twists (3, n) of the robots.

@@ -27,7 +27,7 @@ LINES = {
     "testing": 1_372,
     "window": 15_204,
     "world": 3_814,
-    "tests": 68_213,
+    "tests": 68_218,
 }
 """Lines at most, by room of the package, and of all tests."""
 

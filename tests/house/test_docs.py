@@ -197,8 +197,8 @@ class Reader:
 
 
 SLOW = {
-    "README", "clusters", "commands", "communication", "contact", "figures", "information",
-    "own_sensor_and_addon", "sensing", "speed", "studies", "tournaments",
+    "README", "clusters", "commands", "communication", "contact", "editors", "figures",
+    "information", "laws", "own_sensor_and_addon", "sensing", "speed", "studies", "tournaments",
     "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "herding",
     "leader_following", "path_planning", "pursuit_corners", "pursuit_voronoi", "rendezvous",
     *(path.stem for path in PURSUIT),

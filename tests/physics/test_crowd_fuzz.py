@@ -359,6 +359,7 @@ def check(watch: Watch) -> None:
     assert watch.surplus <= 0
 
 
+@pytest.mark.slow
 @each_case(("mix", "mass_ratio", "sampling_time"), RUNS)
 def test_in_a_crowd_of_many_shapes_nothing_overlaps_by_a_millimetre(mix, mass_ratio, sampling_time):
     ties = mass_ratio == 1

@@ -608,6 +608,7 @@ def _rotation_center(robot: Robot) -> tuple[float, float, float]:
     return x + robot.center_offset * np.cos(theta), y + robot.center_offset * np.sin(theta), theta
 
 
+@pytest.mark.slow
 @each_case("restitution", [0, 0.5, 1])
 @each_case("mass_ratio", [1, 10])
 @each_case("sampling_time", [0.05, 0.5])

@@ -124,6 +124,7 @@ def velocity_after(prop: Prop, *addons: Map, image: Image = (0.0, 1), time: floa
 # -- what is straight -------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @each_case("name", STRAIGHT)
 @each_case("image", IMAGES)
 def test_sixty_throws_go_on_as_on_one_wall(name, image):

@@ -459,6 +459,7 @@ def impulses_of(world: World, ticks: int) -> tuple[np.ndarray, np.ndarray]:
     return change, told
 
 
+@pytest.mark.slow
 @each_case("seed", range(4))
 @each_case("restitution", [0.0, 0.7071, 1.0])
 def test_in_crowds_between_walls_they_add_up_to_the_last_digits(seed, restitution):

@@ -402,9 +402,7 @@ class Solver:
         self.forget(h)
         tie: Tie
         for tie in self.ties:
-            if (
-                tie.is_rope
-            ):  # what a rope that is too long draws in fast would go on, and slacken it
+            if tie.is_rope:  # what one that is too long draws in fast would go on, and slacken it
                 rope: Held = tie.joints[0]
                 chipmunk.set_max_bias(rope.handle, tie.turn * h)
             tie.hits = tie.is_rope and tie.slack > 0.0

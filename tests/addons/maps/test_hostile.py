@@ -557,6 +557,7 @@ SLOW = {
 # -- all of them -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @each_case("expected, maker", [(expected, maker) for _, expected, maker in CASES])
 def test_a_bad_file_is_refused_in_one_line_that_names_it(expected, maker, tmp_path):
     path = maker(tmp_path)
