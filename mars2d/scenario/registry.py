@@ -109,7 +109,9 @@ def _load(family: str, entry: EntryPoint) -> Plugin:
     problem = ""
     try:
         kind = entry.load()
-    except Exception as error:  # raised by the other package's code
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # raised by the other package's code
         problem = f"{entry.value} can't be loaded: {described(error)}"
         return Plugin(family, entry.name, package, version, problem=problem)
     if not (isinstance(kind, type) and issubclass(kind, base)):

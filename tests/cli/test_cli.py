@@ -601,7 +601,7 @@ def display():
 @pytest.mark.slow
 @each_case("closes, made", [("on_stop", 3), ("on_step", 0)])
 def test_checks_are_made_once_a_window_closes_if_the_run_came_to_its_end(
-    roll, tmp_path, display, closes, made
+    roll, display, closes, made
 ):
     text = ROLL.replace("stop_time=2", "stop_time=2, addons=[Closer()]").replace(
         "\nscenario",
@@ -611,7 +611,7 @@ def test_checks_are_made_once_a_window_closes_if_the_run_came_to_its_end(
         "            pygame.event.post(pygame.event.Event(pygame.QUIT))\n\nscenario",
     )
     roll.write_text(text)
-    done = mars("run", "roll.py", "--json", "--speed", 2, cwd=tmp_path, DISPLAY=display)
+    done = mars("run", "roll.py", "--json", "--speed", 2, cwd=roll.parent, DISPLAY=display)
     assert done.returncode == 0, done.stderr
     outcome = json.loads(done.stdout.splitlines()[-1])
     assert outcome["over"] is (made > 0)

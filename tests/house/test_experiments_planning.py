@@ -11,14 +11,14 @@ import shapely
 from scipy.optimize import brentq, minimize
 
 from mars2d.addons import Map
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import examples, examples_folder
 from mars2d.scenario.experiment import open_experiment, open_module
 from tests.worlds import failing, predicted
 
 pytestmark = pytest.mark.slow
 
 FLOOR = examples()["path_planning"].with_name("maps") / "department.dxf"
-SOLUTIONS = FLOOR.parents[1] / "solutions"
+SOLUTIONS = examples_folder() / "solutions"
 
 
 @pytest.fixture(scope="module")

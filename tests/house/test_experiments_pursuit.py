@@ -9,6 +9,7 @@ import pytest
 import mars2d
 from mars2d.core.errors import LawError
 from mars2d.geometry.voronoi import Tessellation
+from mars2d.scenario.examples import examples_folder
 from mars2d.scenario.experiment import open_experiment
 
 pytestmark = pytest.mark.slow
@@ -184,9 +185,7 @@ def test_without_fear_the_sheep_stay_where_they_are():
 
 @pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])
 def test_the_model_answers_do_what_they_say(name):
-    _, outcome, predictions = played(
-        f"{mars2d.scenario.examples.examples_folder()}/solutions/{name}.py"
-    )
+    _, outcome, predictions = played(f"{examples_folder()}/solutions/{name}.py")
     assert all(p.ok for p in predictions)
     if outcome:
         before = played(name)[1]
