@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
-from functools import lru_cache
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.drives.base import Drive
-from mars2d.bodies.rigid import Rigid
-from mars2d.core.arithmetic import norms
+from mars2d.core.arithmetic import norm
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError, counted
-from mars2d.core.plane import Outline, lines_and_areas, outside_polygon
 from mars2d.scenario.scenario import Scenario
-from mars2d.scenario.starts import footprint
+from mars2d.scenario.starts import check_in_workspace, check_off_walls, cut_by, depth
 
 Float = NDArray[np.float64]
 
@@ -165,52 +162,29 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
         rigid._replace(pose=tuple(pose))
         for rigid, pose in zip(scenario.bodies, poses.T.tolist(), strict=True)
     ]
-    here = bodies[body]
-    if body < len(scenario.robots) and scenario.workspace and scenario.on_exit != "ignore":
-        x, y, _ = np.array([here.pose]).T
-        if outside_polygon(x, y, np.array(scenario.workspace))[0]:
-            return "be outside of the workspace"
+    here, overlap = bodies[body], scenario.max_overlap
+    area = None if scenario.on_exit == "ignore" else scenario.workspace
+    if area and body < len(scenario.robots) and _refused(check_in_workspace, [here], area):
+        return "be outside of the workspace"
     if scenario.physics == "ideal":
         return ""
-    allowed = min(scenario.max_overlap, min(rigid.shape.thickness for rigid in bodies) / 8)
-    core = _core(here, allowed)
-    if scenario.on_exit == "wall" and scenario.workspace:
-        import shapely
-
-        if not shapely.Polygon(scenario.workspace).contains(core):
-            return "be in the workspace's wall"
-    found = _tree(scenario.obstacles).query(core, "intersects") if scenario.obstacles else ()
-    if len(found):
-        return f"be in obstacle {min(found)}"
-    for k in _near(bodies, body):
-        pair = (min(k, body), max(k, body))
-        if pair not in scenario.joined and core.intersects(_core(bodies[k], 0.0)):
-            return f"overlap {bodies[k].name}"
+    if area and scenario.on_exit == "wall" and _refused(check_off_walls, [here], area, overlap):
+        return "be in the workspace's wall"
+    for k in cut_by(here, scenario.obstacles, overlap):
+        return f"be in obstacle {k}"
+    (cx, cy), radius = here.bound
+    for k, other in enumerate(bodies):
+        (x, y), reach = other.bound
+        if k == body or norm(x - cx, y - cy) >= reach + radius:
+            continue
+        if (min(k, body), max(k, body)) not in scenario.joined and depth(here, other, overlap):
+            return f"overlap {other.name}"
     return ""
 
 
-def _near(bodies: list[Rigid], body: int) -> list[int]:
-    """Return the other bodies that may touch a body, the nearest first."""
-    centers = np.array([rigid.bound[0] for rigid in bodies])
-    radii = np.array([rigid.bound[1] for rigid in bodies])
-    gaps = norms(*(centers - centers[body]).T) - radii - radii[body]
-    gaps[body] = np.inf
-    return [int(k) for k in np.argsort(gaps) if gaps[k] < 0]
-
-
-def _core(body: Rigid, less: float) -> Any:
-    """Return the ground that a body covers, less a rim of `less` metres."""
-    import shapely
-
-    if body.is_disc:
-        center, radius = body.bound
-        return shapely.Point(center).buffer(radius - less, quad_segs=64)
-    ground = footprint(body)
-    return ground.buffer(-less, join_style="mitre") if less else ground
-
-
-@lru_cache(maxsize=4)
-def _tree(outlines: tuple[Outline, ...]) -> Any:
-    import shapely
-
-    return shapely.STRtree(lines_and_areas(outlines))
+def _refused(check: Callable[..., None], *given: Any) -> bool:
+    try:
+        check(*given)
+    except InputError:
+        return True
+    return False

@@ -16,14 +16,7 @@ from warnings import catch_warnings, simplefilter
 
 from mars2d.core import checks
 from mars2d.core.description import wrong
-from mars2d.core.errors import (
-    InputError,
-    LawError,
-    Mars2dError,
-    likely,
-    nearest,
-    shown,
-)
+from mars2d.core.errors import InputError, LawError, Mars2dError, likely, nearest, shown
 from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
 from mars2d.core.usercode import called, quiet

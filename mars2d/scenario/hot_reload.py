@@ -9,13 +9,7 @@ from typing import Any
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import Description
 from mars2d.core.usercode import name_of
-from mars2d.scenario.changes import (
-    FREE,
-    FREE_OF_BODIES,
-    FREE_OF_JOINTS,
-    FREE_OF_ROBOTS,
-    check_same,
-)
+from mars2d.scenario.changes import FREE, FREE_OF_BODIES, FREE_OF_JOINTS, FREE_OF_ROBOTS, check_same
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
