@@ -162,7 +162,7 @@ class Experiment:
 
     def _with_laws(self, settings: Mapping[str, Any]) -> Experiment:
         """Return the experiment with other values of its laws' arguments."""
-        control, *own = law_parameters.with_settings(self._laws, settings)
+        control, *own = law_parameters.laws_with(self._laws, settings)
         robots = zip(self.scenario.robots, own, strict=True)
         scenario = self.scenario.replace(robots=[r.replace(controller=law) for r, law in robots])
         return dataclasses.replace(self, scenario=scenario, control=control)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
@@ -11,71 +10,56 @@ from typing import Any
 
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.usercode import name_of
-from mars2d.scenario.parameters import Argument, Parameter, arguments_of, is_number
+from mars2d.scenario.parameters import Argument, Parameter, arguments_of, is_number, signature_of
 
 Law = Callable[[Any], Any]
 
 PREFIX = "laws."
 """The beginning of the names of laws' parameters: ``laws.follow.gain``."""
 
-ANY = Argument()
-"""An argument of which nothing is known."""
 
+class _Numbers:
+    """The numbers that can be set in a law, by name; none in an object or a compiled function."""
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class _Bound:
-    """A law as the function that it calls, with the arguments that are given.
+    def __init__(self, law: Law | None) -> None:
+        self.values: dict[str, float] = {}
+        self._law = law if isinstance(law, partial) else partial(law or print)
+        function = self._law.func
+        if law is None or not inspect.isroutine(function) or not (takes := signature_of(function)):
+            return
+        given = inspect.signature(function).bind_partial(*self._law.args, **self._law.keywords)
+        self._places = [*given.arguments][: len(given.args)]
+        self._arguments = arguments_of(function)
+        found: dict[str, Any] = {name: each.default for name, each in self._arguments.items()}
+        found |= {**given.arguments, **given.kwargs}
+        subject = next((name for name in takes if name not in given.arguments), "")
+        self.values = {k: v for k, v in found.items() if is_number(v) and k != subject}
 
-    subject: the name of the argument that is the robot or the world.
-    """
+    def argument(self, name: str) -> Argument:
+        """Return what is known of an argument."""
+        return self._arguments.get(name, Argument())
 
-    function: Callable[..., Any]
-    args: tuple[Any, ...]
-    keywords: Mapping[str, Any]
-    places: Sequence[str]
-    arguments: Mapping[str, Argument]
-    subject: str
-
-    @classmethod
-    def of(cls, law: Law) -> _Bound | None:
-        """Return a law's function and arguments; None for an object, or a compiled function."""
-        function = law.func if isinstance(law, partial) else law
-        args = law.args if isinstance(law, partial) else ()
-        keywords = law.keywords if isinstance(law, partial) else {}
-        if not inspect.isroutine(function):
-            return None
-        try:
-            signature = inspect.signature(function).parameters
-        except (TypeError, ValueError):
-            return None
-        positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
-        places = [name for name, each in signature.items() if each.kind in positional]
-        free = [name for name in places[len(args) :] if name not in keywords]
-        return cls(function, args, keywords, places, arguments_of(function), next(iter(free), ""))
-
-    @property
-    def values(self) -> dict[str, float]:
-        """The numbers that can be set, by name."""
-        found: dict[str, Any] = {name: each.default for name, each in self.arguments.items()}
-        found |= {**dict(zip(self.places, self.args, strict=False)), **self.keywords}
-        return {k: v for k, v in found.items() if is_number(v) and k != self.subject}
-
-    def set(self, name: str, value: Any) -> Law:
+    def law_with(self, name: str, value: Any) -> Law:
         """Return the law with another value of an argument."""
-        place = self.places.index(name) if name in self.places else len(self.args)
-        if place < len(self.args):
-            args = (*self.args[:place], value, *self.args[place + 1 :])
-            return partial(self.function, *args, **self.keywords)
-        return partial(self.function, *self.args, **{**self.keywords, name: value})
+        args, keywords = list(self._law.args), self._law.keywords
+        if name not in self._places:
+            return partial(self._law.func, *args, **{**keywords, name: value})
+        args[self._places.index(name)] = value
+        return partial(self._law.func, *args, **keywords)
 
 
-def _key(law: Law, team: Law | None) -> str:
-    """Return the name of a law in settings: its function's, or its file's for another `control`."""
-    name = name_of(law)
-    code = getattr(law.func if isinstance(law, partial) else law, "__code__", None)
-    if name == "control" and law is not team and code is not None:
-        return Path(code.co_filename).stem
-    return name
+def _named(laws: Sequence[Law | None]) -> Iterator[tuple[dict[str, str], _Numbers]]:
+    """Yield the numbers of each law, and their names by those of the options that set them.
+
+    A law `control` that is not the team's is called as its file.
+    """
+    for law in laws:
+        name = "" if law is None else name_of(law)
+        code = getattr(law.func if isinstance(law, partial) else law, "__code__", None)
+        if name == "control" and law is not laws[0] and code is not None:
+            name = Path(code.co_filename).stem
+        found = _Numbers(law)
+        yield {f"{PREFIX}{name}.{each}": each for each in found.values}, found
 
 
 def same(law: Law | None, other: Law | None) -> bool:
@@ -83,20 +67,15 @@ def same(law: Law | None, other: Law | None) -> bool:
 
     Only for functions and partials can that be told, without variables of an outer function.
     """
-    if law is other:
-        return True
-    one, two = (None if each is None else _Bound.of(each) for each in (law, other))
-    if one is None or two is None:
-        return False
-    codes = [getattr(each.function, "__code__", None) for each in (one, two)]
-    closed = any(getattr(each.function, "__closure__", None) for each in (one, two))
-    plain = all(map(_is_plain, [*one.args, *one.keywords.values()]))
-    given = (one.args, one.keywords) == (two.args, two.keywords) if plain else False
-    return codes[0] is not None and codes[0] == codes[1] and not closed and given
-
-
-def _is_plain(value: object) -> bool:
-    return value is None or isinstance(value, (bool, int, float, str))
+    if law is other or law is None or other is None:
+        return law is other
+    one, two = (each if isinstance(each, partial) else partial(each) for each in (law, other))
+    codes = [getattr(each.func, "__code__", None) for each in (one, two)]
+    closed = any(getattr(each.func, "__closure__", None) for each in (one, two))
+    given = [*one.args, *one.keywords.values()]
+    plain = all(each is None or isinstance(each, (bool, int, float, str)) for each in given)
+    alike = codes[0] is not None and codes[0] == codes[1] and not closed and plain
+    return alike and (one.args, one.keywords) == (two.args, two.keywords)
 
 
 def of_laws(laws: Sequence[Law | None], plain: Sequence[Law | None]) -> Iterator[Parameter]:
@@ -106,43 +85,32 @@ def of_laws(laws: Sequence[Law | None], plain: Sequence[Law | None]) -> Iterator
     no one value, and are left out.
     """
     found: dict[str, tuple[Argument, set[float], set[float]]] = {}
-    for law, usual in zip(laws, plain, strict=True):
-        bound, before = (None if each is None else _Bound.of(each) for each in (law, usual))
-        if law is None or bound is None:
-            continue
-        defaults = {} if before is None else before.values
-        for name, value in bound.values.items():
-            setting = f"{PREFIX}{_key(law, laws[0])}.{name}"
-            argument = bound.arguments.get(name, ANY)
-            _, values, usuals = found.setdefault(setting, (argument, set(), set()))
-            values.add(value)
-            usuals.add(defaults.get(name, value))
-    for setting, (argument, values, usuals) in found.items():
+    for (names, law), before in zip(_named(laws), map(_Numbers, plain), strict=True):
+        for option, name in names.items():
+            _, values, usuals = found.setdefault(option, (law.argument(name), set(), set()))
+            values.add(law.values[name])
+            usuals.add(before.values.get(name, law.values[name]))
+    for option, (argument, values, usuals) in found.items():
         if len(values) == len(usuals) == 1:
-            yield Parameter.of(setting, values.pop(), argument, usuals.pop())
+            yield Parameter.of(option, values.pop(), argument, usuals.pop())
 
 
-def with_settings(laws: Sequence[Law | None], settings: Mapping[str, Any]) -> list[Law | None]:
+def laws_with(laws: Sequence[Law | None], options: Mapping[str, Any]) -> list[Law | None]:
     """Return laws with other values of their arguments; that of the team is the first.
 
-    settings: by names such as ``laws.follow.gain``. Robots that share a law share the new one.
+    options: by names such as ``laws.follow.gain``. Robots that share a law share the new one.
     Raises InputError for names that no law has, and values beyond a Range.
     """
     made: dict[tuple[int, str], Law] = {}
-    for setting, value in settings.items():
-        known: list[str] = []
-        changed = list(laws)
-        for i, law in enumerate(laws):
-            bound = None if law is None else _Bound.of(law)
-            if law is None or bound is None:
-                continue
-            names = {f"{PREFIX}{_key(law, laws[0])}.{name}": name for name in bound.values}
+    for option, value in options.items():
+        changed, known = list(laws), list[str]()
+        for i, (names, law) in enumerate(_named(laws)):
             known += names
-            if setting in names:
-                name = names[setting]
-                bound.arguments.get(name, ANY).check(setting, value)
-                changed[i] = made.setdefault((id(law), setting), bound.set(name, value))
-        if setting not in known:
-            raise InputError(f"there is no option {setting!r}{nearest(setting, known)}")
+            if option in names:
+                name = names[option]
+                law.argument(name).check(option, value)
+                changed[i] = made.setdefault((id(laws[i]), option), law.law_with(name, value))
+        if option not in known:
+            raise InputError(f"there is no option {option!r}{nearest(option, known)}")
         laws = changed
     return list(laws)

@@ -8,7 +8,7 @@ import numbers
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from math import floor, isfinite, log10
-from typing import Annotated, Any, get_origin, get_type_hints
+from typing import Annotated, Any, get_origin
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import Description, number, real, text, wrong
@@ -65,12 +65,12 @@ class Argument:
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             usual = "" if self.default is None else f"; its default is {self.default}"
             raise wrong(name, value, f"a number{usual}")
-        if self.whole and self.bounds is not None and not isinstance(value, numbers.Integral):
-            raise wrong(
-                name, value, f"a whole number from {self.bounds.low:g} to {self.bounds.high:g}"
-            )
-        if self.bounds is not None:
-            self.bounds.check(name, value)
+        if self.bounds is None:
+            return
+        if self.whole and not isinstance(value, numbers.Integral):
+            low, high = self.bounds.low, self.bounds.high
+            raise wrong(name, value, f"a whole number from {low:g} to {high:g}")
+        self.bounds.check(name, value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,13 +127,15 @@ def arguments_of(function: Callable[..., Any]) -> dict[str, Argument]:
     Raises InputError for a Range in an annotation that can't be read, and for a default beyond it.
     """
     found = {}
-    for name, parameter in _signature(function).items():
-        default = parameter.default
-        bounds, kind = _annotation(function, name, parameter.annotation)
+    for name, argument in signature_of(function).items():
+        default, kind, bounds = argument.default, argument.annotation, None
+        if get_origin(kind) is Annotated:
+            bounds = next((each for each in kind.__metadata__ if isinstance(each, Range)), None)
+            kind = kind.__origin__
         if is_number(default):
             if bounds is not None:
                 bounds.check(f"the default of {_of(function, name)}", default)
-            whole = isinstance(default, numbers.Integral) and kind in (int, inspect.Parameter.empty)
+            whole = isinstance(default, numbers.Integral) and kind in (int, argument.empty)
             found[name] = Argument(default, whole, bounds)
         elif bounds is not None:
             found[name] = Argument(None, kind is int, bounds)
@@ -151,39 +153,26 @@ def _of(function: Callable[..., Any], name: str) -> str:
     return f"{getattr(function, '__name__', 'scenario')}({name})"
 
 
-def _signature(function: Callable[..., Any]) -> Mapping[str, inspect.Parameter]:
+def signature_of(function: Callable[..., Any]) -> dict[str, inspect.Parameter]:
+    """Return the parameters of a function, none of a compiled one; those in quotes are evaluated.
+
+    Raises InputError for a Range that can't be read; other annotations are the user's business.
+    """
     try:
-        return inspect.signature(function).parameters
-    except (TypeError, ValueError):  # of a compiled function
+        found = dict(inspect.signature(function).parameters)
+    except (TypeError, ValueError):
         return {}
-
-
-def _annotation(
-    function: Callable[..., Any], name: str, annotation: Any
-) -> tuple[Range | None, object]:
-    """Return the Range in an annotation, or None, and the kind of value that it states."""
-    if isinstance(annotation, str):
-        try:
-            annotation = _meant(annotation, getattr(function, "__globals__", {}))
-        except Exception as error:
-            if "Range" not in annotation:
-                return None, None  # the annotations of others are none of our business
-            raise InputError(
-                f"{_of(function, name)}: its annotation can't be read: {described(error)}"
-            ) from error
-    if get_origin(annotation) is not Annotated:
-        return None, annotation
-    bounds = (each for each in annotation.__metadata__ if isinstance(each, Range))
-    return next(bounds, None), annotation.__origin__
-
-
-def _meant(annotation: str, names: dict[str, Any]) -> Any:
-    """Return the value of an annotation in quotes, where these names are known."""
-
-    def annotated() -> None: ...
-
-    annotated.__annotations__ = {"it": annotation}
-    return get_type_hints(annotated, names, include_extras=True)["it"]
+    for name, each in found.items():
+        if isinstance(each.annotation, str):
+            try:
+                kind = eval(each.annotation, getattr(function, "__globals__", {}))
+            except Exception as error:
+                if "Range" in each.annotation:
+                    problem = f"its annotation can't be read: {described(error)}"
+                    raise InputError(f"{_of(function, name)}: {problem}") from error
+                kind = None
+            found[name] = each.replace(annotation=kind)
+    return found
 
 
 def of_arguments(
@@ -211,8 +200,8 @@ def of_body(scenario: Scenario, plain: Scenario, body: int) -> Iterator[Paramete
     index = body - len(scenario.robots)
     family, index = ("robots", body) if index < 0 else ("props", index)
     key = str(index) if set(str(part.name)) & set(".*") else part.name
-    defaults = dict(_numbers_of(usual))
-    for name, value in _numbers_of(part):
+    defaults = {name: value for name, value, _ in _numbers_of(usual)}
+    for name, value, unit in _numbers_of(part):
         default = defaults.get(name, value)
         low, high = (0.0, 1.0) if name == "restitution" else (0.0, 2 * default)
         if "friction" in name:
@@ -220,26 +209,19 @@ def of_body(scenario: Scenario, plain: Scenario, body: int) -> Iterator[Paramete
         elif name != "restitution":
             low = high / STEPS  # they can't be 0
         bounds = min(low, value), max(high, value)
-        yield Parameter(f"{family}.{key}.{name}", value, default, *bounds, _unit_of(part, name))
+        yield Parameter(f"{family}.{key}.{name}", value, default, *bounds, unit)
 
 
-def _numbers_of(part: Robot | Prop) -> Iterator[tuple[str, float]]:
-    """Yield the fields of a body that sliders set, as far as they are numbers."""
-    yield "mass", part.inertia.mass
-    yield "friction", float(part.surface.friction)
-    yield "restitution", float(part.surface.restitution)
+def _numbers_of(part: Robot | Prop) -> Iterator[tuple[str, float, str]]:
+    """Yield name, value and unit of the fields of a body that sliders set, if they are numbers."""
+    units = {f.name: str(f.metadata.get("unit", "")) for f in dataclasses.fields(part)}
+    yield "mass", part.inertia.mass, units["mass"]
+    yield "friction", float(part.surface.friction), units["friction"]
+    yield "restitution", float(part.surface.restitution), units["restitution"]
     if isinstance(part, Prop):
-        yield "ground_friction", part.ground_friction
+        yield "ground_friction", part.ground_friction, units["ground_friction"]
         return
-    for field in dataclasses.fields(part.drive):
-        value = getattr(part.drive, field.name)
-        if (field.name.startswith("max_") or field.name in BOUNDS) and is_number(value):
-            yield f"drive.{field.name}", value
-
-
-def _unit_of(part: Robot | Prop, name: str) -> str:
-    """Return the unit of a field, such as ``mass`` or ``drive.max_force``."""
-    *within, last = name.split(".")
-    holder = part.drive if within and isinstance(part, Robot) else part
-    field = next(f for f in dataclasses.fields(holder) if f.name == last)
-    return str(field.metadata.get("unit", ""))
+    for f in dataclasses.fields(part.drive):
+        value = getattr(part.drive, f.name)
+        if (f.name.startswith("max_") or f.name in BOUNDS) and is_number(value):
+            yield f"drive.{f.name}", value, str(f.metadata.get("unit", ""))

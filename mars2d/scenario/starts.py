@@ -59,8 +59,8 @@ def check_off_obstacles(
     """Refuse bodies that start inside an obstacle, or cut into one."""
     for body in bodies:
         for k in cut_by(body, tuple(outlines), overlap):
-            solid = outside_polygon(*np.array([body.bound[0]]).T, np.array(outlines[k]))[0] == 0
-            solid = solid and len(outlines[k]) > 2
+            x, y = np.array([body.bound[0]]).T
+            solid = len(outlines[k]) > 2 and not outside_polygon(x, y, np.array(outlines[k]))[0]
             hint = " (if it is a room, draw it as walls of two points)" if solid else ""
             raise InputError(
                 f"{_pose(body)}: starts {'inside' if solid else 'in contact with'} obstacle {k}, "
