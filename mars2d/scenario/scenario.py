@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import copy
 import numbers
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import floor, pi
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -267,6 +267,14 @@ class Scenario(Description):
         found = copy.copy(self)  # whatever was checked holds for these starts as well
         found._start_at_random(self._lottery, seed)
         object.__setattr__(found, "random_starts", ())
+        return found
+
+    def with_laws(self, laws: Sequence[Callable[[Any], Any] | None]) -> Self:
+        """Return the scenario with these laws of its robots; nothing else is checked again."""
+        found, robots = copy.copy(self), [copy.copy(robot) for robot in self.robots]
+        for robot, law in zip(robots, laws, strict=True):
+            object.__setattr__(robot, "controller", law)
+        object.__setattr__(found, "robots", tuple(robots))
         return found
 
     @cached_property

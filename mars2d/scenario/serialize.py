@@ -223,9 +223,7 @@ def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
     Missing parts are replaced as by `to_scenario`.
     """
     kept, missing = to_scenario(from_description(scenario))
-    pairs = zip(kept.robots, scenario.robots, strict=True)
-    robots = [robot.replace(controller=original.controller) for robot, original in pairs]
-    return kept.replace(robots=robots), missing
+    return kept.with_laws([robot.controller for robot in scenario.robots]), missing
 
 
 def to_value(data: Any) -> Any:
