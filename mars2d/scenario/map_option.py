@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mars2d.addons.map import Map
 from mars2d.core import checks
@@ -23,51 +22,46 @@ def reading_options() -> list[str]:
     return [name for name in inspect.signature(Map.from_file).parameters if name != "path"]
 
 
-@dataclass(frozen=True)
-class MapOption:
+class MapOption(NamedTuple):
     """The option ``map``, with options for reading it such as ``map.unit``.
 
-    file: a file's name or a Map, None if it was not given. caller: a relative path is looked for
-    beside this file, then in the current folder.
+    file: a file's name or a Map, None if it was not given. reading: the options for reading it.
+    caller: a relative path is looked for beside this file, then in the current folder.
     """
 
     file: Any
-    settings: dict[str, Any]
+    reading: dict[str, Any]
     caller: Path
 
     @classmethod
     def popped(cls, options: dict[str, Any], caller: Path) -> MapOption | None:
         """Take the option out of others; None if it is not among them."""
         names = [name for name in options if str(name).partition(".")[0] == "map"]
-        if not names:
-            return None
         given = {name: options.pop(name) for name in names}
-        file = given.pop("map", None)
-        known = reading_options()
-        settings = {name.partition(".")[2]: value for name, value in given.items()}
-        for name in settings:
+        file, known = given.pop("map", None), [f"map.{name}" for name in reading_options()]
+        for name in given:
             if name not in known:
-                near = nearest(f"map.{name}", [f"map.{n}" for n in known])
-                raise InputError(f"there is no option 'map.{name}'{near}")
-        return cls(file, settings, caller)
+                raise InputError(f"there is no option {name!r}{nearest(name, known)}")
+        reading = {name.partition(".")[2]: value for name, value in given.items()}
+        return cls(file, reading, caller) if names else None
 
     def value_for(self, default: Any) -> Any:
         """Return the value of a scenario function's parameter `map`, instead of its default."""
-        file = default if self.file is None else self.file
-        return MapOption(file, self.settings, self.caller).map() if self.settings else file
+        found = self._replace(file=default if self.file is None else self.file)
+        return found.map() if self.reading else found.file
 
     def map(self) -> Map:
         """Return the map. Raises InputError if it can't be read."""
-        if isinstance(self.file, Map) and not self.settings:
+        if isinstance(self.file, Map) and not self.reading:
             return self.file
+        if self.file is None or isinstance(self.file, Map):
+            raise InputError(f"map.{next(iter(self.reading))} needs map=FILE as well")
         if not isinstance(self.file, (str, Path)):
-            if self.file is None or isinstance(self.file, Map):
-                raise InputError(f"map.{next(iter(self.settings))} needs map=FILE as well")
             raise wrong("map", self.file, "the name of a map's file, such as 'plan.dxf', or a Map")
         from mars2d.addons.maps import SUFFIXES
 
         file = file_beside(Path(self.file), self.caller, "a map", SUFFIXES)
-        return Map.from_file(file.absolute(), **self.settings)
+        return Map.from_file(file.absolute(), **self.reading)
 
     def override(self, scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
         """Return the scenario with the map instead of its own, and other options set.
@@ -75,7 +69,24 @@ class MapOption:
         A workspace that is the default one, or smaller than the map, becomes the rectangle around
         the map. Raises InputError, which names free room, if a body would stand in a wall.
         """
-        return _with_map(scenario, options, self.map())
+        chart, rest = self.map(), dict(options)
+        for name in reading_options():
+            if name in rest:  # as mars2d check has it
+                raise InputError(f"there is no option {name!r}; did you mean 'map.{name}'?")
+        workspace = _workspace_for(scenario, chart)
+        if "workspace" in rest:
+            workspace = checks.optional(checks.outline, 3)(
+                "Scenario.workspace", rest.pop("workspace")
+            )
+        own = next((addon for addon in scenario.addons if isinstance(addon, Map)), None)
+        if own is not None:  # keep its name and surface
+            chart = own.replace(outlines=chart.outlines, walls=chart.walls)
+        others = [addon for addon in scenario.addons if not isinstance(addon, Map)]
+        bare = override(scenario.replace(addons=others, workspace=None), rest)
+        try:
+            return bare.replace(addons=[*bare.addons, chart], workspace=workspace)
+        except InputError as error:
+            raise InputError(f"{error}{_room(bare, chart, workspace)}") from error
 
 
 MARGIN = 1.0
@@ -85,28 +96,6 @@ MAX_HINTS = 3
 """The number of bodies for which an error names free room."""
 
 DEFAULT_WORKSPACE = Scenario.__dataclass_fields__["workspace"].default
-
-
-def _with_map(scenario: Scenario, options: Mapping[str, Any], chart: Map) -> Scenario:
-    """Return the scenario with a map instead of its own, and the options set."""
-    rest = dict(options)
-    for name in reading_options():
-        if name in rest:  # as mars2d check has it
-            raise InputError(f"there is no option {name!r}; did you mean 'map.{name}'?")
-    workspace = _workspace_for(scenario, chart)
-    if "workspace" in rest:
-        workspace = rest.pop("workspace")
-        if workspace is not None:
-            workspace = checks.outline("Scenario.workspace", workspace, least=3)
-    own = next((addon for addon in scenario.addons if isinstance(addon, Map)), None)
-    if own is not None:  # keep its name and surface
-        chart = own.replace(outlines=chart.outlines, walls=chart.walls)
-    others = [addon for addon in scenario.addons if not isinstance(addon, Map)]
-    bare = override(scenario.replace(addons=others, workspace=None), rest)
-    try:
-        return bare.replace(addons=[*bare.addons, chart], workspace=workspace)
-    except InputError as error:
-        raise InputError(f"{error}{_room(bare, chart, workspace)}") from error
 
 
 def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:
@@ -126,8 +115,11 @@ def _room(scenario: Scenario, chart: Map, workspace: Outline | None) -> str:
 
     outlines = list(chart.obstacles())
     within = rectangle(*bounds_of([p for o in outlines for p in o]))
+    names = [
+        f"{kind}.{k}" for kind in ("robots", "props") for k in range(len(vars(scenario)[kind]))
+    ]
     hints: list[str] = []
-    for i, body in enumerate(scenario.bodies):
+    for name, body in zip(names, scenario.bodies, strict=True):
         center, radius = body.bound
         place = nearest_room(center, radius, outlines, workspace or within)
         if place is None:
@@ -136,12 +128,8 @@ def _room(scenario: Scenario, chart: Map, workspace: Outline | None) -> str:
             continue
         if len(hints) == MAX_HINTS:
             return f"; {', '.join(hints)}, and others have none where they stand"
-        place = nearest_room(center, radius, outlines, within) or place  # indoors first
-        x, y, theta = body.pose
-        x, y = x + place[0] - center[0], y + place[1] - center[1]
-        kind, k = ("robots", i) if i < len(scenario.robots) else ("props", i)
-        k -= 0 if kind == "robots" else len(scenario.robots)
-        hints.append(f"{body.name} has room at {kind}.{k}.pose=({x:.3f}, {y:.3f}, {theta:.4g})")
-        (x, y), r = place, radius
-        outlines.append(rectangle(x - r, x + r, y - r, y + r))  # not for the next one as well
+        x, y = nearest_room(center, radius, outlines, within) or place  # indoors first
+        outlines.append(rectangle(x - radius, x + radius, y - radius, y + radius))  # now taken
+        x, y = x + body.pose[0] - center[0], y + body.pose[1] - center[1]
+        hints.append(f"{body.name} has room at {name}.pose=({x:.3f}, {y:.3f}, {body.pose[2]:.4g})")
     return f"; {', '.join(hints)}" if hints else ""

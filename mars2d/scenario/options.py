@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import ast
-import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError, nearest, one_line, shown
@@ -30,48 +29,42 @@ def override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
     return scenario if not tree else _replaced(scenario, tree, ())
 
 
-class _Leaf:
+class _Leaf(NamedTuple):
     """The value that an option sets, at the end of its path."""
 
-    def __init__(self, value: Any) -> None:
-        self.value = value
+    value: Any
 
 
 def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
     """Return `target` with the fields of the tree set; ``*`` means all items of a list."""
+    option = ".".join(path)
     if isinstance(tree, _Leaf):
         if isinstance(target, Description) and isinstance(tree.value, str):
-            option = ".".join(path)
             raise InputError(
-                f"{option} = {tree.value!r}: a setting is a number, a word or a tuple; write "
+                f"{option} = {tree.value!r}: an option is a number, a word or a tuple; write "
                 f"{tree.value} in the file, or set single fields, such as {option}.FIELD=..."
             )
         return tree.value
+    first = ".".join((*path, next(iter(tree))))
     if isinstance(target, tuple):
         items = list(target)
         for part, branch in tree.items():
             if part == "*" and not items:
-                option = ".".join((*path, part))
-                raise InputError(f"there is no option {option!r}: this scenario has no {path[-1]}")
-            chosen = range(len(items)) if part == "*" else [_index(part, items, path)]
-            for i in chosen:
+                raise InputError(f"there is no option {first!r}: this scenario has no {path[-1]}")
+            for i in range(len(items)) if part == "*" else [_index(part, items, path)]:
                 items[i] = _replaced(items[i], branch, (*path, part))
         return tuple(items)
-    if isinstance(target, Description):
-        fields = [f.name for f in dataclasses.fields(target)]
-        for part in tree:
-            if part not in fields and part not in target.twins:
-                raise InputError(
-                    f"there is no option {'.'.join((*path, part))!r}: {type(target).__name__} has "
-                    f"no field {part!r}{target.meant(part)}"
-                )
-        changes = {
-            part: _replaced(getattr(target, part), branch, (*path, part))
-            for part, branch in tree.items()
-        }
-        return target.replace(**changes)
-    option = ".".join((*path, next(iter(tree))))
-    raise InputError(f"there is no option {option!r}: {shown(target)} has no fields")
+    if not isinstance(target, Description):
+        raise InputError(f"there is no option {first!r}: {shown(target)} has no fields")
+    changes = {}
+    for part, branch in tree.items():
+        if part not in target.__dataclass_fields__ and part not in target.twins:
+            raise InputError(
+                f"there is no option {'.'.join((*path, part))!r}: {type(target).__name__} has "
+                f"no field {part!r}{target.meant(part)}"
+            )
+        changes[part] = _replaced(getattr(target, part), branch, (*path, part))
+    return target.replace(**changes)
 
 
 def _index(text: str, items: Sequence[Any], path: tuple[str, ...]) -> int:
