@@ -15,7 +15,7 @@ from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
 from mars2d.scenario.law_reference import Reference, seen_from
 from mars2d.scenario.options import settings_in_words
-from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
+from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, plain, quoted
 from mars2d.scenario.registry import BASES
 from mars2d.scenario.scenario import Scenario
 
@@ -93,12 +93,8 @@ class _Lister:
             return self.law(value)
         if isinstance(value, Description):
             return self.call(value)
-        if isinstance(value, str):
-            return quoted(value)
-        if value is None or isinstance(value, bool):
-            return repr(value)
-        if isinstance(value, (int, float)):
-            return numeral(value)
+        if not isinstance(value, (list, tuple)):
+            return plain(value)
         items = [self._plain(item) for item in value]
         if items and all(isinstance(item, (int, float)) for item in value):  # a point, a pose
             return Brackets("(", items, ",)" if len(items) == 1 else ")", filled=True)

@@ -44,10 +44,8 @@ MARGIN = 1e-9
 @accepts({"type": "array", "items": {"type": "string"}})
 def _names(name: str, value: object) -> tuple[str, ...]:
     """Check a list of names, which may be empty."""
-    if isinstance(value, (tuple, list)) and not value:
-        return ()
-    found = checks.names(name, value, "names of robots and props, such as ['red', 'box0']")
-    return () if found is None else found
+    given = None if isinstance(value, (tuple, list)) and not value else value
+    return checks.names(name, given, "names of robots and props, such as ['red', 'box0']") or ()
 
 
 class RandomStarts(Description):
@@ -109,8 +107,8 @@ def groups_of(
         names = each.bodies or [body.name for body in bodies[:robots]]
         for name in names:
             if name not in known:
-                hint = nearest(name, known)
-                raise InputError(f"{where}: there is no robot or prop {name!r}{hint}")
+                near = nearest(name, known)
+                raise InputError(f"{where}: there is no robot or prop {name!r}{near}")
             if name in before:
                 raise InputError(f"{where}: {name!r} is in {before[name]} already")
             if name in joined:

@@ -321,8 +321,6 @@ WRONG = [
     ("\ngrid = True", "line 2: Invalid value: grid = True; TOML writes true, false"),
     ("\npose = (1, 2)", "line 2: Invalid value: pose = (1, 2); TOML writes true, false and [1, 2]"),
     ("\ntitle = 'a'\ntitle = 'b'", "scene.toml, line 3: Cannot overwrite a value: title = 'b'"),
-    ("\nstop_time = 1" + "0" * 5000, "scene.toml: a number has too many digits"),
-    ("\na = " + "[" * 5000, "lists and tables lie in each other too deeply"),
     ("\ntitel = 'x'", "line 2: Scenario has no field 'titel'; did you mean 'title'?"),
     ("\ncontroll = 'x'", "did you mean 'control'?"),
     ("\ntitle = 5", "scene.toml, line 2: Scenario.title = 5: expected text in quotes"),
@@ -399,10 +397,6 @@ WRONG = [
     (
         "\n[animation]\nwake = 'yes'",
         "line 3, animation: Animation.wake = 'yes': expected true or false",
-    ),
-    (
-        "\nprops = " + "[" + "'Box'," * 10_001 + "]",
-        "line 2: props: expected at most 10000, not 10001",
     ),
 ]
 
