@@ -73,10 +73,10 @@ class Policy:
             self.action = Action((float(a), float(b)), (float(c), float(d)))
             self.experiment, self.robot = str(given["experiment"]), str(given["robot"])
             self.observation = Observation.of_json(given["observation"])
-        except (ValueError, TypeError, KeyError):
-            self._refuse(f"has metadata {KEY!r} that can't be read{hint}")
         except InputError as error:
             self._refuse(str(error))
+        except (ValueError, TypeError, KeyError):
+            self._refuse(f"has metadata {KEY!r} that can't be read{hint}")
         (taken, *more), made = self._session.get_inputs(), self._session.get_outputs()[0]
         size = len(self.observation.low)
         if more or taken.type != "tensor(float)" or taken.shape[-1] != size:

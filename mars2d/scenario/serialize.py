@@ -241,9 +241,8 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         if shipped is not None:
             return shipped
     unread = ("type", "own", "from", "controller")
-    lost = next(
-        (v["function"] for k, v in value.items() if k not in unread and _is_function(v)), ""
-    )
+    read = {name: each for name, each in value.items() if name not in unread}
+    lost = next((each["function"] for each in read.values() if _is_function(each)), "")
     if lost and "own" not in value:
         missing.append(f"{value['type']}, with its function {lost}")
         return _LEFT_OUT
