@@ -40,7 +40,6 @@ def has_display() -> bool:
 def show(
     experiment: Experiment,
     speed: float | str | None,
-    seed: int,
     preferences: Preferences,
     humans: Sequence[int] = (),
     log: Log | None = None,
@@ -65,7 +64,6 @@ def show(
     return show_experiment(
         experiment,
         pace,
-        seed,
         watchers,
         preferences=preferences,
         humans=humans,
@@ -93,7 +91,6 @@ def speed_by_hand(scenario: Scenario, robots: Sequence[int] = ()) -> float:
 
 def run_headless(
     experiment: Experiment,
-    seed: int,
     watchers: Sequence[Watcher] = (),
     log: Log | None = None,
     speed: float | str = "max",
@@ -101,7 +98,7 @@ def run_headless(
     """Run to the end without a window, with a progress bar, and return the world."""
     progress = Progress(experiment.scenario.last_iteration)
     try:
-        return simulate(experiment, seed, speed, [*watchers, progress], log)
+        return simulate(experiment, speed, [*watchers, progress], log)
     finally:
         progress.close()
 

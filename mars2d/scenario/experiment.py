@@ -82,7 +82,7 @@ class Experiment:
         Raises InputError, as `open_experiment` does.
         """
         if self.opened is None:
-            return open_experiment(self.scenario, options, self.control)
+            return open_experiment(self.scenario, options, self.control, self.seed)
         return self.opened(options)
 
     def decides_as(self, other: Experiment) -> bool:

@@ -97,7 +97,7 @@ def probed(job: Job) -> Experiment:
 
     def probe() -> Experiment:
         experiment = opened(job)
-        open_world(experiment, job.seed)
+        open_world(experiment)
         return experiment
 
     return _within(job.time_limit, probe)

@@ -41,13 +41,13 @@ def recorded(
     folder: where the record is kept from then on; if empty, it is not.
     """
     if not folder:
-        return simulate(experiment, seed).record
+        return simulate(experiment).record
     file = kept_as(code_of_run(experiment), options, seed, folder)
     if file.is_file():
         try:
             return dataclasses.replace(load(file), scenario=experiment.scenario)
         except InputError:
             file.unlink()  # it is broken: the run is made again
-    record = simulate(experiment, seed).record
+    record = simulate(experiment).record
     record.save(file)
     return record

@@ -65,9 +65,9 @@ def run(
             if driven or _wants_window(speed, show):
                 from mars2d.window.show import show_experiment
 
-                result = show_experiment(opened, speed, seed, watchers, humans=driven, log=log)
+                result = show_experiment(opened, speed, watchers, humans=driven, log=log)
             else:
-                result = simulate(opened, seed, speed, watchers, log).record
+                result = simulate(opened, speed, watchers, log).record
         except (Mars2dError, Interrupted) as error:
             if target is not None and error.record is not None:
                 _keep(error, error.record, target, log)

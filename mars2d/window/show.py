@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 def show_experiment(
     experiment: Experiment,
     speed: float | str,
-    seed: int = 0,
     watchers: Sequence[Watcher] = (),
     preferences: Preferences | None = None,
     humans: Sequence[int] = (),
@@ -59,7 +58,7 @@ def show_experiment(
     source: Timeline | None = None
     kept = interrupts(kept=lambda: None if source is None else source.record)
     with kept, log or nullcontext():
-        source = Timeline(experiment, seed, watchers, log)
+        source = Timeline(experiment, watchers, log)
         memory = Memory()
         window = Window(source, speed, memory.size, preferences or memory.preferences())
         window.dock.open(memory.panels)
@@ -68,7 +67,7 @@ def show_experiment(
             window.viewpoint.look_as(viewpoint)
         drivers = list(humans) or _to_be_driven(experiment)
         if drivers or play:
-            known = game_of(experiment, {**(settings or {}), **_seeded(seed)})
+            known = game_of(experiment, {**(settings or {}), **_seeded(experiment)})
             window.play(memory, known, drivers[:MOST_PEOPLE])
         else:
             window.say_who_stands_still()
@@ -112,15 +111,14 @@ def _to_be_driven(experiment: Experiment) -> list[int]:
     return [i for i, robot in enumerate(robots) if isinstance(robot.controller, ByHand)]
 
 
-def _seeded(seed: int) -> dict[str, int]:
-    """Return the seed as a setting: another one may begin elsewhere."""
-    return {"seed": seed} if seed else {}
+def _seeded(experiment: Experiment) -> dict[str, int]:
+    """Return the seed as an option: another one may begin elsewhere."""
+    return {"seed": experiment.seed} if experiment.seed else {}
 
 
 def show_comparison(
     opened: Callable[[str], Experiment],
     speed: float | str,
-    seed: int = 0,
     preferences: Preferences | None = None,
 ) -> dict[str, Record]:
     """Run an experiment with each physics, side by side in a window until it is closed.
@@ -133,7 +131,7 @@ def show_comparison(
     from mars2d.window.memory import Memory
     from mars2d.window.trio import Trio
 
-    memory, trio = Memory(), Trio(opened, seed)
+    memory, trio = Memory(), Trio(opened)
     CompareWindow(trio, speed, memory.size, preferences or memory.preferences()).run()
     return trio.records
 

@@ -47,7 +47,6 @@ class RealTime:
 
 def simulate(
     experiment: Experiment,
-    seed: int = 0,
     speed: float | str = "max",
     watchers: Sequence[Watcher] = (),
     log: Log | None = None,
@@ -69,7 +68,7 @@ def simulate(
     try:
         noted = interrupts(kept=lambda: None if world is None else world.record)
         with noted as check, log or nullcontext(), deadline:
-            world = open_world(experiment, seed, every, Column if log is None else log.storage)
+            world = open_world(experiment, every, Column if log is None else log.storage)
             try:
                 while not world.over:
                     world.step()
@@ -97,7 +96,7 @@ def simulate(
 
 
 def open_world(
-    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = (), storage: Storage = Column
+    experiment: Experiment, watchers: Sequence[Watcher] = (), storage: Storage = Column
 ) -> World:
     """Return the world of an experiment, which calls the watchers at each control step.
 
@@ -107,7 +106,7 @@ def open_world(
         return World(
             experiment.scenario,
             experiment.control,
-            seed,
+            experiment.seed or 0,
             filename=experiment.source.name,
             watch=watch_by(watchers),
             storage=storage,

@@ -58,8 +58,8 @@ class Past:
     it did before, else empty.
     """
 
-    def __init__(self, experiment: Experiment, seed: int) -> None:
-        self._experiment, self._seed = experiment, seed
+    def __init__(self, experiment: Experiment) -> None:
+        self._experiment = experiment
         self._start, self._options = experiment.scenario, experiment.options
         self.waiting: list[World] = []
         self.driven: set[int] = set()
@@ -69,7 +69,7 @@ class Past:
 
     def with_laws_of(self, experiment: Experiment) -> Past:
         """Return the past of the same run, in which no world waits, for laws read again."""
-        past = Past(experiment, self._seed)
+        past = Past(experiment)
         past._start, past._options, past.driven = self._start, self._options, self.driven
         past._cost, past._opening = self._cost, self._opening
         return past
@@ -149,7 +149,7 @@ class Past:
         """Return a world at the start of this run, with the laws of an experiment read again."""
         scenario = carried(experiment.scenario, self._start)
         begun = replace(experiment, scenario=scenario, options=self._options)
-        return open_world(begun, self._seed)
+        return open_world(begun)
 
     def _open(self) -> World:
         """Let another world wait at the start, in place of another if there are many."""

@@ -49,7 +49,7 @@ class Timeline:
     outside of the world, such as writing a file, are. So no world is made before somebody has gone
     back for the first time.
 
-    experiment: its laws, as its file was last read, and its scenario. seed: of all random streams.
+    experiment: its laws, as its file was last read, and its scenario.
     watchers: called at each control step. log: writes each row of the present branch to a file.
 
     world: at the newest row. row: the present one. branches: the worlds of the other branches, the
@@ -69,11 +69,9 @@ class Timeline:
     def __init__(
         self,
         experiment: Experiment,
-        seed: int = 0,
         watchers: Sequence[Watcher] = (),
         log: Log | None = None,
     ) -> None:
-        self._seed = seed
         self._log = log
         self._watchers = watchers
         self._earlier: list[dict[str, Any]] = []  # runs in which hands did something
@@ -95,9 +93,9 @@ class Timeline:
 
     def _begin(self, experiment: Experiment) -> None:
         """Build the world of an experiment whose laws have not been asked yet."""
-        self.world = open_world(experiment, self._seed, self._watchers)
+        self.world = open_world(experiment, self._watchers)
         self.experiment = experiment
-        self._past = Past(experiment, self._seed)
+        self._past = Past(experiment)
         self.branches = []
         self.row = 0
         self.remark = ""

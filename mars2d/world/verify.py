@@ -20,6 +20,7 @@ from mars2d.record.interventions import Change, Intervention, Steer
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import MOVING
+from mars2d.world.loop import open_world
 from mars2d.world.record import Record
 from mars2d.world.world import World
 
@@ -94,7 +95,7 @@ def ask_again(
             f"record: {first[1] or 'none'} instead of {first[0] or 'none'}"
         )
     scenario = _as_long(experiment.scenario, record)
-    world = World(scenario, experiment.control, record.seed, filename=experiment.source.name)
+    world = open_world(replace(experiment, scenario=scenario, seed=record.seed))
     by_hand = dict.fromkeys(range(len(scenario.robots)), False)
     found: list[Departure] = []
 

@@ -908,8 +908,8 @@ def test_figures_show_messages():
 
 
 def run(name: str, seed: int = 0, **options):
-    experiment = open_experiment(name, options)
-    record = simulate(experiment, seed).record
+    experiment = open_experiment(name, options, seed=seed)
+    record = simulate(experiment).record
     return {p.name: p for p in experiment.source.checks(record)}, record
 
 

@@ -112,7 +112,7 @@ def test_its_commands_given_again(record):
 
 
 def test_a_timeline_in_which_somebody_goes_back_and_on(digest):
-    timeline = Timeline(open_experiment(BUSTLE, seed=SEED), SEED)
+    timeline = Timeline(open_experiment(BUSTLE, seed=SEED))
     while timeline.newest < 10:
         timeline.advance()
     for row in (2, 9, 0):
@@ -185,7 +185,7 @@ def test_a_window_in_which_somebody_pauses_goes_back_and_changes_the_speed(
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     monkeypatch.setattr(display, "NOT_REAL", ())  # it will do: nobody looks
     monkeypatch.chdir(tmp_path)
-    timeline = Timeline(open_experiment(BUSTLE, seed=SEED), SEED)
+    timeline = Timeline(open_experiment(BUSTLE, seed=SEED))
     window = Window(timeline, 1.0, size=(400, 300))
     person = Person(window, timeline)
     person.thread.start()

@@ -83,7 +83,7 @@ def test_an_experiment_that_is_opened_again_keeps_the_seed(file):
 
 
 def test_a_window_that_reads_the_file_again_keeps_it_too(file):
-    timeline = Timeline(open_experiment(file, seed=3), 3)
+    timeline = Timeline(open_experiment(file, seed=3))
     file.write_text(FILE.replace("0.1, 0.0", "0.2, 0.0"))
     timeline.restart(timeline.experiment.reopened())
     timeline.advance()
@@ -187,7 +187,7 @@ def test_a_run_is_that_of_the_record_and_is_run_again_to_the_bit(tmp_path):
     again = mars2d.load(tmp_path / "a.npz")
     assert rerun(again) is None
     assert record.digest == mars2d.run(crowd(), seed=4).digest
-    timeline = Timeline(open_experiment(crowd(), seed=4), seed=4)
+    timeline = Timeline(open_experiment(crowd(), seed=4))
     while not timeline.world.over:
         timeline.world.step()
     assert timeline.record.digest == record.digest

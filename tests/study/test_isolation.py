@@ -56,7 +56,7 @@ def played(scenario: Scenario, laws: dict, seed: int = 1, limits: Limits = LIMIT
     """Run a match to its end or its failure; return the record, the guard, and the error."""
     with Guard(scenario, laws, seed, limits) as guard:
         try:
-            return simulate(Experiment(guard.scenario), seed).record, guard, None
+            return simulate(Experiment(guard.scenario, seed=seed)).record, guard, None
         except LawError as error:
             return error.record, guard, error
 
@@ -183,7 +183,7 @@ def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path
         for i in indices:
             robots[i] = robots[i].replace(controller=load_law(file))
     for seed in (3, 4):
-        here = simulate(Experiment(scenario.replace(robots=robots)), seed).record
+        here = simulate(Experiment(scenario.replace(robots=robots), seed=seed)).record
         there, guard, error = played(scenario, laws, seed, Limits())
         assert error is None, error
         assert len(there) == len(here) > 20
@@ -198,7 +198,7 @@ def test_a_law_beside_others_in_the_match_is_isolated_alone(tmp_path) -> None:
     red, blue = scenario.robots
     blue = blue.replace(controller=load_law(law(tmp_path, FLEE, "flee.py")))
     both = scenario.replace(robots=[red.replace(controller=load_law(file)), blue])
-    here = simulate(Experiment(both), 5).record
+    here = simulate(Experiment(both, seed=5)).record
     blue = blue.replace(controller=load_law(tmp_path / "flee.py"))
     there, *_ = played(scenario.replace(robots=[red, blue]), {"red": (file, [0])}, 5, Limits())
     assert there.digest == here.digest
@@ -547,7 +547,7 @@ def test_ctrl_c_ends_the_match_and_its_laws(tmp_path) -> None:
     presser = threading.Thread(target=press)
     with pytest.raises(KeyboardInterrupt), guard:
         presser.start()
-        simulate(Experiment(guard.scenario), 1)
+        simulate(Experiment(guard.scenario, seed=1))
     presser.join()
     assert gained(before) == []
     wait_until(lambda: descendants() <= others)

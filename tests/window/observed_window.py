@@ -163,7 +163,7 @@ def editor_of(editor):
 
 def source_of(options):
     if "experiment" in options:
-        return Timeline(open_experiment(options["experiment"], options.get("set", {})), seed=1)
+        return Timeline(open_experiment(options["experiment"], options.get("set", {}), seed=1))
     if "record" in options:
         return Playback(load(options["record"]))
     changes = options.pop("scenario", {})

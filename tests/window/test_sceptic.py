@@ -47,7 +47,7 @@ class Desk:
 
     def __init__(self, path):
         self.path, self.clock = path, 0.0
-        self.timeline = Timeline(open_experiment(path), seed=1)
+        self.timeline = Timeline(open_experiment(path, seed=1))
         self.window = Window(self.timeline, 1.0, (800, 600))
         self.surface = pygame.display.set_mode((800, 600))
         self.pass_pictures(1)

@@ -240,7 +240,7 @@ def _run(experiment: Experiment, source: str, limit: Deadline) -> int:
     trial = Experiment(scenario.replace(stop_time=stop_time), experiment.control)
     try:
         with limit:
-            return len(run_headless(trial, 0, [lambda _: limit.alive()]).history)
+            return len(run_headless(trial, [lambda _: limit.alive()]).history)
     except Late:
         raise _late(source, limit) from None
 

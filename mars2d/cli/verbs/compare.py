@@ -80,7 +80,7 @@ def execute(arguments: argparse.Namespace) -> None:
     for mode, experiment in experiments.items():
         with _saying(mode):
             footage = _footage(arguments, experiment) if "video" in paths else None
-            world = run_headless(experiment, seed, [footage] if footage else [])
+            world = run_headless(experiment, [footage] if footage else [])
         records[mode] = world.record
         if footage is not None:
             reels[mode] = footage, world.frame
@@ -110,7 +110,7 @@ def _show(arguments: argparse.Namespace, options: dict[str, Any], seed: int) -> 
     own = open_experiment(arguments.experiment, options, seed=seed).scenario.animation
     speed = own.playback_speed if arguments.speed is None else arguments.speed
     opened = partial(_opened, arguments.experiment, options, seed)
-    records = show_comparison(opened, speed, seed, preferences_of(arguments))
+    records = show_comparison(opened, speed, preferences_of(arguments))
     if all(len(record) for record in records.values()):
         tell(_as_table(Comparison(**records)))
 

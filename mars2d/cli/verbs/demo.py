@@ -57,16 +57,16 @@ def execute(arguments: argparse.Namespace) -> None:
     look = preferences_of(arguments)
     try:
         if not arguments.headless and has_display():
-            record = show(experiment, None, arguments.seed, look)
+            record = show(experiment, None, look)
         else:
-            record = _make_pictures(experiment, name, arguments.seed)
+            record = _make_pictures(experiment, name)
     except Interrupted:
         warn_unchecked(experiment, "cut short")
         raise
     print_predictions(experiment, record)
 
 
-def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
+def _make_pictures(experiment: Experiment, name: str) -> Record:
     """Run, make a picture and a short film, and print their paths."""
     require_pygame("a film")
     from mars2d.output.figures.figure import save_figure
@@ -74,7 +74,7 @@ def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
 
     make_folder(FOLDER)
     footage = Footage(experiment.scenario, experiment.scenario.stop_time / DURATION, FPS)
-    world = run_headless(experiment, seed, [footage])
+    world = run_headless(experiment, [footage])
     record = world.record
     tell(f"{record.scenario.title}: {one_line(record.over_message)}")
     tell(f"picture: {save_figure(record, FOLDER / f'{name}.png')}")

@@ -59,7 +59,7 @@ def execute(arguments: argparse.Namespace) -> None:
         raise InputError(f"play {arguments.game}: people need a window, and there is no display")
     look = preferences_of(arguments)
     show(
-        experiment, arguments.speed, seed, look, people, kept=True, play=True, settings=settings
+        experiment, arguments.speed, look, people, kept=True, play=True, settings=settings
     )  # fmt: skip
 
 

@@ -181,7 +181,6 @@ def _run_in_window(
     record = show(
         experiment,
         arguments.speed,
-        arguments.seed,
         look,
         people,
         log,
@@ -199,14 +198,14 @@ def _run_headless(
     log = formats.log_to(arguments.record)
     pace = "max" if arguments.foxglove is None else arguments.speed or 1.0
     if arguments.video is None:
-        world = run_headless(experiment, arguments.seed, watchers, log, pace)
+        world = run_headless(experiment, watchers, log, pace)
         _advise_to_compile(world.simulation.engine_seconds)
         return world.record, None
     from mars2d.output.films.footage import Footage
 
     speed = film_speed(experiment.scenario, arguments.speed)
     footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
-    world = run_headless(experiment, arguments.seed, [footage, *watchers], log, pace)
+    world = run_headless(experiment, [footage, *watchers], log, pace)
     _advise_to_compile(world.simulation.engine_seconds)
     last, path, size = world.frame, arguments.video, arguments.size
     return world.record, lambda: save_footage(footage, last, path, size)
