@@ -82,15 +82,6 @@ def test_an_experiment_that_is_opened_again_keeps_the_seed(file):
     assert experiment.reopened().reopened().scenario.robots[0].pose[:2] == (1.0, 6.0)
 
 
-def test_a_window_that_reads_the_file_again_keeps_it_too(file):
-    timeline = Timeline(open_experiment(file, seed=3))
-    file.write_text(FILE.replace("0.1, 0.0", "0.2, 0.0"))
-    timeline.restart(timeline.experiment.reopened())
-    timeline.advance()
-    assert float(timeline.world.pose[1, 0]) == 3.0
-    assert timeline.world.record.seed == 3
-
-
 def test_the_command_line_passes_it_on(file, tmp_path, capsys):
     saved = tmp_path / "run.npz"
     run = ["run", str(file), "--headless", "--json", "--seed", "4", "--record", str(saved)]
@@ -106,14 +97,6 @@ def test_the_command_line_passes_it_on(file, tmp_path, capsys):
         digests |= {run["digest"] for run in json.loads(capsys.readouterr().out)["runs"]}
     assert mars2d.run(file, seed=4).digest in digests
     assert mars2d.run(file, seed=5).digest in digests
-
-
-def test_a_record_of_such_a_run_runs_again(file, tmp_path, capsys):
-    saved = mars2d.run(file, seed=4).save(tmp_path / "run.npz")
-    assert cli.main(["check", str(saved)]) == 0
-    again = World(mars2d.load(saved).scenario, seed=4)
-    assert float(again.pose[1, 0]) == 4.0
-    assert "bit" in capsys.readouterr().out
 
 
 # -- declared -------------------------------------------------------------------------------------
@@ -146,7 +129,7 @@ def law(robot):
     return 0.1, 0.0
 
 
-@each_case("seed", [0, 1, 2, 3, 2**63 - 1])
+@each_case("seed", [0, 2**63 - 1])
 def test_all_start_in_their_area_apart_and_clear_of_everything(seed):
     found = crowd().started(seed)
     found.replace()  # refuses starts that overlap, or that are in a wall
@@ -175,9 +158,9 @@ def test_a_pose_follows_from_the_seed_alone():
 
 def test_places_are_spread_evenly_over_their_area():
     scenario = Scenario(random_starts=[RandomStarts(area=TRIANGLE)])
-    x, y = np.array([scenario.started(seed).initial_pose[:2, 0] for seed in range(600)]).T
-    assert np.hypot(x.mean(), y.mean() + 4 / 3) < 5 * 8 / np.sqrt(24 * 600)  # the centroid
-    assert abs((y < 0).mean() - 0.75) < 5 * np.sqrt(0.75 * 0.25 / 600)  # the lower half of it
+    x, y = np.array([scenario.started(seed).initial_pose[:2, 0] for seed in range(200)]).T
+    assert np.hypot(x.mean(), y.mean() + 4 / 3) < 5 * 8 / np.sqrt(24 * 200)  # the centroid
+    assert abs((y < 0).mean() - 0.75) < 5 * np.sqrt(0.75 * 0.25 / 200)  # the lower half of it
 
 
 def test_a_run_is_that_of_the_record_and_is_run_again_to_the_bit(tmp_path):
@@ -222,10 +205,10 @@ def test_no_run_of_a_sweep_fails_for_its_start(tmp_path):
         f"scenario = Scenario({near}, random_starts=[RandomStarts()])\n"
     )
     failed = {
-        name: len(mars2d.sweep(tmp_path / name, seeds=40, workers=1).failed)
+        name: len(mars2d.sweep(tmp_path / name, seeds=12, workers=1).failed)
         for name in ("blind.py", "placed.py")
     }
-    assert failed["blind.py"] > 4
+    assert failed["blind.py"] > 1
     assert failed["placed.py"] == 0
 
 

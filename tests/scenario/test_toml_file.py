@@ -13,12 +13,10 @@ from mars2d import Addon, InputError, Robot, Scenario, Sensor
 from mars2d.addons import Density, Floor, Map
 from mars2d.bodies.props import Ball, Box, Gate
 from mars2d.cli import command_line as cli
-from mars2d.scenario import load_scenario, save_scenario, serialize, toml_file
-from mars2d.scenario.examples import examples
+from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.law_reference import Reference
 from tests.cases import each_case
-from tests.worlds import without_laws
 
 EVERYTHING = (Path(__file__).parent / "everything.toml").read_text(encoding="utf-8")
 
@@ -66,19 +64,7 @@ def test_the_file_of_all_kinds_is_laid_out_as_it_is_saved(tmp_path):
     assert text == EVERYTHING.replace("everything.toml", "scene.toml")
 
 
-@each_case("name", examples())
-def test_an_example_comes_back_but_for_its_code(name, tmp_path):
-    experiment = open_experiment(name)
-    text, missing, again = saved(experiment.scenario, tmp_path, experiment.control)
-    kept, lost = serialize.without_code(experiment.scenario)
-    assert without_laws(again) == without_laws(kept)
-    assert set(lost) <= set(missing)
-    assert all(name in text for name in lost)
-    named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
-    assert max(map(len, named)) <= 100
-
-
-@each_case("name", ["billiards", "go_to_point", "push_box", "sumo", "tug_of_war"])
+@each_case("name", ["go_to_point", "push_box"])
 def test_a_run_of_the_file_is_that_of_the_experiment(name, tmp_path):
     experiment = open_experiment(name, {"addons": []})
     save_scenario(experiment.scenario, tmp_path / "scene.toml", experiment.control)
@@ -123,20 +109,7 @@ def test_only_what_is_not_the_default_is_written(tmp_path):
     ]
 
 
-def test_names_that_others_have_had_stay(tmp_path):
-    robots = [Robot(name="robot1"), Robot(pose=(1, 0, 0)), Robot(pose=(2, 0, 0), name="robot0")]
-    scenario = Scenario(robots=robots)
-    assert saved(scenario, tmp_path)[2] == scenario
-
-
-@pytest.mark.slow
-def test_thousands_of_robots_are_written_and_read(tmp_path):
-    robots = [Robot(pose=(i % 100, i // 100, 0.1 * i)) for i in range(3000)]
-    scenario = Scenario(robots=robots, workspace=None)
-    assert saved(scenario, tmp_path)[2] == scenario
-
-
-@pytest.mark.parametrize("image", [Floor, Density])
+@each_case("image", [Floor, Density])
 def test_an_image_beside_the_file_is_found_and_named_relative_to_it(image, tmp_path, monkeypatch):
     (tmp_path / "floor.png").write_bytes(b"")
     monkeypatch.chdir("/")
@@ -152,19 +125,6 @@ def test_a_file_that_cannot_be_written_says_so(tmp_path):
         save_scenario(Scenario(), tmp_path / "nowhere" / "scene.toml")
     with pytest.raises(InputError, match=r"saved as \.toml, this ends in '\.yaml'"):
         save_scenario(Scenario(), tmp_path / "scene.yaml")
-    picture = tmp_path / "caf\udce9.png"  # a name that is not in UTF-8
-    picture.write_bytes(b"")
-    floor = Scenario(addons=[Floor(image=str(picture), bounds=(0, 1, 0, 1))])
-    with pytest.raises(InputError, match="half a character can't be written, in 'image = \"caf"):
-        save_scenario(floor, tmp_path / "scene.toml")
-    assert list(tmp_path.iterdir()) == [picture]
-
-
-def test_half_a_character_is_no_text():
-    with pytest.raises(InputError, match=r"Scenario.title = 'caf.ud800': expected text without"):
-        Scenario(title="caf\ud800")
-    with pytest.raises(InputError, match=r"Robot.name = '.ud800': expected text without half a"):
-        Robot(name="\ud800")
 
 
 # -- laws and other code ------------------------------------------------------------------------
@@ -197,12 +157,6 @@ def test_the_law_of_the_team_is_taken_from_the_file(tmp_path):
     missing = save_scenario(experiment.scenario, tmp_path / "again.toml", experiment.control)
     assert missing == ()
     assert 'control = "walk.py:team"\n' in (tmp_path / "again.toml").read_text()
-
-
-def test_a_file_alone_means_its_control(tmp_path):
-    (tmp_path / "team.py").write_text("def control(world):\n    return 0.1, 0.0\n")
-    read(tmp_path, 'format = 1\ncontrol = "team.py"\n')
-    assert open_experiment(tmp_path / "scene.toml").control.__name__ == "control"
 
 
 @each_case(
@@ -314,7 +268,6 @@ WRONG = [
     ("", "scene.toml: no scenario: the first line should be format = 1"),
     ("title = 'x'", "scene.toml: no scenario: the first line should be format = 1"),
     ("format = 2", "scene.toml, line 1: format = 2: newer than this MARS2D, which reads 1"),
-    ("format = 0", "scene.toml, line 1: format = 0: expected 1"),
     ("format = true", "scene.toml, line 1: format = True: expected 1"),
     ('\n\ntitle = "x', "scene.toml, line 3: "),
     ("\ntitle = 'x", "scene.toml, at its end: Expected"),
@@ -324,10 +277,6 @@ WRONG = [
     ("\ntitel = 'x'", "line 2: Scenario has no field 'titel'; did you mean 'title'?"),
     ("\ncontroll = 'x'", "did you mean 'control'?"),
     ("\ntitle = 5", "scene.toml, line 2: Scenario.title = 5: expected text in quotes"),
-    ("\ntitle.x = 5", "scene.toml, line 2: Scenario.title = {'x': 5}: expected text"),
-    ("\nstop_time = inf", "line 2: Scenario.stop_time = inf: expected a number"),
-    ("\nphysics = 'contct'", "did you mean 'contact'?"),
-    ("\nworkspace = [[0,0],[1,1],[0,1],[1,0]]", "line 2: Scenario.workspace: the polygon crosses"),
     ("\nrobots = 0", "line 2: Scenario.robots = 0: expected a list of robots, or how many"),
     ("\nrobots = [5]", 'line 2: robots[0] = 5: expected a table, as { type = "Robot" }'),
     ("\n[robots]", "line 2: robots: expected a list of tables; write [[robots]] above each"),
@@ -335,7 +284,6 @@ WRONG = [
         f"\n{ROBOT}pose = [0,0]\n\n{ROBOT}pose = [1,1]\nposee = [1]",
         "scene.toml, line 7, robots[1]: Robot has no field 'posee'; did you mean 'pose'?",
     ),
-    (f"\n{ROBOT}pose = 1979-05-27", "line 3, robots[0]: Robot.pose = datetime.date(1979, 5, 27)"),
     (
         f"\n{ROBOT}drive = 'Unicycl'",
         "type = 'Unicycl': no Drive is called so; did you mean 'Unicycle'",
@@ -366,7 +314,6 @@ WRONG = [
         "line 3, robots[0].shape.parts[0]: Disc.diameter is missing",
     ),
     (f"\n{ROBOT}controller = 5", "line 3, robots[0]: controller = 5: expected where a law stands"),
-    (f"\n{ROBOT}controller = 'walk'", "controller = 'walk': expected where a law stands"),
     (
         f"\n{ROBOT}controller = 'wlk.py:walk'",
         "line 3, robots[0]: wlk.py: there is no such file beside",
@@ -376,9 +323,6 @@ WRONG = [
         f"\n{ROBOT}controller = 'walk.py:two'",
         "expected a function of exactly one argument, the robot",
     ),
-    (f"\n{ROBOT}controller = '{'x' * 300}.py'", "line 3, robots[0]: controller = 'xxx"),
-    ("\ncontrol = []", "scene.toml, line 2: control = []: expected where a law stands"),
-    ("\ncontrol = 'walk.py:two'", "expected a function of exactly one argument, the world"),
     (f"\n{ROBOT}{ROBOT}pose = [0.1, 0]", "they start 0.2 m inside each other"),
     ("\n[[props]]\nlength = 1", "line 2, props[0]: its type is missing"),
     (
@@ -392,7 +336,6 @@ WRONG = [
         "\n[[addons]]\ntype = 'Communication'\nburst = { to_bad = 7 }",
         "addons[0].burst: Burst.to_bad",
     ),
-    ("\n[[addons]]\ntype = ['Map']", "line 3, addons[0]: type = ['Map']: no Addon is called so"),
     ("\nneighbours = 'Wthin'", "line 2, neighbours: type = 'Wthin': no Neighbourhood is called so"),
     (
         "\n[animation]\nwake = 'yes'",
@@ -415,7 +358,6 @@ def test_what_is_wrong_is_pointed_at(text, expected, tmp_path):
         (b"format = 1\ntitle = '\xe9'", "scene.toml, line 2: expected text in UTF-8"),
         ("format = 1".encode("utf-16"), "scene.toml, line 1: expected text in UTF-8"),
         (b"#" * 5_000_001, "expected at most 5 MB, it is larger"),
-        (b"\0", "scene.toml, line 1: Invalid statement"),
     ],
 )
 def test_what_is_no_text_is_refused(data, expected, tmp_path):
@@ -487,16 +429,3 @@ def test_a_changed_file_is_read_or_refused_in_words(block, tmp_path):
             good += 1
             assert saved(scenario, tmp_path)[2] == scenario, seed
     assert 5 < good < 95
-
-
-@each_case("name", ["addo-s", '"a.b"', '"a[1"', '""', '"\\n"', "robots-1"])
-def test_a_table_of_any_name_is_refused(name, tmp_path):
-    with pytest.raises(InputError, match=r"scene\.toml"):
-        read(tmp_path, f"format = 1\n[[robots]]\n[[{name}]]\ntype = 'Map'\n")
-
-
-def test_the_reader_knows_the_lines_of_nested_tables():
-    table = "[[robots]]\npose = 1\n[[robots.sensors]]\nrate = 1\n"
-    found = toml_file._lines_of("a = 1\n" + table + table.replace("rate", "rate.x"))
-    assert found["robots[0].sensors[0].rate"] == 5
-    assert found["robots[1].sensors[0].rate"] == 9
