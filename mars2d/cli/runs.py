@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
@@ -47,14 +47,13 @@ def show(
     *,
     kept: bool = False,
     play: bool = False,
-    settings: Mapping[str, Any] | None = None,
 ) -> Record:
     """Run in a window, at the experiment's own speed unless one is given.
 
     humans: robots that are driven by hand; then the speed is one to drive at. log: writes each row
     while the run goes on. watchers: called at each control step. kept: whether the record is saved
     afterwards; else the window asks, where hands have changed the run. play: whether it is a game
-    whose roles people may choose. settings: in which the experiment differs from its file.
+    whose roles people may choose.
     """
     from mars2d.window.show import show_experiment
 
@@ -70,7 +69,6 @@ def show(
         log=log,
         asks=not kept,
         play=play,
-        settings=settings,
     )
 
 

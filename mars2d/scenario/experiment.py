@@ -17,6 +17,7 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, LawError, Mars2dError, likely, nearest, shown
 from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
+from mars2d.core.streams import check_seed
 from mars2d.core.usercode import called, quiet
 from mars2d.scenario import law_parameters, parameters, toml_file
 from mars2d.scenario.code_file import law_in, line_in, module_in
@@ -200,7 +201,7 @@ def open_experiment(
     """
     if options is not None and not isinstance(options, Mapping):
         raise wrong("options", options, "a dict, such as {'sampling_time': 0.5}")
-    given = dict(options or {})
+    given, seed = dict(options or {}), None if seed is None else check_seed(seed)
     rest, of_laws = _split(given)
     with files_read() as files:
         plain, chart = _opened(source, rest, control, seed)

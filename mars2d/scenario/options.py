@@ -81,16 +81,16 @@ def _index(text: str, items: Sequence[Any], path: tuple[str, ...]) -> int:
     return int(text)
 
 
-def settings_in_words(settings: Mapping[str, Any]) -> str:
-    """Return settings in one line.
+def options_in_words(options: Mapping[str, Any]) -> str:
+    """Return options in one line.
 
-    >>> settings_in_words({"mu": 0.3, "laws.follow.gain": 2})
+    >>> options_in_words({"mu": 0.3, "laws.follow.gain": 2})
     'mu = 0.3, laws.follow.gain = 2'
     """
-    return one_line(", ".join(f"{name} = {shown(value)}" for name, value in settings.items()))
+    return one_line(", ".join(f"{name} = {shown(value)}" for name, value in options.items()))
 
 
-def parse_setting(text: str) -> tuple[str, Any]:
+def parse_option(text: str) -> tuple[str, Any]:
     """Return (name, value) of a setting ``name=value`` from the command line.
 
     The value is a Python literal, such as ``0.5``, ``True`` or ``(1, 2)``; anything else is text.

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.interrupt import interrupts
@@ -38,7 +38,6 @@ def show_experiment(
     asks: bool = False,
     viewpoint: Viewpoint | None = None,
     play: bool = False,
-    settings: Mapping[str, Any] | None = None,
 ) -> Record:
     """Run an experiment in a window until it is closed, and return the record.
 
@@ -47,8 +46,7 @@ def show_experiment(
     log: writes each control step to a file; it is closed at the end. asks: whether the window asks
     before it closes if a run that hands have changed is to be saved. viewpoint: where the window
     looks, and where it has looked in the end. play: whether people may choose their roles in a
-    game. settings: in which the experiment differs from its file; scores are kept for each. Raises
-    InputError without a display, and the error of a law after the window is closed.
+    game. Raises InputError without a display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
     from mars2d.window.memory import Memory
@@ -67,8 +65,7 @@ def show_experiment(
             window.viewpoint.look_as(viewpoint)
         drivers = list(humans) or _to_be_driven(experiment)
         if drivers or play:
-            known = game_of(experiment, {**(settings or {}), **_seeded(experiment)})
-            window.play(memory, known, drivers[:MOST_PEOPLE])
+            window.play(memory, game_of(experiment), drivers[:MOST_PEOPLE])
         else:
             window.say_who_stands_still()
         try:
@@ -109,11 +106,6 @@ def _to_be_driven(experiment: Experiment) -> list[int]:
     """Return the robots whose law is that a person drives them."""
     robots = experiment.scenario.robots
     return [i for i, robot in enumerate(robots) if isinstance(robot.controller, ByHand)]
-
-
-def _seeded(experiment: Experiment) -> dict[str, int]:
-    """Return the seed as an option: another one may begin elsewhere."""
-    return {"seed": experiment.seed} if experiment.seed else {}
 
 
 def show_comparison(

@@ -110,7 +110,7 @@ def open_world(
             filename=experiment.source.name,
             watch=watch_by(watchers),
             storage=storage,
-            settings=experiment.options,
+            options=experiment.options,
         )
     except InputError as error:
         error.where = error.where or experiment.source.name or None

@@ -230,7 +230,7 @@ def _redo(track: Track, world: World) -> None:
     for intervention in track.interventions(row):
         if isinstance(intervention, Change):
             scenario = carried(world.scenario, intervention.scenario, intervention.given)
-            moved, settings = dict(intervention.moved), dict(intervention.settings)
-            world.operator.change(scenario, world.control, moved, settings, intervention.given)
+            moved, options = dict(intervention.moved), dict(intervention.options)
+            world.operator.change(scenario, world.control, moved, options, intervention.given)
         else:
             world.operator.redo(intervention)

@@ -10,7 +10,7 @@ from mars2d.bodies import Box
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.hot_reload import alike
-from mars2d.scenario.options import settings_in_words
+from mars2d.scenario.options import options_in_words
 from mars2d.scenario.parameters import Parameter, arguments_of
 from mars2d.scenario.python_file import as_python
 from tests.cases import each_case
@@ -206,14 +206,14 @@ def test_a_record_keeps_the_options_that_its_experiment_was_opened_with(file, tm
     assert run(file, options=options).digest == record.digest
     for suffix in (".npz", ".mcap", ".csv"):
         record.save(tmp_path / f"run{suffix}")
-        assert load(tmp_path / f"run{suffix}").settings == options
+        assert load(tmp_path / f"run{suffix}").options == options
     words = "mu = 1.2, laws.go.speed = 0.4, stop_time = 1.0, robots.1.pose = (1, 2, 0)"
-    assert settings_in_words(options) == words
+    assert options_in_words(options) == words
     mapped = run(
         file, options={"map": Map([[(-4, -4), (4, -4)], [(-4, 4), (4, 4)]]), "stop_time": 1.0}
     )
     mapped.save(tmp_path / "mapped.npz")
-    assert load(tmp_path / "mapped.npz").settings == {"stop_time": 1.0}, "a Map is no setting"
+    assert load(tmp_path / "mapped.npz").options == {"stop_time": 1.0}, "a Map is no setting"
 
 
 def test_annotations_may_be_postponed(tmp_path):

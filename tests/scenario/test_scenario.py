@@ -17,7 +17,7 @@ from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.bodies.rigid import Inertia
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.options import parse_setting
+from mars2d.scenario.options import parse_option
 from mars2d.sensors import Proximity
 from tests.cases import each_case
 from tests.worlds import ELL
@@ -352,12 +352,12 @@ def test_a_prop_of_the_users_own_is_checked_like_any_other():
 # -- options --------------------------------------------------------------------------------------
 
 
-def with_options(*settings: str) -> Scenario:
+def with_options(*options: str) -> Scenario:
     scenario = Scenario(
         props=[Box(pose=(1, 0)), Ball(pose=(2, 0)), Gate(pose=(0, 3))],
         joints=[Rope(a="robot0", b="box0", length=2), Spring(a="ball1", b="box0")],
     )
-    return open_experiment(scenario, dict(map(parse_setting, settings))).scenario
+    return open_experiment(scenario, dict(map(parse_option, options))).scenario
 
 
 def test_fields_of_props_and_joints_are_options():

@@ -58,7 +58,7 @@ def catch(tmp_path):
 def opened(source, memory, people=(), size=(1280, 720), text=1.0, **options):
     experiment = open_experiment(source, options)
     window = Window(Timeline(experiment), 1.0, size, Preferences(text=text))
-    window.play(memory, game_of(experiment, options), people)
+    window.play(memory, game_of(experiment), people)
     return window
 
 
@@ -119,8 +119,9 @@ def test_without_a_memory_nothing_is_kept_and_nothing_fails(monkeypatch):
 
 def test_a_file_of_ones_own_is_known_by_its_path_and_its_settings(catch):
     experiment = open_experiment(catch, {})
-    assert game_of(experiment, {}) == str(catch)
-    assert game_of(experiment, {"stop_time": 9, "mu": 1}) == f"{catch}, mu = 1, stop_time = 9"
+    assert game_of(experiment) == str(catch)
+    options = {"stop_time": 9, "mu": 1}
+    assert game_of(experiment.with_options(options)) == f"{catch}, mu = 1, stop_time = 9"
 
 
 # -- the end of a game ----------------------------------------------------------------------------
@@ -149,7 +150,7 @@ def test_who_stays_free_has_won_and_a_better_time_is_news(memory, catch):
     assert window.game.result.words == "You win"
     assert window.game.tally("evader") == Tally(played=1, won=1)
     window = opened(catch, memory, [1])
-    Scores(memory, game_of(open_experiment(catch), {})).add("evader", won=False, time=0.1)
+    Scores(memory, game_of(open_experiment(catch))).add("evader", won=False, time=0.1)
     run_to_the_end(window)
     assert window.game.result.news.startswith("Your best: ")
 

@@ -18,7 +18,6 @@ from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import has_display, make_folder, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
-from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.output.figures import figure
 from mars2d.output.figures.comparison import MODES, Comparison
@@ -68,7 +67,7 @@ def execute(arguments: argparse.Namespace) -> None:
     """
     start = time.perf_counter()
     check_outputs(arguments, OUTPUTS)
-    options, seed = _options(arguments), check_seed(arguments.seed)
+    options, seed = _options(arguments), arguments.seed
     outputs = arguments.figure, arguments.video
     if not (arguments.headless or arguments.json or any(outputs)) and has_display():
         _show(arguments, options, seed)

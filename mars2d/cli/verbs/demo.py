@@ -23,7 +23,6 @@ from mars2d.cli.runs import (
     warn_unchecked,
 )
 from mars2d.core.errors import InputError, likely, one_line
-from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import examples
@@ -53,7 +52,7 @@ def execute(arguments: argparse.Namespace) -> None:
     known = examples()
     if name not in known:
         raise InputError(f"{name}: there is no such example{likely(name, known) or LISTED}")
-    experiment = open_experiment(known[name], theory_of(arguments), seed=check_seed(arguments.seed))
+    experiment = open_experiment(known[name], theory_of(arguments), seed=arguments.seed)
     look = preferences_of(arguments)
     try:
         if not arguments.headless and has_display():

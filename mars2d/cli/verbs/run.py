@@ -42,7 +42,6 @@ from mars2d.cli.runs import (
     warn_unchecked,
 )
 from mars2d.core.errors import InputError, counted, likely, one_line
-from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
@@ -91,8 +90,8 @@ def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment, in a window if there is a display, and save the requested files."""
     check_outputs(arguments, OUTPUTS)
     check_snapshots(arguments)
-    options, seed = options_of(arguments) | theory_of(arguments), check_seed(arguments.seed)
-    experiment = open_experiment(arguments.experiment, options, seed=seed)
+    options = options_of(arguments) | theory_of(arguments)
+    experiment = open_experiment(arguments.experiment, options, seed=arguments.seed)
     _check_times(arguments, experiment)
     scenario = experiment.scenario
     check_film(arguments, scenario, scenario.last_iteration * scenario.sampling_time)
@@ -186,7 +185,6 @@ def _run_in_window(
         log,
         watchers,
         kept=arguments.record is not None,
-        settings=options_of(arguments),
     )
     return record, None
 
