@@ -117,11 +117,11 @@ def test_without_a_memory_nothing_is_kept_and_nothing_fails(monkeypatch):
     assert scores.of("r") == Tally()
 
 
-def test_a_file_of_ones_own_is_known_by_its_path_and_its_settings(catch):
+def test_a_file_of_ones_own_is_known_by_its_path_and_its_options(catch):
     experiment = open_experiment(catch, {})
     assert game_of(experiment) == str(catch)
-    options = {"stop_time": 9, "mu": 1}
-    assert game_of(experiment.with_options(options)) == f"{catch}, mu = 1, stop_time = 9"
+    again = experiment.with_options({"stop_time": 9, "sampling_time": 0.5})
+    assert game_of(again) == f"{catch}, sampling_time = 0.5, stop_time = 9"
 
 
 # -- the end of a game ----------------------------------------------------------------------------
