@@ -109,9 +109,7 @@ def to_plain(intervention: Intervention) -> dict[str, Any]:
 
 def of_plain(data: Any) -> Intervention:
     """Return the intervention that `to_plain` made plain. Raises various exceptions if it can't."""
-    values = {name: _read(value) for name, value in data.items() if name != "type"}
-    if "settings" in values:
-        values["options"] = values.pop("settings")
+    values = {n if n != "settings" else "options": _read(v) for n, v in data.items() if n != "type"}
     return _KINDS[data["type"]](**values)
 
 

@@ -47,8 +47,7 @@ def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
             problems.append(f"{name}: not made, since it needs a run that failed")
             continue
         try:
-            stem = f"fig{figure.number}_{name}"
-            pictures.append(_of_study(study, records, folder / stem))
+            pictures.append(_of_study(study, records, folder / f"fig{figure.number}_{name}"))
         except Exception as error:
             problems.append(f"{name}: {described(error)}")
     return Result(figure.number, setting, tuple(pictures), tuple(problems))
