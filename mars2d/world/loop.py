@@ -96,11 +96,14 @@ def simulate(
 
 
 def open_world(
-    experiment: Experiment, watchers: Sequence[Watcher] = (), storage: Storage = Column
+    experiment: Experiment,
+    watchers: Sequence[Watcher] = (),
+    storage: Storage = Column,
+    record: bool = True,
 ) -> World:
     """Return the world of an experiment, which calls the watchers at each control step.
 
-    storage: makes the columns of its record. Raises InputError, which names the file.
+    storage, record: see `World`. Raises InputError, which names the file.
     """
     try:
         return World(
@@ -111,6 +114,7 @@ def open_world(
             watch=watch_by(watchers),
             storage=storage,
             options=experiment.options,
+            record=record,
         )
     except InputError as error:
         error.where = error.where or experiment.source.name or None

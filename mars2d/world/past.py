@@ -6,6 +6,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from operator import attrgetter
 from time import perf_counter
 
 import numpy as np
@@ -46,8 +47,8 @@ class Track:
     def interventions(self, row: int) -> list[Intervention]:
         """Return the interventions at a row, in order."""
         log = self.world.operator.log[: self.done]
-        first = bisect_left(log, row, key=_row)
-        return log[first : bisect_right(log, row, key=_row)]
+        first = bisect_left(log, row, key=attrgetter("row"))
+        return log[first : bisect_right(log, row, key=attrgetter("row"))]
 
 
 class Past:
@@ -216,10 +217,6 @@ class Past:
                 "something outside of the world, such as random numbers that are not robot.rng. "
                 "All moved as before, but what the law remembers may be different"
             )
-
-
-def _row(intervention: Intervention) -> int:
-    return intervention.row
 
 
 def _redo(track: Track, world: World) -> None:

@@ -120,9 +120,8 @@ def _decides(row: int, record: Record, asked: NDArray[np.float64], laws: list[in
     """Return the difference between the commands that laws ask for and those of a row."""
     before = record.command[row]
     others = [i for i in laws if not _same(asked[:, i], before[:, i])]
-    (one, *more), how = others, ""
-    if more:
-        how = f", and so of {counted(len(more), 'other')}"
+    one, *more = others
+    how = f", and so of {counted(len(more), 'other')}" if more else ""
     told = [f"({v:g}, {w:g})" for v, w in (asked[:, one], before[:, one])]
     if told[0] == told[1]:
         told = [f"({v!r}, {w!r})" for v, w in (asked[:, one].tolist(), before[:, one].tolist())]
