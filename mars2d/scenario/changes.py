@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import operator
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -17,6 +18,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.starts import check_in_workspace, check_off_walls, cut_by, depth
 
 Float = NDArray[np.float64]
+Same = Callable[[Any, Any], bool]
 
 FREE = frozenset(
     {"title", "robots", "props", "joints", "workspace", "on_exit", "stop_time", "addons"}
@@ -40,19 +42,34 @@ FREE_OF_JOINTS = frozenset({"stiffness", "damping"})
 """Fields of joints that may change."""
 
 
-def check_same(before: Scenario, after: Scenario) -> None:
-    """Refuse a scenario that a running world can't go on with; the InputError says why not."""
-    for field in dataclasses.fields(Scenario):
-        if field.name not in FREE and getattr(before, field.name) != getattr(after, field.name):
-            raise _needs_new_start(f"Scenario.{field.name} is another one")
-    _check_bodies("robots", FREE_OF_ROBOTS, before, after)
+def check_same(before: Scenario, after: Scenario, same: Same = operator.eq) -> None:
+    """Refuse a scenario that a running world can't go on with; the InputError says why not.
+
+    same: decides whether two values are the same.
+    """
+    for name in _changed(before, after, FREE, same):
+        raise _needs_new_start(f"Scenario.{name} is another one")
+    for family, free in (("robots", FREE_OF_ROBOTS), ("props", FREE_OF_BODIES)):
+        first, second = getattr(before, family), getattr(after, family)
+        if len(first) != len(second):
+            raise _needs_new_start(f"{counted(len(second), family[:-1])} in place of {len(first)}")
+        for one, other in zip(first, second, strict=True):
+            if not _same_kind(one, other):
+                raise _needs_new_start(f"{one.name} is a {type(other).__name__} now")
+            for name in _changed(one, other, free, same):
+                raise _needs_new_start(f"{name} of {one.name} is another one")
     for one, other in zip(before.robots, after.robots, strict=True):
-        _check_drive(f"drive of {one.name}", one.drive, other.drive)
-    _check_bodies("props", FREE_OF_BODIES, before, after)
-    _check_joints(before, after)
+        if not same(one.drive, other.drive):
+            _check_drive(f"drive of {one.name}", one.drive, other.drive)
+    joints = [*zip(before.joints, after.joints, strict=False)]
+    kept = all(
+        _same_kind(*pair) and not [*_changed(*pair, FREE_OF_JOINTS, same)] for pair in joints
+    )
+    if len(before.joints) != len(after.joints) or not kept:
+        raise _needs_new_start("Scenario.joints is another one")
     busy = [{a.key: a for a in scenario.addons if a.acts} for scenario in (before, after)]
     for key in sorted({*busy[0], *busy[1]}):
-        if busy[0].get(key) != busy[1].get(key):
+        if not same(busy[0].get(key), busy[1].get(key)):
             raise _needs_new_start(
                 f"the add-on {key!r}, which does something at each step, is another one"
             )
@@ -75,22 +92,8 @@ def moves_alike(before: Scenario, after: Scenario) -> bool:
     )
 
 
-def _check_bodies(name: str, free: frozenset[str], before: Scenario, after: Scenario) -> None:
-    first, second = getattr(before, name), getattr(after, name)
-    if len(first) != len(second):
-        raise _needs_new_start(f"{counted(len(second), name[:-1])} in place of {len(first)}")
-    for one, other in zip(first, second, strict=True):
-        if type(one) is not type(other):
-            raise _needs_new_start(f"{one.name} is a {type(other).__name__} now")
-        changed = next(_changed(one, other, free), None)
-        if changed is not None:
-            raise _needs_new_start(f"{changed} of {one.name} is another one")
-
-
 def _check_drive(name: str, before: Drive, after: Drive) -> None:
-    if before == after:
-        return
-    if type(before).__qualname__ != type(after).__qualname__:
+    if not _same_kind(before, after):
         raise _needs_new_start(f"{name} is another one")
     if before.noise:
         raise _needs_new_start(f"{name} is another one, and has noise")
@@ -99,18 +102,18 @@ def _check_drive(name: str, before: Drive, after: Drive) -> None:
             raise _needs_new_start(f"{name} has another {field}")
 
 
-def _check_joints(before: Scenario, after: Scenario) -> None:
-    same = [type(joint) for joint in before.joints] == [type(joint) for joint in after.joints]
-    pairs = zip(before.joints, after.joints, strict=False)
-    if not same or any(any(_changed(one, other, FREE_OF_JOINTS)) for one, other in pairs):
-        raise _needs_new_start("Scenario.joints is another one")
+def _same_kind(before: object, after: object) -> bool:
+    """Return whether two are of one class, which may be of a file that was run twice."""
+    return type(before).__qualname__ == type(after).__qualname__
 
 
-def _changed(before: Description, after: Description, free: frozenset[str]) -> Iterator[str]:
+def _changed(
+    before: Description, after: Description, free: frozenset[str], same: Same
+) -> Iterator[str]:
     """Yield the fields that differ, except those that are free; both are of one class."""
     for field in dataclasses.fields(before):
-        here, there = getattr(before, field.name), getattr(after, field.name)
-        if field.name not in free and here != there:
+        here, there = (getattr(each, field.name, None) for each in (before, after))
+        if field.name not in free and not same(here, there):
             yield field.name
 
 

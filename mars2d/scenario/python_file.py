@@ -133,12 +133,9 @@ class _Lister:
     def imports(self) -> list[str]:
         """Return the lines of imports."""
         modules = defaultdict(list)
-        lines = []
         for alias, (module, name) in self._names.items():
-            if alias == name:
-                modules[module].append(name)
-            else:
-                lines.append(f"from {module} import {name} as {alias}")
+            modules[module].append(name if alias == name else f"{name} as {alias}")
+        lines = []
         for module, names in modules.items():
             line = f"from {module} import {', '.join(sorted(names))}"
             broken = Brackets(f"from {module} import (", sorted(names), ")", filled=True)

@@ -28,13 +28,7 @@ from mars2d.scenario import limits, starts
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
-from mars2d.scenario.random_starts import (
-    Group,
-    RandomStarts,
-    Room,
-    drawn_poses,
-    groups_of,
-)  # fmt: skip
+from mars2d.scenario.random_starts import Lottery, RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.team_colors import team_colors
 
@@ -278,19 +272,18 @@ class Scenario(Description):
         return found
 
     @cached_property
-    def _lottery(self) -> tuple[list[Group], Room]:
-        """The bodies of `random_starts`, and the room for them."""
+    def _lottery(self) -> Lottery:
+        """Draws the poses of the bodies of `random_starts`."""
         of_props = [joint for prop in self.props for joint in prop.joints()]
         ends = {str(name) for joint in (*self.joints, *of_props) for name in (joint.a, joint.b)}
-        where, count = "Scenario.random_starts", len(self.robots)
-        groups = groups_of(where, self.random_starts, self.bodies, count, ends)
-        moved = {body.name for group in groups for body in group.bodies}
-        standing = [body for body in self.bodies if body.name not in moved]
-        return groups, Room(self.workspace, self.on_exit, self.obstacles, standing)
+        return Lottery(
+            "Scenario.random_starts", self.random_starts, self.bodies, len(self.robots), ends,
+            self.workspace, self.on_exit, self.obstacles,
+        )  # fmt: skip
 
-    def _start_at_random(self, lottery: tuple[list[Group], Room], seed: int) -> None:
+    def _start_at_random(self, lottery: Lottery, seed: int) -> None:
         """Give the bodies of `random_starts` the poses that follow from the seed."""
-        poses = drawn_poses(*lottery, seed)
+        poses = lottery.poses(seed)
         for field in ("robots", "props"):
             parts = [
                 part.replace(pose=poses[part.name]) if part.name in poses else part
