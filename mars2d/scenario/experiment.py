@@ -346,9 +346,8 @@ def _find(source: str | Path) -> Path:
         return known[str(source)]
     if path.exists():
         kind = "a folder" if path.is_dir() else "not a file"  # a pipe, which may never end
-        raise InputError(
-            f"{path}: {kind}; expected an experiment, a file that ends in .py or .toml"
-        )
+        expected = "an experiment, a file that ends in .py or .toml"
+        raise InputError(f"{path}: {kind}; expected {expected}")
     files = path.parent.iterdir() if path.parent.is_dir() else ()
     beside = [str(file) for file in files if file.suffix in (".py", ".toml")]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"

@@ -188,8 +188,8 @@ def check_ends(where: str, joint: Joint, names: Collection[str]) -> None:
     for field in ("a", "b"):
         name = getattr(joint, field)
         if name is not None and name not in names:
-            hint = nearest(name, names)
-            raise wrong(f"{where}.{field}", name, f"the name of a robot or prop{hint}")
+            near = nearest(name, names)
+            raise wrong(f"{where}.{field}", name, f"the name of a robot or prop{near}")
     if joint.a == joint.b:
         raise wrong(f"{where}.b", joint.b, f"another body than a, {joint.a!r}")
 

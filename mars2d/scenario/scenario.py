@@ -167,22 +167,15 @@ class Scenario(Description):
         )
         object.__setattr__(self, "robots", robots)
         object.__setattr__(self, "props", props)
-        checks.unique("Scenario.robots", [str(robot.name) for robot in robots])
-        names = [str(robot.name) for robot in robots] + [str(prop.name) for prop in props]
-        checks.unique("Scenario.robots and props", names)
+        checks.unique("Scenario.robots and props", [str(part.name) for part in (*robots, *props)])
         checks.unique("Scenario.addons", [addon.key for addon in self.addons])
         check_once("Scenario.material_pairs", self.material_pairs)
         self._check_only_ones()
+        step = f"sampling times of {self.sampling_time:g} s"
         if self.stop_time / self.sampling_time > ROW_LIMIT:
-            raise wrong(
-                "Scenario.stop_time", self.stop_time,
-                f"at most {ROW_LIMIT:g} sampling times of {self.sampling_time:g} s",
-            )  # fmt: skip
+            raise wrong("Scenario.stop_time", self.stop_time, f"at most {ROW_LIMIT:g} {step}")
         if self.command_delay / self.sampling_time > 1e6:
-            raise wrong(
-                "Scenario.command_delay", self.command_delay,
-                f"at most a million sampling times of {self.sampling_time:g} s",
-            )  # fmt: skip
+            raise wrong("Scenario.command_delay", self.command_delay, f"at most a million {step}")
         for robot in robots:
             for sensor in robot.sensors:
                 sensor.check_timing(f"{type(sensor).__name__} of {robot.name}", self.sampling_time)
@@ -227,10 +220,8 @@ class Scenario(Description):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
             where = f"{type(prop).__name__}.shape of {prop.name}"
             limits.check_centred(where, known_shape(where, shape))
-        of_material = {
-            str(p.name): p.material for p in self.props if p.mass is None and p.material is not None
-        }
-        limits.check_bodies(self.bodies, of_material, self.max_overlap)
+        made_of = {str(p.name): p.material for p in self.props if p.mass is None and p.material}
+        limits.check_bodies(self.bodies, made_of, self.max_overlap)
         drives = [robot.drive for robot in self.robots]
         limits.check_forces(self.bodies, drives, self.max_overlap)
 
@@ -294,14 +285,13 @@ class Scenario(Description):
 
     def _check_starts(self) -> None:
         """Refuse bodies that start outside the workspace, in an obstacle or in each other."""
-        obstacles = self.obstacles
+        overlap = self.max_overlap
         if self.workspace is not None and self.on_exit != "ignore":
             starts.check_in_workspace(self.bodies[: len(self.robots)], self.workspace)
         if self.workspace is not None and self.on_exit == "wall":
-            starts.check_off_walls(self.bodies, self.workspace, self.max_overlap)
-        if obstacles:
-            starts.check_off_obstacles(self.bodies, obstacles, self.max_overlap)
-        starts.check_apart(self.bodies, self.max_overlap, self.joined)
+            starts.check_off_walls(self.bodies, self.workspace, overlap)
+        starts.check_off_obstacles(self.bodies, self.obstacles, overlap)
+        starts.check_apart(self.bodies, overlap, self.joined)
 
     @cached_property
     def bodies(self) -> tuple[Rigid, ...]:
@@ -395,10 +385,10 @@ class Scenario(Description):
         for pair in self.material_pairs:
             if pair.names == names and pair.friction is not None:
                 return max(pair.friction, pair.static_friction or 0.0)
-        held = (
+        still = (
             s.friction if s.static_friction is None else s.static_friction for s in (one, other)
         )
-        return blended(self.friction_rule, *held)
+        return blended(self.friction_rule, *still)
 
     @cached_property
     def last_iteration(self) -> int:
