@@ -66,11 +66,7 @@ def save_scenario(
     if path.suffix.lower() != SUFFIX:
         raise InputError(f"{path}: a scenario is saved as {SUFFIX}, this ends in {path.suffix!r}")
     writer = _Writer(path.parent)
-    try:
-        text = writer.text(scenario, path.name, control).encode()
-    except UnicodeEncodeError as error:
-        line = shown(error.object[: error.end].rpartition("\n")[2])
-        raise InputError(f"{path}: half a character can't be written, in {line}") from None
+    text = writer.text(scenario, path.name, control).encode(errors="replace")
     with atomic_write(path) as file:
         file.write(text)
     return tuple(dict.fromkeys(writer.missing))

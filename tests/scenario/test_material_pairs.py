@@ -106,17 +106,6 @@ def test_what_can_not_be_is_refused_in_one_clear_line(make, message):
         make()
 
 
-@each_case("static", [0.3, float("nan"), 1001.0])
-def test_a_surface_of_ones_own_is_checked_as_well(static):
-    class Odd(Box):
-        @property
-        def surface(self) -> Surface:
-            return Surface(0.4, 0.5, static)
-
-    with pytest.raises(InputError, match=r"Odd\.surface of odd0.*static_friction >= friction"):
-        Scenario(robots=[Robot(pose=(2, 2, 0))], props=[Odd()])
-
-
 # -- names of materials stay ------------------------------------------------------------------
 
 

@@ -2,7 +2,7 @@
 
 import inspect
 from itertools import combinations, pairwise
-from math import cos, inf, pi, sin
+from math import cos, inf, sin
 
 import numpy as np
 import pytest
@@ -22,7 +22,6 @@ from mars2d import (
     Scenario,
     Within,
 )
-from mars2d.addons import Communication
 from mars2d.core.arithmetic import norm, norms
 from tests.cases import each_case
 from tests.worlds import untimed
@@ -81,37 +80,6 @@ def test_the_bound_of_within_is_included_however_it_is_rounded(points, distance)
         for j in range(len(x))
         if i != j and norm(x[i] - x[j], y[i] - y[j]) <= distance + 1e-9
     }
-
-
-def test_within_is_who_hears_a_channel_of_that_range():
-    """Robots on a circle of the range's radius about the first are within it, whatever rounding."""
-    angles = np.linspace(0, 6, 40)
-    heard, seen = [], []
-
-    def first(robot):
-        if robot.time == 0:
-            robot.send("hello")
-            seen.extend(neighbour.index for neighbour in robot.neighbours)
-        return 0, 0
-
-    def other(robot):
-        heard.extend(robot.index for _ in robot.inbox)
-        return 0, 0
-
-    small = Robot(diameter=0.02, controller=other)
-    scenario = Scenario(
-        robots=[Robot(controller=first), *(small.at(0.7 * cos(a), 0.7 * sin(a)) for a in angles)],
-        physics="ideal", stop_time=0.1, neighbours=Within(0.7), addons=[Communication(range=0.7)],
-    )  # fmt: skip
-    mars2d.run(scenario)
-    assert heard == seen == [*range(1, 41)]
-
-
-def test_of_those_equally_near_the_first_come_first():
-    cross = np.array([[0.0, 0.0, 1.0, 0.0, -1.0], [0.0, -1.0, 0.0, 1.0, 0.0]])
-    assert Nearest(2).of(cross)[0] == [1, 2]
-    assert Nearest(4).of(cross)[0] == [1, 2, 3, 4]
-    assert Nearest(2).of(np.zeros((2, 4))) == [[1, 2], [0, 2], [0, 1], [0, 1]]
 
 
 def brute_nearest(position, count):
@@ -180,12 +148,6 @@ def shared_edges(position, least=1e-9):
 def test_delaunay_neighbours_share_an_edge_of_their_voronoi_cells(seed, n):
     position = scattered(seed, n)
     assert edges(Delaunay().of(position)) == both_ways(shared_edges(position))
-
-
-@pytest.mark.parametrize("shift", [0, 1e6])
-def test_delaunay_does_not_depend_on_where_the_team_is(shift):
-    position = scattered(3)
-    assert Delaunay().of(position + shift) == Delaunay().of(position)
 
 
 def test_delaunay_of_more_robots_agrees_with_scipys_voronoi_cells():
@@ -258,37 +220,6 @@ def test_of_robots_in_one_place_one_stands_for_all():
     assert edges(Delaunay().of(np.array([[0.0, 0, 1, 1], [0, 0, 0, 0]]))) == row(4)
 
 
-@each_case("seed", SEEDS)
-def test_of_pairs_in_one_place_one_is_the_others_only_neighbour(seed):
-    position = np.repeat(scattered(seed, 9), 2, axis=1)
-    found = Delaunay().of(position)
-    for k in range(9):
-        alone, other = sorted((2 * k, 2 * k + 1), key=lambda i: len(found[i]))
-        assert found[alone] == [other]
-    single = {(i // 2, j // 2) for i, j in edges(found)} - {(k, k) for k in range(9)}
-    assert single == edges(Delaunay().of(scattered(seed, 9)))
-
-
-def test_robots_drive_through_each_other_and_stay_neighbours():
-    """With ideal physics two meet in one place, on one line with a third."""
-    seen = []
-
-    def law(robot):
-        seen.append([n.index for n in robot.neighbours])
-        return 0.5, 0
-
-    robots = [
-        Robot(pose=(-0.5, 0, 0), diameter=0.1, controller=law),
-        Robot(pose=(0.5, 0, pi), diameter=0.1, controller=lambda robot: (0.5, 0)),
-        Robot(pose=(0.25, 0, 0), diameter=0.1),
-    ]
-    scenario = Scenario(robots=robots, physics="ideal", neighbours=Delaunay(), stop_time=2)
-    mars2d.run(scenario)
-    assert seen[0] == [2]
-    assert [1] in seen
-    assert all(seen)
-
-
 # -- graphs -----------------------------------------------------------------------------------
 
 PATH = [[0, 1, 0], [1, 0, 1], [0, 1, 0]]
@@ -306,10 +237,6 @@ def test_an_adjacency_matrix_of_any_kind_is_a_graph(matrix):
     assert Graph(matrix) == Graph(PATH)
 
 
-def test_a_matrix_that_is_not_symmetric_is_a_directed_graph():
-    assert Graph([[0, 1, 1], [0, 0, 0], [0, 1, 0]]).of(np.zeros((2, 3))) == [[1, 2], [], [1]]
-
-
 def test_a_graph_may_be_given_by_its_edges():
     assert Graph((3, [(0, 1), (1, 0), (1, 2), (2, 1), (0, 1)])) == Graph(PATH)
     assert Graph([3, [[2, 0]]]).of(np.zeros((2, 3))) == [[], [], [0]]
@@ -320,12 +247,6 @@ def test_a_graph_of_networkx_is_accepted_directed_or_not():
     nx = pytest.importorskip("networkx")
     assert Graph(nx.path_graph(3)) == Graph(PATH)
     assert Graph(nx.DiGraph([(0, 1), (0, 2)])).of(np.zeros((2, 3))) == [[1, 2], [], []]
-    assert Graph(nx.MultiGraph([(0, 1), (0, 1)])).of(np.zeros((2, 2))) == [[1], [0]]
-    lonely = nx.empty_graph(3)
-    lonely.add_edge(2, 0, weight=0.0)  # an edge is an edge
-    assert Graph(lonely).of(np.zeros((2, 3))) == [[2], [], [0]]
-    mixed = nx.Graph([(np.int64(1), 0)])
-    assert Graph(mixed).of(np.zeros((2, 2))) == [[1], [0]]
 
 
 def test_graphs_of_networkx_are_the_matrices_that_it_makes_of_them():
@@ -335,22 +256,11 @@ def test_graphs_of_networkx_are_the_matrices_that_it_makes_of_them():
         assert Graph(graph) == Graph(matrix)
 
 
-@each_case(
-    ("nodes", "message"),
-    [
-        (["a", "b"], "its nodes are ['a', 'b']: expected 0, 1, 2, ..., the robots' indices"),
-        ([1, 2], "its nodes are [1, 2]: expected 0, 1, 2, ..."),
-        ([0, 2], "networkx.convert_node_labels_to_integers makes them so"),
-    ],
-)
-def test_other_nodes_than_the_robots_indices_are_refused(nodes, message):
+@each_case("edge", ["ab", (1, 2), (0, 2)])
+def test_other_nodes_than_the_robots_indices_are_refused(edge):
     nx = pytest.importorskip("networkx")
-    graph = nx.Graph()
-    graph.add_nodes_from(nodes)
-    with pytest.raises(InputError) as raised:
-        Graph(graph)
-    assert str(raised.value).startswith("Graph.graph: ")
-    assert message in str(raised.value)
+    with pytest.raises(InputError, match=r"^Graph.graph: its nodes are .*expected 0, 1, 2, ..., "):
+        Graph(nx.Graph([tuple(edge)]))
 
 
 NOT_A_GRAPH = (
@@ -461,17 +371,6 @@ def test_a_rule_that_returns_nonsense_is_an_error_that_points_at_it(found, messa
         listed(Odd(), n=2)
     line = inspect.unwrap(Odd.of).__code__.co_firstlineno
     assert untimed(raised.value) == f"test_neighbours.py, line {line}: Odd.of(position) {message}"
-
-
-def test_a_rule_that_raises_is_shown_with_its_line():
-    class Broken(Neighbourhood):
-        def of(self, position):
-            return position[2]
-
-    with pytest.raises(LawError, match=r"Scenario\.neighbours raised IndexError") as raised:
-        listed(Broken())
-    line = inspect.unwrap(Broken.of).__code__.co_firstlineno + 1
-    assert raised.value.where == f"test_neighbours.py, line {line}"
 
 
 def test_a_rule_can_not_move_robots():

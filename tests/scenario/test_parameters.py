@@ -139,12 +139,6 @@ def test_the_seed_of_the_run_is_that_of_a_function_that_has_one():
     assert (seed.value, seed.default) == (2, 4)
 
 
-def test_a_law_called_control_has_the_name_of_its_file():
-    found = open_experiment("corner_game", {"mu": 0.8})
-    assert {each.name.partition(".")[0] for each in found.parameters()} <= {"mu", "seed", "laws"}
-    assert not any("laws.control." in each.name for each in found.parameters())
-
-
 def test_a_body_has_mass_surface_and_bounds_of_its_drive():
     scenario = Scenario(robots=[Robot(name="a.b")], props=[Box(pose=(2, 0, 0), name="crate")])
     experiment = open_experiment(scenario, {"props.crate.mass": 3.0})

@@ -231,15 +231,6 @@ def test_a_name_of_mars2ds_own_wins_and_that_is_said(site, capsys):
     assert said in told(capsys, "list")
 
 
-def test_of_two_packages_with_one_name_the_first_in_the_alphabet_wins(site, capsys):
-    for name in ("beta", "alpha"):
-        code = f"from mars2d import Sensor\nclass Radar(Sensor):\n    '''Of {name}.'''\n"
-        site(name, "1", f"[mars2d.sensors]\nradar = {name}:Radar", **{name: code})
-    listed = told(capsys, "list")
-    assert "Of alpha. (alpha 1)" in listed
-    assert "alpha has a Radar, which is used in its place (beta 1)" in listed
-
-
 def test_the_groups_in_the_documents_are_those_that_are_looked_up():
     text = (Path(__file__).parents[2] / "docs" / "own_sensor_and_addon.md").read_text("utf-8")
     project = tomllib.loads("[build-system]" + text.partition("[build-system]")[2].split("```")[0])

@@ -206,12 +206,6 @@ def test_props_are_named_by_kind_and_place_and_never_like_another():
     assert [p.name for p in scenario.props] == ["box0", "ball1_", "box2", "box4", "box4_"]
 
 
-def test_a_robot_takes_no_name_that_a_prop_was_given():
-    scenario = Scenario(robots=[Robot()], props=[Box(pose=(1, 0), name="robot0")])
-    assert (scenario.robots[0].name, scenario.props[0].name) == ("robot0_", "robot0")
-    assert scenario.replace(title="x").robots[0].name == "robot0_"
-
-
 def test_bodies_are_the_robots_then_the_props():
     props = [Puck(pose=(1, 0, 2), velocity=(1, 2, 3), mass=2)]
     first, second = Scenario(robots=[Robot()], props=props).bodies

@@ -81,11 +81,9 @@ def test_gate_and_schema_refuse_the_same_numbers():
     "text",
     [
         "format = 2",
-        "format = 1\nsampling_tme = 0.1",
         "format = 1\nrobots = 0",
         "format = 1\n[[robots]]\nmass = 'heavy'",
         "format = 1\n[[robots]]\ndrive = 'Unicyle'",
-        "format = 1\n[[props]]\nlength = 1",  # no type
         "format = 1\n[[props]]\ntype = 'Ball'\ndiameter = 1e9",
     ],
 )

@@ -1,6 +1,5 @@
 """Scenario files: what is saved comes back, what is wrong is pointed at, nothing else is raised."""
 
-import random
 import re
 from pathlib import Path
 
@@ -15,7 +14,6 @@ from mars2d.bodies.props import Ball, Box, Gate
 from mars2d.cli import command_line as cli
 from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.law_reference import Reference
 from tests.cases import each_case
 
 EVERYTHING = (Path(__file__).parent / "everything.toml").read_text(encoding="utf-8")
@@ -159,28 +157,6 @@ def test_the_law_of_the_team_is_taken_from_the_file(tmp_path):
     assert 'control = "walk.py:team"\n' in (tmp_path / "again.toml").read_text()
 
 
-@each_case(
-    ("text", "found"),
-    [
-        ("walk.py:walk", ("walk.py", "walk")),
-        ("walk.py", ("walk.py", "control")),
-        (r"C:\laws\walk.py", (r"C:\laws\walk.py", "control")),
-        (r"C:\laws\walk.py:turn", (r"C:\laws\walk.py", "turn")),
-    ],
-)
-def test_where_a_law_stands_is_read(text, found):
-    assert Reference.read("controller", text) == found
-
-
-def test_an_experiment_is_opened_anew_as_it_was(tmp_path):
-    read(tmp_path, 'format = 1\ncontrol = "walk.py:team"\n')
-    experiment = open_experiment(tmp_path / "scene.toml", {"stop_time": 7})
-    again = experiment.reopened()
-    assert again.scenario == experiment.scenario
-    assert again.scenario.stop_time == 7
-    assert again.control is not experiment.control
-
-
 def test_laws_that_cannot_be_found_again_are_named(tmp_path):
     scenario = Scenario(robots=[Robot(controller=lambda robot: (0, 0))])
     text, missing, again = saved(scenario, tmp_path, lambda world: (0, 0))
@@ -253,7 +229,6 @@ def test_the_verbs_take_scenario_files(tmp_path, monkeypatch, capsys):
     told = capsys.readouterr().out
     assert "law team" in told
     assert "control steps done" in told
-    assert cli.main(["compare", "scene.toml", "--stop-time", "1", "--figure", "c.png"]) == 0
     assert cli.main(["run", "scen.toml", "--headless"]) == 2
     assert "did you mean 'scene.toml'?" in capsys.readouterr().err
     assert cli.main(["run", "scene.toml", "--headless", "--set", "stop_tim=1"]) == 2
@@ -266,9 +241,7 @@ ROBOT = "[[robots]]\n"
 
 WRONG = [
     ("", "scene.toml: no scenario: the first line should be format = 1"),
-    ("title = 'x'", "scene.toml: no scenario: the first line should be format = 1"),
     ("format = 2", "scene.toml, line 1: format = 2: newer than this MARS2D, which reads 1"),
-    ("format = true", "scene.toml, line 1: format = True: expected 1"),
     ('\n\ntitle = "x', "scene.toml, line 3: "),
     ("\ntitle = 'x", "scene.toml, at its end: Expected"),
     ("\ngrid = True", "line 2: Invalid value: grid = True; TOML writes true, false"),
@@ -277,7 +250,6 @@ WRONG = [
     ("\ntitel = 'x'", "line 2: Scenario has no field 'titel'; did you mean 'title'?"),
     ("\ncontroll = 'x'", "did you mean 'control'?"),
     ("\ntitle = 5", "scene.toml, line 2: Scenario.title = 5: expected text in quotes"),
-    ("\nrobots = 0", "line 2: Scenario.robots = 0: expected a list of robots, or how many"),
     ("\nrobots = [5]", 'line 2: robots[0] = 5: expected a table, as { type = "Robot" }'),
     ("\n[robots]", "line 2: robots: expected a list of tables; write [[robots]] above each"),
     (
@@ -287,10 +259,6 @@ WRONG = [
     (
         f"\n{ROBOT}drive = 'Unicycl'",
         "type = 'Unicycl': no Drive is called so; did you mean 'Unicycle'",
-    ),
-    (
-        f"\n{ROBOT}drive = 5",
-        'line 3, robots[0]: drive = 5: expected a table, as { type = "Unicycle" }',
     ),
     (
         f"\n{ROBOT}\n{ROBOT}pose = [1,1]\n[robots.drive]\nmax_force = -1",
@@ -305,15 +273,9 @@ WRONG = [
         "robots[0].sensors[0]: its type is missing, as type",
     ),
     (
-        f"\n{ROBOT}[robots.sensors]\ntype = 'Pose'",
-        "expected a list of tables; write [[robots.sensors]]",
-    ),
-    (f"\n{ROBOT}shape = {{ outline = [] }}", "robots[0].shape: its type is missing"),
-    (
         f"\n{ROBOT}shape = {{ type = 'Compound', parts = ['Disc'] }}",
         "line 3, robots[0].shape.parts[0]: Disc.diameter is missing",
     ),
-    (f"\n{ROBOT}controller = 5", "line 3, robots[0]: controller = 5: expected where a law stands"),
     (
         f"\n{ROBOT}controller = 'wlk.py:walk'",
         "line 3, robots[0]: wlk.py: there is no such file beside",
@@ -323,13 +285,6 @@ WRONG = [
         f"\n{ROBOT}controller = 'walk.py:two'",
         "expected a function of exactly one argument, the robot",
     ),
-    (f"\n{ROBOT}{ROBOT}pose = [0.1, 0]", "they start 0.2 m inside each other"),
-    ("\n[[props]]\nlength = 1", "line 2, props[0]: its type is missing"),
-    (
-        "\nprops = [{ type = 'Bx' }]",
-        "line 2, props[0]: type = 'Bx': no Prop is called so; did you mean",
-    ),
-    ("\n[[joints]]\ntype = 'Rope'", "line 2, joints[0]: Rope.a is missing"),
     ("\n[[joints]]\ntype = 'Rope'\na = 'robt0'", "line 2: Scenario.joints[0].a = 'robt0'"),
     ("\n[[addons]]\ntype = 'Map'\noutlines = [[0, 0], [1, 1]]", "line 4, addons[0]: Map.outlines"),
     (
@@ -368,64 +323,6 @@ def test_what_is_no_text_is_refused(data, expected, tmp_path):
 def test_what_is_no_file_is_refused(tmp_path):
     with pytest.raises(InputError, match="there is no such file"):
         load_scenario(tmp_path / "scene.toml")
-    with pytest.raises(
-        InputError, match=r"a folder; expected a scenario, a file that ends in \.toml"
-    ):
-        load_scenario(tmp_path)
-    with pytest.raises(InputError, match=r"load_scenario\(path\) = 5: expected the name"):
-        load_scenario(5)
     (tmp_path / "scene.py").write_text("")
     with pytest.raises(InputError, match=r"expected a scenario, a file that ends in \.toml"):
         load_scenario(tmp_path / "scene.py")
-
-
-VALUES = [
-    "true", "-1", "0", "1e308", "nan", "-inf", "''", "'none'", "'x'", "[]", "[[]]", "[1]", "[1,2]",
-    "[1,2,3]", "{}", "{type='Car'}", "{a=1}", "1979-05-27", "9" * 30, "[nan,1]", "['a','a']",
-    "'contact'", "[[0,0],[1,0],[1,1]]", "[true]", '"\\u0000"', "'a.png'", "-0.0", "5e-324", "1e-7",
-]  # fmt: skip
-
-TYPES = ["Map", "Box", "Car", "RangeFinder", "Graph", "Robot", "Scenario", "Beacon", "Polygon"]
-
-
-def mutated(chance, text):
-    """Change a file in up to three places."""
-    lines = text.split("\n")
-    for _ in range(chance.randint(1, 3)):
-        i = chance.randrange(len(lines))
-        key = re.match(r"\w+ = ", lines[i])
-        kind = chance.randrange(6)
-        if kind == 0 and key:
-            lines[i] = key[0] + chance.choice(VALUES)
-        elif kind == 1:
-            lines[i : i + 1] = []
-        elif kind == 2:
-            lines[i:i] = lines[chance.randrange(len(lines)) :][: chance.randint(1, 4)]
-        elif kind == 3:
-            lines[i] = re.sub(r"-?\d+\.\d+", lambda _: chance.choice(VALUES), lines[i])
-        elif kind == 4 and lines[i]:
-            at = chance.randrange(len(lines[i]))
-            lines[i] = (
-                lines[i][:at] + chance.choice("\0\n\r\t'\"[]{}=.,#\x7f\u20281a") + lines[i][at:]
-            )
-        else:
-            lines[i] = re.sub(r'type = "\w+"', f'type = "{chance.choice(TYPES)}"', lines[i])
-    return "\n".join(lines)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "block", [0, *(pytest.param(k, marks=pytest.mark.nightly) for k in range(1, 24))]
-)
-def test_a_changed_file_is_read_or_refused_in_words(block, tmp_path):
-    good = 0
-    for seed in range(100 * block, 100 * (block + 1)):
-        text = mutated(random.Random(seed), EVERYTHING)
-        try:
-            scenario = read(tmp_path, text)
-        except InputError as error:
-            assert str(error).startswith("scene.toml"), seed  # noqa: PT017
-        else:
-            good += 1
-            assert saved(scenario, tmp_path)[2] == scenario, seed
-    assert 5 < good < 95
