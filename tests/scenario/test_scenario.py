@@ -55,10 +55,6 @@ def test_a_number_of_robots_stands_on_a_circle_facing_its_centre():
     assert np.sin(theta) == pytest.approx(-y / 3.5)
 
 
-def test_the_geometric_centre_lies_behind_the_centre_of_rotation():
-    assert Robot(pose=(1, 2, np.pi / 2), center_offset=0.1).center == pytest.approx((1, 1.9))
-
-
 def test_robots_without_a_name_get_one_that_is_free():
     robots = [Robot(name="robot1"), Robot(pose=(1, 0, 0)), Robot(pose=(2, 0, 0))]
     assert [r.name for r in Scenario(robots=robots).robots] == ["robot1", "robot1_", "robot2"]
