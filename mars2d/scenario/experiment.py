@@ -19,13 +19,11 @@ from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
 from mars2d.core.streams import check_seed
 from mars2d.core.usercode import called, quiet
-from mars2d.scenario import law_parameters, parameters, toml_file
+from mars2d.scenario import parameters, toml_file
 from mars2d.scenario.code_file import law_in, line_in, module_in
 from mars2d.scenario.examples import examples
-from mars2d.scenario.law_parameters import PREFIX
-from mars2d.scenario.map_option import MapOption, reading_options
-from mars2d.scenario.options import override
-from mars2d.scenario.parameters import Parameter
+from mars2d.scenario.options import MapOption, override, reading_options
+from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.scenario.policy import SUFFIX
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.scenario import Scenario
@@ -94,7 +92,7 @@ class Experiment:
         return (
             self.source.written == other.source.written
             and len(self._laws) == len(other._laws)
-            and all(map(law_parameters.same, self._laws, other._laws))
+            and all(map(parameters.same, self._laws, other._laws))
             and self.scenario.addons == other.scenario.addons
         )
 
@@ -129,7 +127,7 @@ class Experiment:
         made, given = self.source.function, self.options
         own = [] if made is None else [*parameters.of_arguments(made, given, self.seed)]
         names = {each.name for each in own}
-        laws = law_parameters.of_laws(self._laws, plain._laws)
+        laws = parameters.of_laws(self._laws, plain._laws)
         return own + [each for each in laws if each.name.rpartition(".")[2] not in names]
 
     @property
@@ -211,7 +209,7 @@ def open_experiment(
             scenario = scenario if seed is None else scenario.started(seed)
             experiment = replace(plain, scenario=scenario)
             if of_laws:
-                team, *own = law_parameters.laws_with(experiment._laws, of_laws)
+                team, *own = parameters.laws_with(experiment._laws, of_laws)
                 experiment = replace(plain, scenario=scenario.with_laws(own), control=team)
         except Mars2dError as error:
             error.where = error.where or plain.source.name or None

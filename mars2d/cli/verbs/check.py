@@ -24,8 +24,7 @@ from mars2d.output.figures import figure
 from mars2d.output.figures.map import save_map
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
-from mars2d.scenario.map_option import reading_options
-from mars2d.scenario.options import options_in_words, parse_option
+from mars2d.scenario.options import options_in_words, parse_option, reading_options
 from mars2d.scenario.policy import SUFFIX as LEARNED
 from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
