@@ -181,28 +181,19 @@ def test_a_scenario_file_says_them(tmp_path):
     assert not [*errors]
 
 
-def test_no_run_of_a_sweep_fails_for_its_start(tmp_path):
-    """Of starts that are drawn without looking, some overlap: these runs fail."""
-    near = "robots=[Robot(controller=law) for _ in range(8)], stop_time=0.2, on_exit='wall'"
-    (tmp_path / "blind.py").write_text(
-        "import numpy as np\nfrom mars2d import Robot, Scenario\n"
-        "def law(robot):\n    return 0.1, 0.0\n"
-        "def scenario(seed=0):\n"
-        "    poses = np.random.default_rng(seed).uniform(-5, 5, (8, 3))\n"
-        "    return Scenario(robots=[Robot(pose=p, controller=law) for p in poses],\n"
-        "        stop_time=0.2, on_exit='wall')\n"
-    )
-    (tmp_path / "placed.py").write_text(
-        "from mars2d import RandomStarts, Robot, Scenario\n"
-        "def law(robot):\n    return 0.1, 0.0\n"
-        f"scenario = Scenario({near}, random_starts=[RandomStarts()])\n"
-    )
-    failed = {
-        name: len(mars2d.sweep(tmp_path / name, seeds=12, workers=1).failed)
-        for name in ("blind.py", "placed.py")
-    }
-    assert failed["blind.py"] > 1
-    assert failed["placed.py"] == 0
+def test_with_no_seed_a_start_fails():
+    """Of starts that are drawn without looking, some overlap."""
+    eight = Scenario(robots=8, on_exit="wall", random_starts=[RandomStarts()])
+    for seed in range(40):
+        eight.started(seed).replace()  # refuses starts that overlap, or that are in a wall
+    drawn = np.random.default_rng(0).uniform(-5, 5, (40, 8, 3))
+    failed = 0
+    for poses in drawn:
+        try:
+            Scenario(robots=[Robot(pose=pose) for pose in poses], on_exit="wall")
+        except InputError:
+            failed += 1
+    assert failed > 4
 
 
 @each_case(
