@@ -83,9 +83,8 @@ def engines(bodies, poses, outlines):
 # -- what rays meet -----------------------------------------------------------------------------
 
 
-@each_case("seed", range(3))
-def test_fans_are_the_engines_rays(seed):
-    rng = np.random.default_rng(seed)
+def test_fans_are_the_engines_rays():
+    rng = np.random.default_rng(0)
     hits = starts_within = 0
     for _ in range(150):
         bodies, poses, _ = scene = some_scene(rng)
@@ -113,7 +112,7 @@ def test_fans_are_the_engines_rays(seed):
 
 def test_a_ray_hits_the_body_that_alone_is_as_far():
     rng = np.random.default_rng(1)
-    for _ in range(100):
+    for _ in range(30):
         bodies, poses, outlines = scene = some_scene(rng)
         fans = fans_of(*scene)
         look, bearings = rng.uniform(-4, 4, (3, 1)), np.linspace(-pi, pi, 50)
