@@ -158,7 +158,9 @@ def test_numbers_that_the_engine_has_elsewhere_are_noticed(monkeypatch):
         "its joints have their impulses elsewhere": (
             "PIVOT_IMPULSE", "GEAR_IMPULSE", "GROOVE_IMPULSE",
         ),
-        "its springs have their damping elsewhere": ("REST", "LOST", "FELT", "FELT_TURNING"),
+        "its springs have their damping elsewhere": (
+            "REST", "LOST", "EFFECTIVE_MASS", "EFFECTIVE_MOMENT",
+        ),
     }.items():  # fmt: skip
         for name in names:
             with monkeypatch.context() as patch:

@@ -341,13 +341,13 @@ def test_points_at_seams_have_their_arms_from_the_centre_of_mass():
     """That of a robot may be ahead of its pose: here by 0.1 m."""
     arms = []
 
-    def mend(arbiter, is_first):
+    def correct(arbiter, is_first):
         chipmunk.put_point(arbiter, 0.3, 0.0, 0.3, -0.001)
         point = arbiter.contacts[0]
         arms.extend((point.r1, point.r2) if is_first else (point.r2, point.r1))
 
     space, ground = chipmunk.new_space(0.0), chipmunk.new_ground(-1)
-    seams = SimpleNamespace(handle=None, mend=mend)
+    seams = SimpleNamespace(handle=None, correct=correct)
     body = chipmunk.new_body(1.0, 1.0, 0)
     chipmunk.weight_at(body, 0.1)
     wall = chipmunk.new_segment(ground, ((-1.0, 0.0), (1.0, 0.0)), (0.0, 0.0))
