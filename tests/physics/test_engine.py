@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import mars2d
@@ -148,13 +148,13 @@ def test_an_arc_of_huge_radius_is_as_exact(spin):
     assert theta == pytest.approx(10 * spin, rel=1e-9)
 
 
-def test_twenty_thousand_ticks_stay_exact():
+def test_four_thousand_ticks_stay_exact():
     world = World(free(Robot(), Robot(pose=(0, 50, 0), drive=Holonomic()), sampling_time=0.05))
-    for _ in range(20_000):
+    for _ in range(4_000):
         world.step([[0.2, 0.01], [0.3, -0.02]])
-    turning = arc((0, 0, 0), 0.2, 0.3, 1000.0)
+    turning = arc((0, 0, 0), 0.2, 0.3, 200.0)
     assert np.abs(world.pose[:2, 0] - turning[:2]).max() < EXACT
-    assert np.abs(world.pose[:2, 1] - [10, 30]).max() < EXACT
+    assert np.abs(world.pose[:2, 1] - [2, 46]).max() < EXACT
 
 
 def test_arcs_stay_exact_where_others_are_near_but_nothing_touches():
@@ -267,7 +267,7 @@ def test_more_overlap_allowed_means_fewer_substeps():
     def needed(max_overlap: float) -> int:
         robots = [Robot(), Robot(pose=(0.5, 0, np.pi))]
         with counted() as work:
-            drive(World(free(*robots, max_overlap=max_overlap)), [[0.4, 0.4], [0, 0]], 5)
+            drive(World(free(*robots, max_overlap=max_overlap)), [[0.4, 0.4], [0, 0]], 2)
         return len(work.substeps)
 
     fine, usual, coarse = needed(1e-5), needed(1e-3), needed(1e-2)
@@ -624,20 +624,19 @@ def test_in_a_crowd_nothing_overlaps_by_more_than_a_millimetre(
     assert depth <= 1e-3
 
 
-@each_case("offset", [0.05, 0.15])
-def test_in_a_crowd_of_robots_that_turn_about_another_point_the_overlap_is_as_small(offset):
-    depth = deepest(3, speed=0.5, sampling_time=0.5, offset=offset, ticks=15)
+def test_in_a_crowd_of_robots_that_turn_about_another_point_the_overlap_is_as_small():
+    depth = deepest(3, speed=0.5, sampling_time=0.5, offset=0.15, ticks=8)
     assert depth <= 1e-3
 
 
-@each_case("max_overlap", [1e-4, 5e-3, 2e-2])
+@each_case("max_overlap", [1e-4, 2e-2])
 def test_the_overlap_stays_under_what_is_allowed(max_overlap):
     depth = deepest(1, speed=0.5, sampling_time=0.1, ticks=30, max_overlap=max_overlap)
     assert depth <= max_overlap
 
 
 def test_in_a_larger_crowd_with_listed_pairs_the_overlap_is_as_small():
-    depth = deepest(0, speed=0.8, sampling_time=0.2, count=50, box=3.2, ticks=20)
+    depth = deepest(0, speed=0.8, sampling_time=0.2, count=50, box=3.2, ticks=6)
     assert depth <= 1e-3
 
 
@@ -655,6 +654,7 @@ def test_in_many_crowds_nothing_overlaps_by_more_than_a_millimetre(seed):
 
 
 @given(seed=st.integers(0, 2**32))
+@settings(max_examples=15)
 def test_two_robots_pushed_at_random_stay_finite_and_apart(seed):
     depth = deepest(seed, speed=1.0, sampling_time=0.3, count=2, box=0.8, ticks=4, offset=0.1)
     assert depth <= 1e-3
@@ -677,10 +677,10 @@ def test_two_worlds_stepped_in_turn_go_as_each_goes_alone():
 
     alone = [world(1), world(2)]
     for one in alone:
-        for _ in range(40):
+        for _ in range(15):
             step(one)
     together = [world(1), world(2)]
-    for _ in range(40):
+    for _ in range(15):
         step(together[0])
         step(together[1])
     for (a, _), (b, _) in zip(alone, together, strict=True):
@@ -708,7 +708,7 @@ def test_robots_that_start_overlapping_by_less_than_is_allowed_part_again():
 
 def test_a_thousand_robots_in_one_place_are_refused_at_once():
     with pytest.raises(InputError, match="inside each other"):
-        Scenario(robots=[Robot()] * 5000)
+        Scenario(robots=[Robot()] * 1000)
 
 
 def test_a_light_robot_thrown_by_a_heavy_one_does_not_pass_the_wall():
@@ -752,7 +752,7 @@ def test_robots_far_off_stay_on_their_arcs_when_others_are_thrown_about():
     assert np.abs(record.pose[:, :2, 2].T - exact - [[0], [20]]).max() < 1e-9
 
 
-@each_case("restitution", [0.25, 0.5, 0.75, 0.9])
+@each_case("restitution", [0.25, 0.9])
 @each_case("start", [-1.0, -1.01, -0.93])
 @each_case("offset", [0.1, -0.2])
 def test_robots_that_meet_obliquely_part_at_their_restitution(restitution, start, offset):
@@ -777,7 +777,7 @@ def test_dense_crowds_of_unequal_masses_need_few_substeps():
     box = [(-1.1, -1.1), (-1.1, 1.1), (1.1, 1.1), (1.1, -1.1)]
     world = World(free(*robots, workspace=box, on_exit="wall"))
     rng = np.random.default_rng(0)
-    for _ in range(30):
+    for _ in range(10):
         with counted() as work:
             world.step(rng.uniform(-1, 1, (2, 36)) * [[0.5], [3]])
         assert len(work.substeps) < 100

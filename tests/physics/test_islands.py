@@ -195,7 +195,7 @@ def test_solvers_are_used_again():
     world = world_of(robots, workspace=room, on_exit="wall")
     mover = mover_of(world)
     used = []
-    for _ in range(150):
+    for _ in range(60):
         world.step(rng.uniform(-0.5, 0.5, (2, 16)) * [[1], [4]])
         used.append(len(bodies_of(mover)))
         numbers = [k for who in bodies_of(mover) for k in who]
@@ -364,7 +364,7 @@ def file(n: int) -> tuple[World, np.ndarray]:
     return world_of(robots, sampling_time=0.1, addons=[wall]), command
 
 
-@each_case(("crowd", "n", "most"), [(heap, 16, 7), (heap, 64, 11), (file, 12, 7), (file, 30, 16)])
+@each_case(("crowd", "n", "most"), [(heap, 16, 7), (file, 12, 7)])
 def test_pushes_add_up_to_no_more_overlap_and_to_few_more_substeps(crowd, n, most):
     """As many as a heap needs, where a file of as many robots would need more."""
     deepest, count = 0.0, 0
@@ -381,7 +381,7 @@ def test_pushes_add_up_to_no_more_overlap_and_to_few_more_substeps(crowd, n, mos
     assert count <= most * 40
 
 
-@each_case("seed", range(6))
+@each_case("seed", range(2))
 def test_in_crowds_that_are_thrown_about_momentum_is_kept_and_nothing_overlaps(seed):
     """On each of eight ways to the middle a heavy elastic puck hits a light one."""
     rng = np.random.default_rng(seed)

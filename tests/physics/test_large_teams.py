@@ -12,9 +12,9 @@ from mars2d.reports.bench.worlds import deepest, world_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.cases import each_case
 
-MANY = 168
+MANY = 80
 APART = 3.0
-ROW = 16
+ROW = 8
 """How many robots stand in a row of the large teams here."""
 
 
@@ -105,16 +105,15 @@ def test_free_motion_of_a_large_team_is_exact():
     assert np.abs(world.pose - [x, y, omega * t]).max() < 1e-9
 
 
-@each_case("max_overlap", [1e-3, 0.02])
-def test_a_large_crowd_stays_within_its_walls_and_its_overlap(max_overlap):
-    scene = team(400, 0.05)
-    world = world_of(scene, max_overlap)
+def test_a_large_crowd_stays_within_its_walls_and_its_overlap():
+    scene = team(200, 0.05)
+    world = world_of(scene)
     poses = []
-    for _ in range(200):
+    for _ in range(100):
         world.step()
         poses.append(world.pose)
-    assert len(world.record.contacts) > 5000
-    assert deepest(scene, np.array(poses)) < max_overlap
+    assert len(world.record.contacts) > 1000
+    assert deepest(scene, np.array(poses)) < 1e-3
 
 
 def test_contacts_tell_of_the_momentum_that_a_crowd_gets():

@@ -5,16 +5,13 @@ from __future__ import annotations
 from math import atan2, cos, inf, pi, sin, sqrt
 
 import numpy as np
-import pymunk
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
-from mars2d.core.arithmetic import cosines_sines
-from mars2d.core.plane import WITHIN
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.sensors import RangeFinder
 from mars2d.sensors.base import NOTHING
@@ -247,7 +244,7 @@ def test_a_thick_walls_end_is_met_by_rays_from_within_its_thickness(thickness):
     r = thickness / 2
     wall = [(0, -r), (4, -r), (4, r), (0, r)]
     world = world_of([wall])
-    for y in np.linspace(-0.999, 0.999, 21) * r:
+    for y in np.linspace(-0.999, 0.999, 7) * r:
         for gap in (1e-6, 1e-3, r / 2, 3.0):
             found = world.surroundings.rays((-gap, y), np.array([0.0, pi]), 6.0, 0)
             assert found[0] == pytest.approx(gap, abs=EXACT)
@@ -326,7 +323,7 @@ def test_no_ray_leaves_a_closed_room(name, built):
         world = world_of([corners] if built == "one outline" else walls)
     rng = np.random.default_rng(0)
     count = escaped = 0
-    while count < 100_000:
+    while count < 10_000:
         start = np.add(middle, rng.uniform(-0.5, 0.5, 2))
         aimed = np.array([atan2(y - start[1], x - start[0]) for x, y in corners])
         angles = [aimed, np.nextafter(aimed, 9), np.nextafter(aimed, -9), rng.uniform(-4, 4, 100)]
@@ -368,7 +365,7 @@ def test_a_ray_aimed_exactly_at_a_bodys_corner_meets_it():
 @each_case("eighth", range(8))
 def test_a_ray_straight_at_the_corner_of_a_box_meets_it(eighth):
     angle = eighth * pi / 4
-    for far in np.arange(0.75, 6, 0.25):
+    for far in np.arange(0.75, 6, 0.75):
         for size in (0.2, 0.3, 0.5):
             turned = 0.0 if eighth % 2 else pi / 4
             box = Box(pose=(far * cos(angle), far * sin(angle), turned), length=size, width=size)
@@ -384,7 +381,7 @@ def test_a_ray_straight_at_the_corner_of_a_box_meets_it(eighth):
 
 @each_case("kind", BODIES)
 @each_case("offset", [0.0, 0.1])
-@each_case("mount", [(0, 0, 0), (0.25, 0, 0), (0.3, -0.4, 2.0), (2.0, 0.3, pi)])
+@each_case("mount", [(0, 0, 0), (0.3, -0.4, 2.0)])
 def test_a_robot_never_sees_itself(kind, offset, mount):
     shape = some_shape(np.random.default_rng(2), kind)
     robot = Robot(
@@ -450,6 +447,7 @@ def test_a_body_that_is_carried_is_seen_where_it_is_put():
 
 
 @given(seed=st.integers(0, 2**32 - 1))
+@settings(max_examples=15)
 def test_what_is_hidden_has_something_before_it(seed):
     rng = np.random.default_rng(seed)
     outlines = [some_obstacle(rng, kind, center) for kind, center in
@@ -469,33 +467,3 @@ def test_a_robot_does_not_hide_its_own_centre():
     centres = np.array([(2.0, 0.0), (4.0, 0.0)])
     assert world.surroundings.hidden((0, 0), centres, [1, 2], 0).tolist() == [False, True]
     assert world.surroundings.hidden((0, 0), centres, NOTHING, 0).tolist() == [True, True]
-
-
-def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
-    rng = np.random.default_rng(5)
-    robots = [
-        Robot(pose=(2 * k - 4, rng.uniform(-1, 1), k), shape=some_shape(rng, kind))
-        for k, kind in enumerate(BODIES)
-    ]
-    outlines = [
-        some_obstacle(rng, kind, center)
-        for kind in OBSTACLES
-        for center in rng.uniform(2, 6, (10, 2))
-    ]
-    world = world_of(outlines, robots)
-    space = world.simulation.engine.space._seen
-    for robot in range(5):
-        x, y, _ = rng.uniform(-5, 5, 3)
-        angles, reach = rng.uniform(-4, 4, 400), rng.uniform(1, 9)
-        c, s = cosines_sines(angles)
-        far = WITHIN * reach
-        ends_x, ends_y = x + far * c, y + far * s
-        own = pymunk.ShapeFilter(group=robot + 1)
-        hits = [
-            space.segment_query_first((x, y), end, 0.0, own)
-            for end in zip(ends_x.tolist(), ends_y.tolist(), strict=True)
-        ]
-        public = [inf if hit is None else hit.alpha * far for hit in hits]
-        ours = world.simulation.engine.space.rays.distances((x, y), angles, reach, robot)
-        assert ours.tolist() == public
-        assert np.isfinite(public).any()

@@ -250,8 +250,8 @@ def test_a_hand_pulls_a_box_loose_at_static_friction():
     box = Box(mass=2.0, ground_friction=0.2, static_ground_friction=0.5)
     world = World(Scenario(robots=[Robot(pose=(0, 3, 0))], props=[box], stop_time=9))
     most = 0.5 * 2.0 * GRAVITY
-    assert world.simulation.engine.bears(1, 0.99 * most, 0.0)
-    assert not world.simulation.engine.bears(1, 1.01 * most, 0.0)
+    assert world.simulation.engine.withstands(1, 0.99 * most, 0.0)
+    assert not world.simulation.engine.withstands(1, 1.01 * most, 0.0)
 
 
 def stick_slip(k: float, m: float, static: float, kinetic: float, v: float) -> Record:

@@ -138,7 +138,8 @@ def _fields(engine: Any, struct: str) -> dict[str, Any]:
 
 def _plain(kind: str) -> str:
     """Return a function's type with all pointers alike, and vectors by our name."""
-    kind = kind.replace("struct cpVect *", "void *").replace("Vector *", "void *")
+    kind = kind.replace(" noexcept", "").replace("Vector *", "void *")
+    kind = kind.replace("struct cpVect *", "void *")
     kind = kind.replace("struct cpVect", "Vector")
     kind = re.sub(r"struct \w+ \*", "void *", kind).replace("void)", ")")
     return kind.replace(" ", "")

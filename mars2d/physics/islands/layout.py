@@ -64,10 +64,10 @@ def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
         (impulses, chipmunk.GEAR, (0.0, 1.0), {chipmunk.GEAR_IMPULSE: (-12.0,)}),
         (impulses, chipmunk.GROOVE, (0.0, 1.0), {chipmunk.GROOVE_IMPULSE: (-3.0, 0.0)}),
         (damping, chipmunk.DAMPED_SPRING, rest[:2],
-         {chipmunk.REST: rest, chipmunk.LOST: (lost[0],), chipmunk.FELT: (2.0,)}),
+         {chipmunk.REST: rest, chipmunk.LOST: (lost[0],), chipmunk.EFFECTIVE_MASS: (2.0,)}),
         (damping, chipmunk.ROTARY_SPRING, rest[:2],
          {chipmunk.REST_ANGLE: rest, chipmunk.LOST_TURNING: (lost[1],),
-          chipmunk.FELT_TURNING: (3.0,)}),
+          chipmunk.EFFECTIVE_MOMENT: (3.0,)}),
     )  # fmt: skip
     for what, kind, numbers, wanted in tried:
         chipmunk.put(body, 0.0, 0.0, 0.0)
