@@ -100,7 +100,8 @@ def test_fans_are_the_engines_rays():
         reach = rng.uniform(0.5, 9)
         found = fans.distances(looks, bearings, reach, whose)
         for row, (x, y, theta), own in zip(found, looks.T.tolist(), whose.tolist(), strict=True):
-            wanted = rays.distances((x, y), theta + bearings, reach, own)
+            angles = (theta + bearings).tolist()
+            wanted = np.array([rays.length((x, y), angle, reach, own) for angle in angles])
             assert np.array_equal(np.isfinite(row), np.isfinite(wanted))
             hit = np.isfinite(row)
             assert np.abs(row[hit] - wanted[hit]).max(initial=0) < EXACT

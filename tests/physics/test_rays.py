@@ -14,7 +14,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.arithmetic import cosines_sines
-from mars2d.core.plane import WITHIN
+from mars2d.core.plane import WITHIN, up_to
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.sensors import RangeFinder
 from mars2d.sensors.base import NOTHING
@@ -472,7 +472,7 @@ def test_a_robot_does_not_hide_its_own_centre():
     assert world.surroundings.hidden((0, 0), centres, NOTHING, 0).tolist() == [True, True]
 
 
-def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
+def test_single_rays_are_bit_for_bit_those_of_pymunk_s_method():
     rng = np.random.default_rng(5)
     robots = [
         Robot(pose=(2 * k - 4, rng.uniform(-1, 1), k), shape=some_shape(rng, kind))
@@ -497,6 +497,6 @@ def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
             for end in zip(ends_x.tolist(), ends_y.tolist(), strict=True)
         ]
         public = [inf if hit is None else hit.alpha * far for hit in hits]
-        ours = world.simulation.engine.space.rays.distances((x, y), angles, reach, robot)
-        assert ours.tolist() == public
+        ours = [world.surroundings.ray((x, y), angle, reach, robot) for angle in angles.tolist()]
+        assert ours == [float(up_to(length, reach)) for length in public]
         assert np.isfinite(public).any()
