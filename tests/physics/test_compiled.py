@@ -13,6 +13,7 @@ from pymunk._chipmunk_cffi import ffi, lib
 
 import mars2d
 from mars2d import Scenario, World
+from mars2d.core.errors import InputError
 from mars2d.physics import islands
 from tests.islands import plainly
 from tests.physics import structs
@@ -123,7 +124,7 @@ def test_its_functions_have_the_types_by_which_they_are_called():
 def test_a_pymunk_whose_structs_are_unknown_is_refused(monkeypatch):
     for unknown in ("7.0.1", "7.99.0", "8.0.0"):
         monkeypatch.setattr("pymunk.version", unknown)
-        with pytest.raises(ImportError, match=rf"{unknown} .* pip install 'pymunk>=7.1,<7.\d'"):
+        with pytest.raises(InputError, match=rf"{unknown} .* pip install 'pymunk>=7.1,<7.\d'"):
             islands.islands()
     project = Path(__file__).parents[2] / "pyproject.toml"
     assert f"pymunk>=7.1,<7.{islands.NEWEST[1] + 1}" in project.read_text(encoding="utf-8")

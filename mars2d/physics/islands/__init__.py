@@ -12,6 +12,7 @@ from functools import cache
 from importlib import import_module
 from typing import Any
 
+from mars2d.core.errors import InputError
 from mars2d.physics.islands.build import fingerprint, functions
 
 __all__ = ["islands", "reason_without", "version"]
@@ -23,11 +24,11 @@ OLDEST, NEWEST = (7, 1), (7, 3)
 def islands() -> Any:
     """Return the module that moves bodies: the compiled one, or `plain`.
 
-    Raises ImportError with a version of pymunk that may have its numbers elsewhere.
+    Raises InputError with a version of pymunk that may have its numbers elsewhere.
     """
     if not OLDEST <= tuple(map(int, version().split(".")[:2])) <= NEWEST:
         line = "pip install 'pymunk>={}.{},<{}.{}'".format(*OLDEST, NEWEST[0], NEWEST[1] + 1)
-        raise ImportError(f"pymunk {version()} was never tried with this MARS2D: {line}")
+        raise InputError(f"pymunk {version()} was never tried with this MARS2D: {line}")
     return import_module("mars2d.physics.islands.plain") if reason_without() else _loaded()[0]
 
 
