@@ -47,16 +47,6 @@ def test_it_gathers_speed_at_force_over_mass_and_brakes_so(sampling_time):
     assert world.velocity[0, 0] == 0.0
 
 
-def test_it_tells_its_speed_and_that_its_drive_does_all_it_can():
-    world = endless([Robot(mass=2, drive=limited(max_force=0.4))])
-    for k in range(1, 4):
-        world.step([[0.3], [0.0]])
-        assert world.velocity[0, 0] == pytest.approx(0.2 * 0.1 * k, abs=1e-12)
-        assert world.effort[0] == 1.0
-    drive(world, [[0.3], [0.0]], 2.0)
-    assert world.effort[0] == 0.0
-
-
 @each_case("sampling_time", [0.37, 0.05])
 @each_case("shape", [None, PLATE])
 def test_it_gathers_spin_at_torque_over_moment(shape, sampling_time):
