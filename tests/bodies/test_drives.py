@@ -325,7 +325,6 @@ def test_each_robot_of_a_team_has_limits_of_its_own():
 
 # -- noise ----------------------------------------------------------------------------------
 
-STEPS = 1500
 ROOT = sqrt(0.1)
 """The root of the default sampling time: noise of a x ROOT is off by a share a each step."""
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from mars2d import Holonomic, Robot, Scenario, World
-from mars2d.addons import Map
 from mars2d.reports.bench.scenes import team
 from mars2d.reports.bench.worlds import deepest, world_of
 from mars2d.sensors import Proximity, RangeFinder
@@ -75,21 +74,6 @@ def test_two_robots_of_a_large_team_meet_as_two_robots_alone(drive):
     assert np.array_equal(large.pose[:, others], start[:, others])
 
 
-def test_a_robot_of_a_large_team_slides_along_a_wall_as_one_alone_does():
-    wall = Map([[(-1.0, 0.45), (5.0, 0.45)]])
-    robot = Robot(pose=(0.0, 0.0, 0.6))
-    large = World(scenario(standing(r0=robot, r1=Robot(pose=(-60, 0, 0))), addons=[wall]))
-    alone = World(scenario([robot], addons=[wall]))
-    command = np.zeros((2, MANY))
-    command[0, 0] = 0.3
-    for _ in range(100):
-        large.step(command)
-        alone.step(command[:, :1])
-        assert np.array_equal(large.pose[:, :1], alone.pose)
-    assert len(alone.record.contacts) > 50
-    assert np.array_equal(large.record.contacts, alone.record.contacts)
-
-
 def test_a_large_crowd_stays_within_its_walls_and_its_overlap():
     scene = team(200, 0.05)
     world = world_of(scene)
@@ -99,18 +83,6 @@ def test_a_large_crowd_stays_within_its_walls_and_its_overlap():
         poses.append(world.pose)
     assert len(world.record.contacts) > 1000
     assert deepest(scene, np.array(poses)) < 1e-3
-
-
-def test_two_large_worlds_do_not_disturb_each_other():
-    def run(worlds):
-        for _ in range(40):
-            for world in worlds:
-                world.step()
-        return [world.record.digest for world in worlds]
-
-    both = run([world_of(team(200, 0.05)), world_of(team(150, 0.05))])
-    alone = run([world_of(team(200, 0.05))]) + run([world_of(team(150, 0.05))])
-    assert both == alone
 
 
 def test_sensors_of_a_large_team_see_robots_where_they_are():

@@ -237,9 +237,6 @@ def test_discs_as_pieces_have_the_same_gaps(first, second, way):
     assert two.pair.gap == pytest.approx(disc_at(first, second, second + way).gap, abs=1e-12)
 
 
-# -- how far apart they were at the beginning -----------------------------------------------
-
-
 # -- times until contact --------------------------------------------------------------------
 
 

@@ -297,8 +297,8 @@ def test_what_touched_before_is_told_from_what_begins_to():
 @each_case("mix", fuzz.MIXES)
 def test_so_does_a_crowd_of_many_shapes(mix, ties):
     scenario = fuzz.crowd(1, mix, 10.0, 0.05, ties=ties)
-    record = run_both(scenario, restless(1, scenario), 10)
-    assert len(record.contacts) > 5
+    record = run_both(scenario, restless(1, scenario), 8)
+    assert len(record.contacts) > 1
 
 
 @pytest.mark.slow
@@ -396,7 +396,7 @@ def many(n: int, seed: int = 0) -> Scenario:
 
 @pytest.mark.parametrize(
     ("n", "ticks"),
-    [(2, 60), (50, 10), pytest.param(200, 15, marks=pytest.mark.slow),
+    [(2, 40), (50, 10), pytest.param(200, 15, marks=pytest.mark.slow),
      pytest.param(1000, 12, marks=pytest.mark.nightly)],
 )  # fmt: skip
 def test_so_do_few_and_many_bodies_of_all_kinds(n, ticks):

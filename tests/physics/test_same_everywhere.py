@@ -131,9 +131,6 @@ def test_a_log_that_is_written_as_the_run_goes_on_and_read_again(digest, tmp_pat
     assert mars2d.load(log).digest == digest
 
 
-# -- in a window ----------------------------------------------------------------------------------
-
-
 # -- in other processes ---------------------------------------------------------------------------
 
 

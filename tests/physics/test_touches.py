@@ -296,6 +296,3 @@ def test_who_meets_one_wall_twice_in_a_control_step_has_one_row():
     assert [(row["a"], row["b"]) for row in of_wall] == [(1, -1)]
     assert of_wall["normal_impulse"] > 2.0 + 2e-3  # more than the first blow gave
     assert len(world.contacts) == 2
-
-
-# -- what the solver tells of a contact -----------------------------------------------------------
