@@ -179,13 +179,6 @@ def test_a_ray_along_the_long_side_of_a_box_that_just_touches_it_goes_to_its_cor
         assert found[4].tolist() == [0.0, 0.0]  # from a corner
 
 
-def test_where_rays_end_is_met():
-    wall = Fans([], [[(3, -1), (3, 1)]])
-    look = np.zeros((3, 1))
-    assert wall.distances(look, [0.0, 0.0, 0.0], [3.0, 2.9999, inf], [-1]).tolist() == [[3, inf, 3]]
-    assert wall.distances(look, [0.0, pi], 3.0, [-1]).tolist() == [[3, inf]]
-
-
 def test_there_may_be_nothing_to_see_and_no_ray_to_see_it():
     look = np.zeros((3, 2))
     assert Fans([], []).distances(look, [0.0, 1.0], 5.0, [-1, -1]).tolist() == [[inf] * 2] * 2
@@ -230,17 +223,6 @@ def test_a_fan_reads_the_same_bits_alone_and_in_any_order(bearings):
             alone = fans.sight(looks[:, i : i + 1], bearings, 5.0, whose[i : i + 1], NOTHING)
             assert np.array_equal(alone[0][0], distances[i])
             assert np.array_equal(alone[1][0], bodies[i])
-
-
-def test_a_ray_reads_the_same_bits_alone_and_in_any_fan():
-    rng = np.random.default_rng(6)
-    for _ in range(30):
-        fans, looks, whose = team(rng, 2)
-        bearings = rng.uniform(-10, 10, 40)
-        together = fans.distances(looks, bearings, 5.0, whose)
-        for k in range(40):
-            alone = fans.distances(looks, bearings[k : k + 1], 5.0, whose)
-            assert np.array_equal(alone[:, 0], together[:, k])
 
 
 def test_a_fan_reads_the_same_bits_where_a_big_team_is_looked_at_in_strips():

@@ -198,15 +198,6 @@ def test_a_shallow_wedge_throws_no_robot_back(degrees, force, speed):
         assert world.pose[1, 0] == pytest.approx(0.0, abs=1e-3)
 
 
-@each_case("count", [2, 4])
-def test_nor_a_file_of_robots(count):
-    robots = [Robot(pose=(-0.4 * k, 0, 0), friction=0.0) for k in range(count)]
-    world = endless(robots, addons=[Map(wedge(radians(1), 0.15))], sampling_time=0.05)
-    for _ in range(80):
-        world.step(np.array([[1.0] * count, [0.0] * count]))
-        assert world.velocity[0].min() > -0.05
-
-
 @each_case("restitution", [0.0, 0.5, 1.0])
 @each_case("degrees", [0.5, 2.0, 10.0, 20.0, 45.0])
 def test_a_ball_comes_out_of_a_wedge_at_its_restitution_at_most(degrees, restitution):

@@ -96,12 +96,6 @@ def test_a_motor_brakes_with_all_its_force():
     assert speeds[top + 1] - speeds[top + 5] == pytest.approx(3.0 * 0.04, rel=0.02)
 
 
-def test_a_car_without_side_grip_is_pushed_aside_by_little():
-    slippery = Car(max_force=50.0, max_torque=50, grip=1.0, side_grip=0.02)
-    assert pushed(slippery, pi / 2, 1.0) > 0.1
-    assert pushed(slippery, 0.0, 1.0) < 2e-3
-
-
 @each_case("sampling_time", [0.2, 0.05])
 @each_case("wanted", [0.5, 1.9])
 def test_a_motor_runs_up_on_an_exponential(sampling_time, wanted):
