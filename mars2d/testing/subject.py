@@ -98,8 +98,7 @@ class Subject(Report):
 
     def _blame(self, error: InputError, small: bool) -> None:
         """Report the error that ended a run, and whether it is another's."""
-        asks = isinstance(error, UnknownNameError) and isinstance(error.obj, Sense)
-        if small and asks and not likely(error.name, dir(error.obj)):  # it is not misspelt
+        if small and _asks_for_a_sensor(error):
             self.wrong(
                 f"{error}. It was tried in a small world, whose robots don't carry such a "
                 "sensor: give a scenario whose robots do",
@@ -198,3 +197,10 @@ def own_methods(part: Description, base: type[Description]) -> list[str]:
         for name, value in vars(base).items()
         if inspect.isfunction(value) and name[0] != "_" and getattr(type(part), name) is not value
     ]
+
+
+def _asks_for_a_sensor(error: InputError) -> bool:
+    """Return whether the error is about a sensor that the robot lacks, and not a misspelt one."""
+    if not isinstance(error, UnknownNameError) or not isinstance(error.obj, Sense):
+        return False
+    return not likely(error.name, dir(error.obj))
