@@ -6,9 +6,6 @@ _PLACE = "x y theta position positon pos xy orientation heading angle start init
 _SPEED = "speed maxspeed maxlinearspeed vmax maxv v velocity"
 _TURN = "omega maxomega maxangularspeed w wmax angularspeed maxangularvelocity"
 _COMMAND = "return v, omega: a law returns its command"
-_MEMORY = (
-    "robot.memory in the law, or functools.partial(law, goal=...): a law keeps its own numbers"
-)
 
 _INSTEAD: dict[str, dict[str, str]] = {
     "Robot": {
@@ -18,11 +15,6 @@ _INSTEAD: dict[str, dict[str, str]] = {
         _TURN: "drive=Unicycle(max_angular_speed=...)",
         "law control controllaw behaviour behavior policy function": "controller=law",
         "holonomic omni": "drive=Holonomic()",
-        "goal target kp gain k params": _MEMORY,
-    },
-    "Prop": {
-        _PLACE: "pose=(x, y, theta)",
-        "weight density": "mass=... or material='...'",
     },
     "Scenario": {
         "n number numrobots agents": "robots=3, or robots=[Robot(...), ...]",
@@ -38,25 +30,16 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "distance maxrange reach maxdistance": "range=...",
         "fov angle aperture opening": "field_of_view=...",
     },
-    "Drive": {
-        _SPEED: "max_linear_speed=...",
-        _TURN: "max_angular_speed=...",
-    },
+    "Drive": {_SPEED: "max_linear_speed=...", _TURN: "max_angular_speed=..."},
     "a robot": {
         "x": "robot.pose[0]",
         "y": "robot.pose[1]",
         "theta heading angle orientation yaw": "robot.pose[2]",
         "speed v vel omega w": "robot.velocity: x', y' [m/s], theta' [rad/s]",
-        "sensors sensor readings prox proximity lidar range measure":
-            "robot.sense.NAME, the reading of the sensor of that name",
         "dt ts step": "robot.sampling_time",
         "goal target state integral error": "robot.memory: a law keeps things there",
         "stop move setvelocity setspeed setcommand forward turn rotate": _COMMAND,
         "others robots": "robot.neighbours",
-    },
-    "a world": {
-        "n count number": "len(world.robots)",
-        "x state states poses positions getposes": "world.pose, an array (3, n)",
     },
     "a room": {
         "lidar laser laserscanner rangesensor scanner": "RangeFinder, of mars2d.sensors",
@@ -66,10 +49,6 @@ _INSTEAD: dict[str, dict[str, str]] = {
     "mars2d run": {
         "time stop duration t end": "--stop-time S",
         "seeds runs n": "--seed K; mars2d sweep has --seeds N",
-    },
-    "mars2d sweep": {
-        "values param params vary range grid": "--set NAME=VALUES",
-        "jobs j processes cores": "--workers N",
     },
 }  # fmt: skip
 """What to write, by where it is written and the words, in small letters and without underscores."""
