@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from multiprocessing.pool import ThreadPool
 from pathlib import Path
 
@@ -13,6 +14,8 @@ from mars2d import InputError, Scenario
 from mars2d.core.files import atomic_write, growing
 from tests.cases import each_case
 from tests.processes import mars
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="files of POSIX")
 
 
 def write(path: Path, data: bytes = b"new") -> None:
