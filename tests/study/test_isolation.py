@@ -197,16 +197,11 @@ def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path
     [
         ("positions", "robot.neighbours[0].pose", "sees positions only: a neighbour's pose"),
         ("positions", "robot.world", "sees itself and its neighbours' positions only"),
-        ("sensors", "robot.position", "sees sensors only: robot.position is not available"),
         ("sensors", "robot.sense.sonar", "robot0 has no sensor 'sonar'; it carries none"),
-        ("partial", "robot.heading", "a robot has no 'heading'"),
         ("partial", "robot.send(1)", "robots can't talk: add Communication()"),
         ("full", "robot.world.addons", "robot.world.addons is not available to an isolated law"),
-        ("full", "robot.world.step()", "robot.world.step is not available to an isolated law"),
         ("full", "robot.world.rng", "available to an isolated law; there is robot.rng"),
-        ("full", "robot.world.poses", "a world has no 'poses'; did you mean 'pose'?"),
         ("full", "robot.world.robots[1].memory", "robots[1].memory is not available: it is anot"),
-        ("full", "robot.world.robots[1].pose.__setitem__(0, 1.0)", "read-only"),
     ],
 )
 def test_what_an_isolated_law_may_not_see_is_refused_in_words(
@@ -227,40 +222,16 @@ FOREVER = "import time\ndef control(robot):\n    robot.memory.x = 1\n    {}\n   
 
 MISTAKES = {
     "an endless loop": ("slow", "line 4: no command after 0.5 s", FOREVER.format("while 1: pass")),
-    "a long sleep": ("slow", "line 4: no command after 0.5 s", FOREVER.format("time.sleep(1e9)")),
-    "it swallows all exceptions": ("slow", "no command after", """
-        def control(robot):
-            while True:
-                try:
-                    while True: pass
-                except BaseException: pass"""),
     "a loop in C": ("slow", "law.py: no command after", """
         def control(robot): return sum(range(10**12)), 0"""),
-    "many quick steps": ("clock", "its commands took more than 0.3 s in all", """
-        import time
-        def control(robot): time.sleep(0.05); return 0, 0"""),
     "a memory bomb": ("memory", "line 4: took too much memory; it may take 200 MB", """
         kept = []
         def control(robot):
             while True: kept.append("x" * 10_000_000 + str(len(kept)))"""),
     "an exception": ("error", "line 2: control raised ZeroDivisionError: division by zero", """
         def control(robot): return 1 / 0, 0"""),
-    "SystemExit": ("error", "line 2: control raised SystemExit: 3", """
-        def control(robot): raise SystemExit(3)"""),
-    "deep recursion": ("error", "line 2: control raised RecursionError", """
-        def control(robot): return control(robot)"""),
-    "reading the keyboard": ("error", "line 2: control raised EOFError", """
-        def control(robot): return input(), 0"""),
-    "a huge message": ("error", "robot.send: content = 'xxx", """
-        def control(robot): robot.send("x" * 10**6); return 0, 0"""),
     "NaN": ("command", "line 2: control returned (nan, 0.0): a command must be finite", """
         def control(robot): return float("nan"), 0"""),
-    "a wrong shape": ("command", "line 2: control returned (1, 2, 3): expected two numbers", """
-        def control(robot): return 1, 2, 3"""),
-    "text": ("command", "control returned 'fast': expected two numbers", """
-        def control(robot): return "fast" """),
-    "nothing": ("command", "control returned nothing: a law returns its command", """
-        def control(robot): pass"""),
     "os._exit": ("exit", "law.py: its process has ended itself, with code 3", """
         import os
         def control(robot): os._exit(3)"""),
@@ -286,8 +257,6 @@ def undented(text: str) -> str:
 def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_path) -> None:
     kind, words, text = MISTAKES[fault]
     limits = LIMITS
-    if kind == "clock":
-        limits = dataclasses.replace(LIMITS, match=0.3)
     if kind == "slow":
         limits = IMPATIENT
     if "loop while it is loaded" in fault:
