@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Animation, Robot, Scenario
+from mars2d import Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
 from mars2d.bodies.props import Box
 from mars2d.output.pages.replay import page
@@ -18,7 +18,6 @@ from mars2d.record.interventions import Steer
 from mars2d.record.marks import marks_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.browser import Tab, differing
-from tests.output.test_leaps import run as leaping_run
 
 REFERENCES = Path(__file__).parent / "references"
 SCRIPTS = Path(mars2d.__file__).parent / "output" / "pages" / "replay"
@@ -280,29 +279,6 @@ CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
 """Notes what is written on the picture."""
 
 
-def test_the_panel_says_the_forces_of_the_arrows_where_rows_are_left_out(open_tab, tmp_path):
-    scenario = Scenario(
-        robots=[Robot(), Robot(pose=(0.4, 0, 0))], sampling_time=0.02, stop_time=60.0,
-        animation=Animation(grid=False, forces=True, names=False),
-    )  # fmt: skip
-
-    def law(world):
-        return np.array([[0.4 * np.sin(5 * world.time) + 0.1, -0.1], [0, 0]])
-
-    path = mars2d.run(scenario, control=law).save_html(tmp_path / "long.html")
-    tab = open_tab(path, script=SAID)
-    tab.page.select_option("#bodies", label="robot0")
-    told = set()
-    for row in range(700, 760):
-        tab.page.evaluate("said = []")
-        tab.go(row)
-        arrows = [text for text in tab.page.evaluate("said") if text.endswith(" N")]
-        panel = tab.page.locator("#panel dd").last.inner_text()
-        assert panel.split("\n") == ["none"] if not arrows else arrows[0] in panel
-        told.add(bool(arrows))
-    assert told == {True, False}
-
-
 def test_a_blow_has_its_impulse_for_a_second_and_x_switches_it_with_the_forces(open_tab, tmp_path):
     record = mars2d.run("billiards", stop_time=3.0)
     path = record.save_html(tmp_path / "billiards.html")
@@ -401,23 +377,6 @@ def test_the_panel_says_what_sensors_read(tab, record):
     tab.settle()
     near = "yes" if record.sensors["proximity"][0, 0] else "no"
     assert f"proximity\n{near}" in tab.text("#panel").replace("\n\n", "\n")
-
-
-def test_the_panel_does_not_hide_what_is_picked(tab):
-    show_only(tab)
-    tab.page.select_option("#bodies", label=EVIL)
-    tab.settle()
-    before = tab.page.locator("#panel").bounding_box()
-    x, y = tab.middle_of(ORANGE)
-    over = before["x"] + before["width"] / 2, before["y"] + before["height"] / 2
-    tab.page.mouse.move(300, 400)
-    tab.page.mouse.down()
-    tab.page.mouse.move(300 + over[0] - x, 400 + over[1] - y, steps=5)
-    tab.page.mouse.up()
-    tab.settle()
-    assert tab.middle_of(ORANGE) == pytest.approx(over, abs=8)
-    after = tab.page.locator("#panel").bounding_box()
-    assert after["x"] + after["width"] < over[0] - 20
 
 
 # -- looks ----------------------------------------------------------------------------------------
@@ -530,26 +489,6 @@ def test_two_fingers_zoom_about_their_middle(open_tab, replay):
     assert tab.page.locator("#panel").is_hidden()  # a pinch picks nothing
 
 
-@pytest.mark.parametrize("width", [1500, 1100, 700, 360])
-def test_no_control_covers_another(open_tab, replay, width):
-    tab = open_tab(replay, (width, 560))
-    controls = tab.page.locator(
-        "header :is(button, select):visible, footer *:is(button, select, input, output):visible"
-    )
-    boxes = [control.bounding_box() for control in controls.all()]
-    for k, one in enumerate(boxes):
-        assert one["x"] >= 0
-        assert one["x"] + one["width"] <= width
-        for other in boxes[:k]:
-            beside = (
-                one["x"] >= other["x"] + other["width"] or other["x"] >= one["x"] + one["width"]
-            )
-            below = (
-                one["y"] >= other["y"] + other["height"] or other["y"] >= one["y"] + one["height"]
-            )
-            assert beside or below
-
-
 def test_in_a_frame_of_a_notebook_it_waits_and_all_of_it_is_seen(browser, record, tmp_path):
     text = f'<iframe srcdoc="{html.escape(page(record))}" width="800" height="480"></iframe>'
     (tmp_path / "frame.html").write_text(text, encoding="utf-8")
@@ -565,13 +504,6 @@ def test_in_a_frame_of_a_notebook_it_waits_and_all_of_it_is_seen(browser, record
     frame.locator("#time", has_text="0.1 / 12.0 s").wait_for()
     tab.close()
     assert tab.complaints == []
-
-
-@pytest.mark.parametrize(("motion", "plays"), [("reduce", 0), ("no-preference", 1)])
-def test_it_begins_to_play_unless_motion_is_unwanted(open_tab, replay, motion, plays):
-    tab = open_tab(replay, reduced_motion=motion)
-    tab.settle()
-    assert tab.page.locator("body.playing").count() == plays
 
 
 # -- words ----------------------------------------------------------------------------------------
@@ -603,14 +535,6 @@ def test_tab_goes_from_control_to_control_and_shows_where_it_is(tab):
     tab.press("Space")  # presses the button, and does not play
     assert tab.row() == 1
     assert tab.page.locator("body.playing").count() == 0
-
-
-def test_space_plays_after_a_click_on_another_button(tab):
-    tab.click("Zoom in")
-    tab.press("Space")
-    assert tab.page.get_by_role("button", name="Pause").is_visible()
-    tab.press("Space")
-    assert tab.page.get_by_role("button", name="Play").is_visible()
 
 
 def test_help_lists_the_keys_and_letters_can_be_switched_off(tab):
@@ -664,38 +588,3 @@ def test_names_are_text(tab):
     assert tab.page.title() == f"Push & {EVIL}"
     assert tab.text("h1") == f"Push & {EVIL}"
     assert tab.page.locator("img").count() == 0
-
-
-def test_a_damaged_file_or_an_old_browser_is_told_in_words(browser, replay, tmp_path):
-    text = replay.read_text(encoding="utf-8")
-    head, mark, rest = text.partition('type="text/plain">')
-    (tmp_path / "cut.html").write_text(head + mark + rest[:400] + rest[800:], encoding="utf-8")
-    for path, script, words in (
-        (tmp_path / "cut.html", "", "This file is damaged"),
-        (replay, "delete window.DecompressionStream", "This browser is too old"),
-    ):
-        tab = Tab(browser, (900, 640))
-        tab.page.add_init_script(script)
-        tab.page.goto(path.as_uri())
-        tab.page.wait_for_selector("#trouble:visible")
-        assert words in tab.text("#trouble")
-        tab.close()
-        assert tab.complaints == []
-
-
-def test_a_body_that_a_hand_puts_elsewhere_leaves_no_path_on_its_way(open_tab, tmp_path):
-    _, record = leaping_run()
-    tab = open_tab(record.save_html(tmp_path / "leap.html"), size=(900, 900))
-    for row in (9, 10, 15, 10, 9, 19):
-        tab.go(row)
-        for picked in (False, True):
-            tab.press("Escape")
-            if picked:
-                tab.page.select_option("#bodies", index=1)
-                tab.settle()
-            with_trails = tab.picture()
-            tab.press("t")
-            high = len(with_trails)
-            changed = np.flatnonzero((with_trails != tab.picture()).any(axis=(1, 2))) / high
-            assert not ((changed > 0.3) & (changed < 0.4)).any(), (row, picked)
-            tab.press("t")

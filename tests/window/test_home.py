@@ -11,13 +11,10 @@ import pytest
 
 from mars2d.cli.command_line import main, parser
 from mars2d.output.raster.layout import TEXT_SIZES
-from mars2d.reports.paper.figures import FIGURES
-from mars2d.scenario.examples import courses, examples, examples_folder, games
-from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import contests_of
+from mars2d.scenario.examples import examples, examples_folder, games
 from mars2d.window.display import Preferences
 from mars2d.window.home import Home
-from mars2d.window.memory import SIZE, Memory
+from mars2d.window.memory import Memory
 from tests.cases import each_case
 from tests.processes import PATIENCE, bare_environment, started, wait_until
 from tests.window.person import needs_screen
@@ -67,15 +64,6 @@ def test_each_example_has_its_pictures():
     for name in examples():
         for looks in ("light", "dark"):
             assert (examples_folder() / "thumbnails" / f"{name}_{looks}.png").is_file(), name
-
-
-def test_the_first_course_is_that_of_the_paper():
-    paper = {run.experiment for figure in FIGURES for run in figure.runs}
-    assert set(courses()["Experiments"]) >= paper & set(examples())
-
-
-def test_games_have_roles_to_choose_from():
-    assert all(contests_of(open_experiment(game).scenario) for game in games())
 
 
 # -- clicks ---------------------------------------------------------------------------------------
@@ -188,27 +176,6 @@ def test_looks_are_remembered_and_what_is_asked_for_counts_more(memory):
     assert Memory().size == (1000, 700)
     memory.keep(panels=["scopes", 3])
     assert Memory().panels == ["scopes"]
-
-
-@each_case("text", ["", "[]", "{", '{"dark": 3, "text": "big", "size": 8, "recent": [1]}', "\0"])
-def test_a_memory_that_was_spoilt_is_empty(monkeypatch, tmp_path, text):
-    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
-    memory = Memory()
-    (tmp_path / "memory").mkdir()
-    (tmp_path / "memory" / "windows.json").write_text(text)
-    assert (Memory().preferences(), Memory().size, Memory().recent) == (Preferences(), SIZE, [])
-    memory.keep(dark=True)
-    assert Memory().preferences().dark or text.startswith('{"dark"')
-
-
-def test_a_folder_that_can_not_be_written_stops_nothing(tmp_path, monkeypatch):
-    (tmp_path / "file").touch()
-    for folder in (str(tmp_path / "file"), "/proc/none", ""):
-        monkeypatch.setenv("MARS2D_MEMORY", folder)
-        memory = Memory()
-        memory.keep(dark=True)
-        memory.opened(tmp_path / "file", pygame.Surface((10, 10)))
-        assert memory.preferences() == Preferences()
 
 
 # -- the command ----------------------------------------------------------------------------------

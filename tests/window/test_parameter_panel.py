@@ -97,20 +97,6 @@ def test_a_drag_sets_a_value_now_and_then_while_time_passes_and_at_its_end(file)
     assert desk.value("mu") == pytest.approx(1.0, abs=0.01)
 
 
-def test_what_takes_long_is_set_more_rarely_and_while_paused_at_the_end_alone(file):
-    slow, paused = Desk(file, cost=0.1), Desk(file, plays=False)
-    for desk in (slow, paused):
-        desk.send(pygame.MOUSEBUTTONDOWN, desk.at("mu", 0.6))
-        for k in range(100):
-            desk.send(pygame.MOUSEMOTION, desk.at("mu", 0.6 + 0.004 * k))
-            desk.panel.tick()
-            desk.now += 0.01
-        desk.send(pygame.MOUSEBUTTONUP, desk.at("mu", 1.0))
-    assert len(slow.set_to) <= 5
-    assert len(paused.set_to) == 1
-    assert paused.value("mu") == pytest.approx(1.0, abs=0.01)
-
-
 def test_what_needs_a_new_start_waits_until_it_is_let_go_of_and_says_so(file):
     desk = Desk(file)
     desk.reason = "3 robots in place of 2"
@@ -227,16 +213,6 @@ def test_a_file_without_parameters_and_a_failing_value_are_said(file):
     desk.panel._set_to = refuse
     desk.press("right")
     assert desk.panel.said == ("no such value", "error")
-
-
-def test_a_range_of_a_law_that_can_not_be_is_said(file, tmp_path):
-    path = tmp_path / "odd.py"
-    path.write_text(FILE.replace('"m/s")] = 0.1', '"m/s")] = 9'))
-    desk = Desk(file)
-    desk.experiment = open_experiment(path)
-    desk.draw()
-    assert desk.panel.parameters() == {}
-    assert "the default of go(speed) = 9: expected a number >= 0" in desk.panel._words()[0]
 
 
 # -- a window ---------------------------------------------------------------------------------

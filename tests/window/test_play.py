@@ -2,15 +2,10 @@
 
 import json
 
-import pygame
 import pytest
 
-from mars2d.core.errors import InputError
-from mars2d.output.raster.layout import TEXT_SIZES
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import contest_of
 from mars2d.window.display import Preferences
-from mars2d.window.hints import hints_of
 from mars2d.window.memory import Memory
 from mars2d.window.play import COUNTDOWN, game_of
 from mars2d.window.scores import Scores, Tally
@@ -97,24 +92,6 @@ def test_scores_are_kept_by_game_and_role(memory):
     assert Scores(again, "corner_game").of("evader") == Tally(played=1, longest=12.0)
     assert Scores(again, "corner_game").of("pursuer") == Tally()
     assert Scores(again, "corner_game, mu = 0.8").of("evader").won == 1
-
-
-@each_case("text", ["", "[]", '{"g": 3}', '{"g": {"r": {"played": "x"}}}', "\0"])
-def test_a_file_of_scores_that_can_not_be_read_is_empty(monkeypatch, tmp_path, text):
-    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
-    memory = Memory()
-    Scores(memory, "g").add("r", won=True, time=1.0)
-    (tmp_path / "memory" / "scores.json").write_text(text)
-    assert Scores(memory, "g").of("r") == Tally()
-    Scores(memory, "g").add("r", won=True, time=2.0)
-    assert Scores(memory, "g").of("r").quickest == 2.0
-
-
-def test_without_a_memory_nothing_is_kept_and_nothing_fails(monkeypatch):
-    monkeypatch.setenv("MARS2D_MEMORY", "")
-    scores = Scores(Memory(), "g")
-    scores.add("r", won=True, time=1.0)
-    assert scores.of("r") == Tally()
 
 
 def test_a_file_of_ones_own_is_known_by_its_path_and_its_settings(catch):
@@ -221,40 +198,7 @@ def test_teams_have_scores_and_those_who_are_out_are_not_near(memory, tmp_path):
     assert window.game.distance(window.player.frame) == pytest.approx(4.0)
 
 
-@each_case("size", [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)])
-@each_case("text", TEXT_SIZES)
-def test_the_panel_stands_beside_the_arena_of_whoever_plays(memory, size, text):
-    window = opened("corner_game", memory, [1], size, text)
-    window.game.counting = 0.0
-    surface = pygame.Surface(size, 0, 32)
-    window.draw(surface)
-    window.draw(surface)
-    assert "inspector" not in window.dock.plates  # no plot of forces for whoever plays
-    if "score" not in window.dock.plates:
-        assert text * 400 > size[0] / 2  # large letters
-        hints = hints_of(window.player, window.game, drives=False, score_shown=False)
-        assert ("↑ ← ↓ →", "evader") in hints
-        return
-    assert not window.dock.plates["score"].colliderect(window._seen_arena(window.player.frame))
-
-
 # -- files that are no games ----------------------------------------------------------------------
-
-
-def test_a_contest_without_an_outcome_is_named_with_the_word_that_was_meant(tmp_path):
-    file = tmp_path / "hill.py"
-    file.write_text(
-        "from mars2d import Robot, Scenario\n"
-        "from mars2d.addons.contest import Contest\n"
-        "class Hill(Contest):\n    def outcom(self, record):\n        return None\n"
-        "robots = [Robot(name=n, pose=(x, 0, 0)) for n, x in [('red', 0), ('blue', 2)]]\n"
-        "scenario = Scenario(robots=robots, addons=[Hill({'a': ['red'], 'b': ['blue']})])\n"
-    )
-    with pytest.raises(InputError) as raised:
-        contest_of(open_experiment(file).scenario, "hill.py")
-    assert str(raised.value) == (
-        "hill.py: Hill has no outcome(record), which says who has won; did you mean 'outcom'?"
-    )
 
 
 # -- with real keys -------------------------------------------------------------------------------

@@ -153,32 +153,6 @@ def test_to_look_back_while_pulling_lets_go_and_makes_no_branch(desk, key):
     assert desk.where[1:] == (newest, 0)
 
 
-def test_the_end_while_pulling_is_the_end(desk):
-    desk = desk()
-    desk.play(30)
-    desk.drag(0, by=(0, -60))
-    desk.play(40)
-    desk.pass_pictures(10)
-    desk.drop()
-    assert desk.timeline.over
-    assert desk.where == (40, 40, 0)
-
-
-def test_b_while_pulling_lets_go_in_the_branch_that_is_left(desk):
-    desk = desk()
-    desk.play(20)
-    desk.press("home", "space")
-    desk.drag(1, by=(40, 0))
-    pulled = desk.timeline.world
-    assert desk.where[2] == 1
-    assert len(pulled.operator.pulls) == 1
-    desk.press("b")
-    desk.pass_pictures(3)
-    desk.drop()
-    assert desk.timeline.branches == [pulled]
-    assert len(pulled.operator.pulls) == 0
-
-
 # -- driving --------------------------------------------------------------------------------------
 
 
@@ -245,25 +219,6 @@ def test_what_an_add_on_draws_of_theory_may_fail(desk):
 
 # -- errors ---------------------------------------------------------------------------------------
 
-TIRED = ROOM.replace("        count += 1", "        count += 1\n        1 / (robot.time < 2)")
-
-
-def test_a_branch_that_ended_by_an_error_still_tells_of_it(desk):
-    desk = desk(TIRED)
-    desk.play(20)
-    desk.pass_pictures(10)
-    banner = desk.window._ending.banner()
-    assert banner.excerpt.line == 10
-    desk.window.player.go(10)
-    desk.drag(1, by=(40, 0))
-    desk.drop()
-    assert desk.window._ending.banner() is None
-    desk.press("b", "end")
-    assert desk.window._ending.banner() == banner
-    desk.press("b")
-    assert desk.window._ending.banner() is None
-
-
 BAD = """
 class Lines(Addon):
     pass
@@ -300,26 +255,4 @@ def test_a_mistake_that_is_mended_is_not_told_of_any_more(desk):
     assert desk.notes == ["room.py: in effect from now on; R runs it from the start"]
 
 
-def test_after_b_the_pace_is_measured_anew(desk):
-    desk = desk()
-    desk.play(30)
-    desk.window.player.go(5)
-    desk.drag(1, by=(40, 0))
-    desk.drop()
-    desk.press("space")
-    desk.play(25)
-    desk.press("b", "home", "b")
-    assert desk.window.player.factor is None
-
-
 # -- films ----------------------------------------------------------------------------------------
-
-
-def test_a_film_says_where_it_is_before_the_window_may_be_closed(desk):
-    desk = desk()
-    desk.press("v")
-    (note,) = desk.notes
-    desk.window._film(desk.surface)
-    desk.window.saver.close()
-    (film,) = (path for path in desk.path.parent.iterdir() if path.suffix in (".mp4", ".gif"))
-    assert str(film) in note
