@@ -1,10 +1,5 @@
 """The home: every entry opens by a click, and what windows remember."""
 
-import json
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pygame
 import pytest
@@ -16,8 +11,6 @@ from mars2d.window.display import Preferences
 from mars2d.window.home import Home
 from mars2d.window.memory import Memory
 from tests.cases import each_case
-from tests.processes import PATIENCE, bare_environment, started, wait_until
-from tests.window.person import needs_screen
 
 SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
 
@@ -191,57 +184,3 @@ def test_without_a_display_the_command_alone_prints_its_help(capsys, monkeypatch
     assert alone == capsys.readouterr().out
     assert main(["--bogus"]) == 2
     assert "--bogus" in capsys.readouterr().err
-
-
-@needs_screen
-@pytest.mark.slow
-def test_from_the_home_to_an_own_file_and_back(screen, tmp_path):
-    """The home shows the mistake of a file; mended, it opens; its window closes to the home."""
-    file = tmp_path / "walk.py"
-    file.write_text("import mars2d\nscenario = mars2d.Scenario(title='Mine', sampling_time=-5)\n")
-    folder = tmp_path / "memory"
-    folder.mkdir()
-    (folder / "windows.json").write_text(json.dumps({"recent": [str(file)], "size": [900, 600]}))
-    environment = bare_environment(DISPLAY=screen, MARS2D_MEMORY=str(folder))
-    command = [sys.executable, "-m", "mars2d"]
-    with started(command, env=environment, stderr=subprocess.PIPE) as home:
-        do = Hands(screen, home)
-        do.xdotool("mousemove", "0", "0")  # a pointer that a window opens under chooses a card
-        do.wait_for("MARS2D")
-        do.key("Right", "Return")
-        assert "sampling_time" in home.stderr.readline()
-        file.write_text("import mars2d\nscenario = mars2d.Scenario(title='Mine')\n")
-        do.wait_for("MARS2D")
-        do.key("Right", "Return")
-        do.wait_for("Mine - MARS2D")
-        do.key("d")
-        do.key("Escape")
-        do.wait_for("MARS2D")
-        do.key("Escape")
-        assert home.wait(PATIENCE) == 0
-    kept = json.loads((folder / "windows.json").read_text())
-    assert kept["dark"]
-    assert kept["recent"] == [str(file)]
-    assert len(list(folder.glob("*.png"))) == 1
-
-
-class Hands:
-    """Presses keys in the windows of a process, once they are there."""
-
-    def __init__(self, screen, process):
-        self.environment, self.process = dict(os.environ, DISPLAY=screen), process
-
-    def xdotool(self, *words):
-        done = subprocess.run(
-            ["xdotool", *words], env=self.environment, capture_output=True, text=True, check=False
-        )
-        return done.stdout.split()
-
-    def wait_for(self, title):
-        """Wait until the window of this title has the keyboard."""
-        focused = ["getwindowfocus", "getwindowname"]
-        wait_until(lambda: self.xdotool(*focused) == title.split(), self.process)
-
-    def key(self, *names):
-        for name in names:
-            self.xdotool("key", "--delay", "60", name)

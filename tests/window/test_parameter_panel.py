@@ -10,7 +10,6 @@ from mars2d.core.errors import InputError
 from mars2d.output.raster.painter import Painter
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.parameter_panel import LEAST_ROWS, ROW, ParameterPanel
-from tests.window.person import needs_screen
 
 FILE = """
 from typing import Annotated
@@ -227,7 +226,6 @@ def pixel(window, name, share):
     return round(left + share * width), top + height // 2
 
 
-@needs_screen
 def test_a_slider_is_dragged_while_the_run_goes_on(open_window, file):
     window = open_window(1, experiment=str(file))
     window.do("mousemove", *window.state["buttons"]["parameters"], "click", 1)
@@ -248,7 +246,6 @@ def test_a_slider_is_dragged_while_the_run_goes_on(open_window, file):
     window.until(lambda s: s["sliders"]["values"]["laws.go.speed"] == 0.1)
 
 
-@needs_screen
 def test_more_robots_start_anew_and_a_heavier_crate_does_not(open_window, file):
     window = open_window(1, experiment=str(file))
     window.press("space", "F2")
@@ -274,7 +271,6 @@ def test_more_robots_start_anew_and_a_heavier_crate_does_not(open_window, file):
     window.until(lambda s: s["sliders"]["values"]["props.crate.mass"] == 2.0)
 
 
-@needs_screen
 def test_a_click_beside_the_panel_gives_keys_back_to_the_window(open_window, file):
     window = open_window(1, experiment=str(file))
     window.press("space", "F2")
@@ -292,7 +288,6 @@ def test_a_click_beside_the_panel_gives_keys_back_to_the_window(open_window, fil
     window.until(lambda s: not s["sliders"])
 
 
-@needs_screen
 def test_c_writes_what_was_set(open_window, file, tmp_path):
     window = open_window(1, experiment=str(file), folder=tmp_path)
     window.press("space", "F2")
@@ -308,7 +303,6 @@ def test_c_writes_what_was_set(open_window, file, tmp_path):
     assert again.scenario.robots[0].controller(None) == (0.3, 0.0)
 
 
-@needs_screen
 def test_a_recording_has_no_sliders(open_window, file, tmp_path):
     from mars2d import run
 

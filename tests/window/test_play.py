@@ -12,7 +12,6 @@ from mars2d.window.scores import Scores, Tally
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
-from tests.window.person import needs_screen
 
 CATCH = """
 from mars2d import Holonomic, Robot, Scenario, load_law
@@ -215,7 +214,6 @@ def play(open_window, tmp_path, monkeypatch):
     return start
 
 
-@needs_screen
 @each_case("way", ["key", "click"])
 def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person = play(1.0, "corner_game")
@@ -235,7 +233,6 @@ def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person.do("keyup", "Right")
 
 
-@needs_screen
 def test_space_starts_at_once_and_escape_pauses_before_it_leaves(play):
     person = play(1.0, "corner_game", [1])
     person.press("space")
@@ -247,10 +244,9 @@ def test_space_starts_at_once_and_escape_pauses_before_it_leaves(play):
     person.press("Escape")
     person.until(lambda s: not s["playing"])
     person.press("Escape")
-    person.process.wait(20)
+    person.until(lambda s: s.get("left"))
 
 
-@needs_screen
 def test_two_people_drive_by_arrows_and_by_letters(play):
     person = play(1.0, "sumo", [0, 1])
     person.press("space")
@@ -259,7 +255,6 @@ def test_two_people_drive_by_arrows_and_by_letters(play):
     person.do("keyup", "Down", "keyup", "s")
 
 
-@needs_screen
 def test_in_the_end_r_plays_again_and_the_score_is_kept(play, catch, tmp_path):
     person = play(5.0, catch, [1])
     person.press("space")
@@ -276,7 +271,6 @@ def test_in_the_end_r_plays_again_and_the_score_is_kept(play, catch, tmp_path):
     person.until(lambda s: s["game"]["seats"] == [0] and s["time"] == 0)
 
 
-@needs_screen
 def test_a_law_is_saved_while_somebody_plays(play, catch):
     person = play(1.0, catch, [1], set={"pursuer": "rests.py"})
     person.press("space")

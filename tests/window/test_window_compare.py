@@ -12,7 +12,7 @@ from mars2d.window.compare_window import CompareWindow
 from mars2d.window.display import Preferences
 from mars2d.window.trio import Trio
 from tests.cases import each_case
-from tests.window.person import Driver, differing, needs_screen
+from tests.window.person import differing
 from tests.window.written import Written
 
 FAILS = """
@@ -113,25 +113,11 @@ def test_the_arenas_have_the_same_width_and_lie_above_the_plot(size, text):
 # -- the window -----------------------------------------------------------------------------------
 
 
-class Comparer(Driver):
-    def __init__(self, screen, experiment, speed):
-        self._sit(screen, "observed_compare", experiment, speed)
-
-
 @pytest.fixture
-def compare(screen):
-    opened = []
-
-    def start(experiment, speed="max"):
-        opened.append(Comparer(screen, str(experiment), speed))
-        return opened[-1]
-
-    yield start
-    for window in opened:
-        window.close()
+def compare(open_window):
+    return lambda experiment, speed="max": open_window(speed, compare=experiment)
 
 
-@needs_screen
 def test_keys_and_buttons_of_time_move_all_three(compare):
     window = compare("push_box")
     window.until(lambda s: s["over"])
@@ -148,7 +134,6 @@ def test_keys_and_buttons_of_time_move_all_three(compare):
     window.until(lambda s: s["over"])
 
 
-@needs_screen
 def test_the_time_bar_and_the_plot_are_scrubbed_and_the_wheel_zooms_all_arenas(compare):
     window = compare("push_box")
     window.until(lambda s: s["over"])
@@ -168,7 +153,6 @@ def test_the_time_bar_and_the_plot_are_scrubbed_and_the_wheel_zooms_all_arenas(c
     window.until(lambda s: s["span"][1] < s["newest"])
 
 
-@needs_screen
 def test_looks_help_pictures_and_leaving(compare):
     window = compare("head_on", 1)
     window.press("d", "z", "x")
@@ -182,31 +166,3 @@ def test_looks_help_pictures_and_leaving(compare):
     window.until(lambda s: s["row"] < row or s["row"] < 5)
     window.press("Escape")
     window.until(lambda s: s.get("left"))
-
-
-@needs_screen
-def test_the_command_opens_a_window_and_prints_the_table(screen, tmp_path):
-    import subprocess
-    import sys
-
-    from tests.processes import PATIENCE, bare_environment, wait_until
-    from tests.window.person import ROOT
-
-    here = {"DISPLAY": screen, "PYTHONPATH": str(ROOT), "SDL_VIDEO_WINDOW_POS": "0,0"}
-    environment = bare_environment(**here, MARS2D_MEMORY="")
-    command = [sys.executable, "-m", "mars2d", "compare", "push_box", "--stop-time", "1000"]
-    close = ["xdotool", "mousemove", "300", "300", "sleep", "0.3", "key", "ctrl+q"]
-
-    def closed():
-        subprocess.run(close, env=environment, check=True, timeout=PATIENCE)
-        return process.poll() is not None
-
-    with subprocess.Popen(
-        command, env=environment, cwd=tmp_path, stdout=subprocess.PIPE, text=True
-    ) as process:
-        wait_until(closed)
-        out, _ = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 0
-    assert "physics" in out
-    assert "The window was closed" in out
-    assert not list(tmp_path.iterdir()), "neither picture nor film"

@@ -4,12 +4,9 @@ import csv
 
 import numpy as np
 import pygame
-import pytest
 
 from mars2d import load, run
-from tests.window.person import PUSHING, needs_screen
-
-pytestmark = [needs_screen, pytest.mark.nightly]
+from tests.window.person import PUSHING
 
 
 def push(window, button):
