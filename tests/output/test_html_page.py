@@ -132,6 +132,7 @@ def test_it_plays_to_its_end_and_says_why_it_ended(tab, record):
     assert "Paused at " in tab.page.locator("#live").text_content()
 
 
+@pytest.mark.nightly
 def test_it_plays_at_the_speed_that_is_chosen(tab):
     rate = """() => new Promise(done => {
         const time = () => parseFloat(document.getElementById("time").textContent);
@@ -231,6 +232,7 @@ def test_a_legend_says_how_long_a_force_is_and_follows_the_zoom(tab):
     assert not tab.text("#legend").strip()
 
 
+@pytest.mark.nightly
 def test_the_time_bar_has_marks_where_bodies_met_and_where_hands_were(record, open_tab, tmp_path):
     marked = replace(record, interventions=tuple(Steer(k, 1, True) for k in (60, 80)))
     tab = open_tab(marked.save_html(tmp_path / "marked.html"))
@@ -411,6 +413,7 @@ def test_dark_is_switched_by_button_and_key(tab):
     assert differing(tab.picture(), light) == 0
 
 
+@pytest.mark.nightly
 def test_colours_on_dark_paper_are_those_of_the_window(tab):
     rng = np.random.default_rng(3)
     colors = [f"#{value:06x}" for value in rng.integers(0, 2**24, 200).tolist()]
@@ -428,6 +431,7 @@ def test_colours_on_dark_paper_are_those_of_the_window(tab):
         )
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_words_can_be_read(open_tab, replay, scheme):
     tab = open_tab(replay, (1300, 640), color_scheme=scheme)
@@ -455,6 +459,7 @@ def test_words_can_be_read(open_tab, replay, scheme):
 # -- phones, frames -------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 def test_on_a_phone_all_is_in_reach_of_a_thumb(open_tab, replay):
     tab = open_tab(replay, (360, 640), has_touch=True, is_mobile=True, device_scale_factor=2)
     assert tab.page.evaluate("document.documentElement.scrollWidth") == 360
@@ -477,6 +482,7 @@ def test_on_a_phone_all_is_in_reach_of_a_thumb(open_tab, replay):
     assert tab.text("#panel h2") == EVIL
 
 
+@pytest.mark.nightly
 def test_two_fingers_zoom_about_their_middle(open_tab, replay):
     tab = open_tab(replay, (360, 640), has_touch=True, is_mobile=True)
     show_only(tab)
@@ -509,6 +515,7 @@ def test_in_a_frame_of_a_notebook_it_waits_and_all_of_it_is_seen(browser, record
 # -- words ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 def test_a_screen_reader_finds_the_controls(tab):
     tab.page.select_option("#bodies", label="robot0")
     tab.settle()
@@ -522,6 +529,7 @@ def test_a_screen_reader_finds_the_controls(tab):
     assert "3 robots and 1 prop, seen from above at 0.0 s" in tree
 
 
+@pytest.mark.nightly
 def test_tab_goes_from_control_to_control_and_shows_where_it_is(tab):
     visited = []
     for _ in range(14):

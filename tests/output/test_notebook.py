@@ -231,7 +231,7 @@ def test_the_notebook_in_the_documents_is_that_of_the_script_and_small(stored, m
     assert counts == list(range(1, len(maker.CELLS) + 1))
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.skipif(
     (sys.platform, platform.machine()) != ("linux", "x86_64"),
     reason="another platform may round the last digit differently, and then digests differ",

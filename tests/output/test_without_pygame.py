@@ -78,6 +78,7 @@ def commands(words: list[list[str]], folder: Path) -> list[tuple[int, str]]:
     return [tuple(each) for each in json.loads(done.stdout)]
 
 
+@pytest.mark.nightly
 def test_a_record_is_saved_loaded_drawn_and_played(browser, tmp_path):
     code = (
         "import mars2d\n"

@@ -236,7 +236,7 @@ def script(name, *arguments, cwd):
     return done.stdout
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_growth_is_measured_fitted_and_drawn(tmp_path):
     arguments = ("--sizes", 4, 16, "--time", 0, "--json", "a.json", "--figure", "a.png")
     printed = script("growth.py", *arguments, cwd=tmp_path)

@@ -189,7 +189,7 @@ def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap):
     }  # fmt: skip
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, monkeypatch):
     (made,) = check_numbers(cheap).values()
     words = shlex.split(made["pictures"][0]["command"])

@@ -130,6 +130,7 @@ def test_a_law_that_does_not_return_leaves_the_window_to_escape(command, tmp_pat
     words = ["run", "hangs.py", "--record", "out.npz"]
     seen = command(tmp_path, "-m", "mars2d", *words, MARS2D_PATIENCE="0")
     seen.wait_for("Hangs - MARS2D")
+    seen.do("sleep", 1)
     (tmp_path / "hang").touch()
     seen.do("sleep", 1)
     seen.press("Escape")

@@ -124,7 +124,7 @@ def pixels(surface):
     return pygame.surfarray.array3d(surface).astype(int)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @each_case("situation", SITUATIONS)
 def test_what_is_kept_changes_no_pixel(record, situation):
     kept, plain = Viewer(record), Viewer(record, plain=True)

@@ -33,7 +33,7 @@ def offered(window, x, y):
 
 
 def test_time_is_told_by_buttons(open_window):
-    window = open_window(1, rows=60)
+    window = open_window(5, rows=60)
     push(window, "pause")
     row = window.until(lambda s: not s["playing"])["row"]
     push(window, "step")

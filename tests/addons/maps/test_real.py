@@ -184,9 +184,9 @@ def test_robots_wander_in_a_real_map_and_stay_in_its_rooms(maps, name):
         Robot(pose=(x, y, k), diameter=0.25, sensors=[sensor], controller=wander)
         for k, (x, y) in enumerate(starts)
     ]
-    scenario = Scenario(robots=robots, workspace=None, addons=[found], stop_time=300)
+    scenario = Scenario(robots=robots, workspace=None, addons=[found], stop_time=100)
     record = run(scenario, seed=3)
-    assert record.over_message == "Time is over: 300 s"
+    assert record.over_message == "Time is over: 100 s"
     pieces = found.obstacles()
     walls = [shapely.LineString(p) if len(p) == 2 else shapely.Polygon(p) for p in pieces]
     tree = shapely.STRtree(walls)

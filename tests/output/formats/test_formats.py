@@ -50,7 +50,7 @@ def test_a_record_of_few_rows_comes_back(suffix, rows, tmp_path):
     assert (len(again), again.digest) == (rows, record.digest)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @settings(max_examples=30)
 @given(record=records())
 def test_any_bits_come_back(record, tmp_path_factory):

@@ -327,7 +327,7 @@ def check_kills(count: int, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_run_that_is_killed_loses_no_finished_step(tmp_path) -> None:
-    check_kills(6, tmp_path)
+    check_kills(3, tmp_path)
 
 
 @pytest.mark.nightly
