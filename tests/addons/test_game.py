@@ -200,6 +200,3 @@ def test_roles_that_can_not_be_are_refused_in_words(roles, words):
 def test_robots_that_are_not_there_or_in_two_roles_are_refused(roles, words):
     with pytest.raises(InputError, match=words):
         World(chase(Game(roles)))
-
-
-# -- World.hold ---------------------------------------------------------------------------------

@@ -130,9 +130,6 @@ def test_what_a_density_does_wrong_on_the_way_is_an_error_of_its_function():
             world.step()
 
 
-# -- what can't be ----------------------------------------------------------------------------
-
-
 # -- what is seen -----------------------------------------------------------------------------
 
 

@@ -160,9 +160,6 @@ def test_gaps_of_squares_are_those_which_one_works_out(robot, crate, expected):
     assert fixed[0] == pytest.approx(expected[1])
 
 
-# -- the suite ------------------------------------------------------------------------------------
-
-
 # -- one run against another ----------------------------------------------------------------------
 
 RESTLESS = tuple(1e-4 * (1 + 0.5 * np.array([0, 1, 0, 1, 0, 1, 0, 1, 0])))

@@ -342,9 +342,6 @@ def test_times_after_the_end_of_a_run_show_its_end():
     assert "--set 'detour=(22, 9.8)'" in moved.command("stem", 3, 1.0)
 
 
-# -- processes --------------------------------------------------------------------------------
-
-
 # -- formulas, and the browser ----------------------------------------------------------------
 
 

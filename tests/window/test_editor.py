@@ -1,4 +1,4 @@
-"""The editor, driven by real mouse moves and key presses on a screen of its own."""
+"""The editor, driven by mouse moves and key presses."""
 
 import json
 from math import degrees, pi

@@ -1,4 +1,4 @@
-"""The panel of the editor: laws, drives, masses, colours, sensors and joints, by a real mouse."""
+"""The panel of the editor: laws, drives, masses, colours, sensors and joints, by the mouse."""
 
 import pytest
 

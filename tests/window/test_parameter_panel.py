@@ -1,4 +1,4 @@
-"""Parameters as sliders: a real mouse drags them, keys move them, numbers are typed."""
+"""Parameters as sliders: the mouse drags them, keys move them, numbers are typed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Games that people play: roles, the countdown, the end, the scores, with real keys."""
+"""Games that people play: roles, the countdown, the end, the scores."""
 
 import json
 
@@ -197,10 +197,7 @@ def test_teams_have_scores_and_those_who_are_out_are_not_near(memory, tmp_path):
     assert window.game.distance(window.player.frame) == pytest.approx(4.0)
 
 
-# -- files that are no games ----------------------------------------------------------------------
-
-
-# -- with real keys -------------------------------------------------------------------------------
+# -- in a window --------------------------------------------------------------------------------
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""The window, driven by real key presses and mouse moves on a screen of its own: what is seen.
+"""The window, driven by key presses and mouse moves: what is seen.
 
 What keys and mouse do with time, with the run and with files is in test_window_*.py.
 """

@@ -1,4 +1,4 @@
-"""The buttons and menus of the window, pressed with a real mouse."""
+"""The buttons and menus of the window, pressed with the mouse."""
 
 import inspect
 import re

@@ -1,4 +1,4 @@
-"""Three runs in step in one window, with a real mouse and keys, and how far they get apart."""
+"""Three runs in step in one window, with mouse and keys, and how far they get apart."""
 
 from __future__ import annotations
 

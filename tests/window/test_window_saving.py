@@ -1,4 +1,4 @@
-"""What is kept of the window: pictures, films, Python; and the commands that open one."""
+"""What is kept of the window: pictures, films, Python."""
 
 import sys
 import time

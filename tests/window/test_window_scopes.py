@@ -1,4 +1,4 @@
-"""Scopes in a real window, with a real mouse: chosen, scrubbed, saved."""
+"""Scopes in a window: chosen by mouse, scrubbed, saved."""
 
 import csv
 

@@ -354,9 +354,6 @@ def test_a_run_that_is_killed_while_it_is_packed_keeps_all(tmp_path, child) -> N
     assert read.finished
 
 
-# -- a disk that is full, a folder that is gone ---------------------------------------------------
-
-
 # -- what is no log of ours -----------------------------------------------------------------------
 
 
