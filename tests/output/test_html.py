@@ -16,7 +16,7 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.core.scene import Scene
 from mars2d.output.pages.replay import page
 from mars2d.record.rows import COLUMNS
-from mars2d.sensors import RangeFinder
+from mars2d.sensors import Proximity, RangeFinder
 from mars2d.sensors.base import Sensor
 
 ROOM = [(-6, -6), (6, -6), (6, 6), (-6, 6)]
@@ -188,6 +188,21 @@ def test_a_sensor_of_ones_own_is_drawn_in_the_frame_in_which_it_draws():
     assert mark["scenes"] == 21
     drawn = columns["sensors:numbers"][:4] * content["drawn"]["sensors"]["step"]
     assert drawn == pytest.approx([0, 0, 1, 0], abs=1e-4)
+
+
+def test_beams_that_are_left_out_are_named():
+    robots = [Robot(sensors=[RangeFinder(beams=500), RangeFinder(name="front", beams=300)])]
+    record = mars2d.run(Scenario(robots=robots, stop_time=0.5), control=circles)
+    content, _ = held(page(record))
+    assert [fan["beams"] for fan in content["fans"]] == [250, 300]
+    assert content["notes"] == ["beams of range_finder: one in 2"]
+
+
+def test_a_sensor_whose_code_is_not_in_a_file_is_named(tmp_path):
+    record = mars2d.load(run_with(Whisker(), Proximity(range=1)).save(tmp_path / "run.npz"))
+    content, _ = held(page(record))
+    assert "not drawn, since their code is not in the record: sensor Whisker" in content["notes"]
+    assert [drawing["body"] for drawing in content["drawn"]["sensors"]["drawings"]] == [0]
 
 
 def test_an_error_in_a_sensors_drawing_says_which():

@@ -512,6 +512,13 @@ def test_in_a_frame_of_a_notebook_it_waits_and_all_of_it_is_seen(browser, record
     assert tab.complaints == []
 
 
+@pytest.mark.parametrize(("motion", "plays"), [("reduce", 0), ("no-preference", 1)])
+def test_it_begins_to_play_unless_motion_is_unwanted(open_tab, replay, motion, plays):
+    tab = open_tab(replay, reduced_motion=motion)
+    tab.settle()
+    assert tab.page.locator("body.playing").count() == plays
+
+
 # -- words ----------------------------------------------------------------------------------------
 
 
@@ -596,3 +603,20 @@ def test_names_are_text(tab):
     assert tab.page.title() == f"Push & {EVIL}"
     assert tab.text("h1") == f"Push & {EVIL}"
     assert tab.page.locator("img").count() == 0
+
+
+def test_a_damaged_file_or_an_old_browser_is_told_in_words(browser, replay, tmp_path):
+    text = replay.read_text(encoding="utf-8")
+    head, mark, rest = text.partition('type="text/plain">')
+    (tmp_path / "cut.html").write_text(head + mark + rest[:400] + rest[800:], encoding="utf-8")
+    for path, script, words in (
+        (tmp_path / "cut.html", "", "This file is damaged"),
+        (replay, "delete window.DecompressionStream", "This browser is too old"),
+    ):
+        tab = Tab(browser, (900, 640))
+        tab.page.add_init_script(script)
+        tab.page.goto(path.as_uri())
+        tab.page.wait_for_selector("#trouble:visible")
+        assert words in tab.text("#trouble")
+        tab.close()
+        assert tab.complaints == []

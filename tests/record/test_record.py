@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Addon, Holonomic, Record, Robot, Scenario, Sensor, World
+from mars2d import Addon, Holonomic, InputError, Record, Robot, Scenario, Sensor, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
@@ -317,6 +317,23 @@ class Trolley(Prop):
         return Inertia(2.0, 0.05)
 
 
+class Trap(Prop):
+    """A prop of the user's own that brings a joint."""
+
+    @cached_property
+    def shape(self):
+        return Disc(0.2)
+
+    def joints(self):
+        return (Rope(a=self.name, anchor_b=self.pose[:2], length=0.5),)
+
+
+class Tow(Rope):
+    """A joint of the user's own."""
+
+    length: float | None = 0.9
+
+
 class Slab(Polygon):
     """A shape of the user's own."""
 
@@ -337,6 +354,27 @@ def test_for_a_prop_of_the_users_own_a_solid_stands_in_that_moves_alike(tmp_path
         "trolley", trolley.pose, trolley.surface,
     )  # fmt: skip
     assert rerun(again) is None
+
+
+@each_case(
+    ("fields", "missing"),
+    [
+        ({"props": [Trap(pose=(1, 0))]}, ("prop Trap", "joint Rope of Trap")),
+        ({"props": [Box(pose=(0.8, 0))], "joints": [Tow(a="robot0", b="box0")]}, ("joint Tow",)),
+        ({"robots": [Robot(shape=Slab())]}, ("shape Slab",)),
+        ({"props": [Solid(Slab(), pose=(1, 0))]}, ("shape Slab",)),
+    ],
+)
+def test_without_joints_or_shapes_of_the_users_own_a_record_is_not_run_again(
+    fields, missing, tmp_path
+):
+    record = mars2d.run(Scenario(stop_time=0.5, **fields))
+    again = mars2d.load(record.save(tmp_path / "run.npz"))
+    assert again.missing == missing
+    assert again.digest == record.digest
+    named = [part for part in missing if not part.startswith("prop")]
+    with pytest.raises(InputError, match=f"does not hold the {', '.join(named)}"):
+        rerun(again)
 
 
 def test_a_shape_of_the_users_own_comes_back_as_what_was_drawn_of_it():

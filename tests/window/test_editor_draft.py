@@ -100,11 +100,26 @@ def fault(draft):
     return verdict.faults[0].text, verdict.culprits
 
 
-def test_two_robots_that_overlap():
-    draft = Draft.of(furnished()).moved([Item("robot", 1)], Motion(by=(0.0, -1.8)))
-    words, culprits = fault(draft)
-    assert words == "robot0 and second overlap by 0.1 m"
-    assert culprits == {Item("robot", 0), Item("robot", 1)}
+@each_case(
+    "by, words, other",
+    [
+        ((0.0, 1.8), "robot0 and second overlap by 0.1 m", Item("robot", 1)),
+        ((-5.0, 0.0), "robot0 starts outside the workspace", None),
+        ((4.5, 1.5), "robot0 starts inside obstacle 0; if it is a room,", Item("outline", 0)),
+        ((6.5, 2.9), "robot0 starts in contact with wall 0", Item("wall", 0)),
+        ((3.0, -2.0), "robot0 and box0 overlap by ", Item("prop", 0)),
+    ],
+)
+def test_a_robot_that_can_not_stand_where_it_is(by, words, other):
+    draft = Draft.of(furnished()).moved([Item("robot", 0)], Motion(by=by))
+    text, culprits = fault(draft)
+    assert text.startswith(words)
+    assert culprits == {Item("robot", 0), other or Item("robot", 0)}
+
+
+def test_a_waypoint_outside_the_workspace():
+    draft, item = Draft.of(furnished()).with_waypoint(0, (7.0, 0.0))
+    assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", {item})
 
 
 @each_case(

@@ -107,6 +107,14 @@ def test_the_parameter_map_of_a_scenario_function_gets_the_value(folder):
     assert size(map=Map([], walls=[[(0, 1), (1, 1)]])) == (((0, 1), (1, 1)),)
 
 
+def test_in_python_a_map_can_be_given_as_it_is():
+    scenario = Scenario(robots=[mars2d.Robot(pose=(3, 2, 0))])
+    record = mars2d.run(scenario, stop_time=1, options={"map": Map.from_file("room.wkt")})
+    assert len(record.scenario.obstacles) == 4
+    record = mars2d.run(scenario, stop_time=1, options={"map": "room.wkt", "map.unit": "m"})
+    assert len(record.scenario.obstacles) == 4
+
+
 @each_case(
     ("options", "said"),
     [
