@@ -7,7 +7,7 @@ import numbers
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import floor, pi
-from typing import Any, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,6 +78,8 @@ class Scenario(Description):
     inside an obstacle, inside each other or outside the workspace, polygons that cross themselves,
     numbers out of range.
     """
+
+    _repr_svg_: ClassVar[Callable[[Scenario], str]]  # a notebook's picture of it; see `mars2d`
 
     title: str = text(default="[Simulation]", doc="the title")
     robots: Sequence[Robot] = entry(
@@ -192,12 +194,6 @@ class Scenario(Description):
             why = vars(kind).get("only_one")
             if why and sum(isinstance(addon, kind) for addon in self.addons) > 1:
                 raise InputError(f"Scenario.addons: two are {kind.__name__}, and {why}")
-
-    def _repr_svg_(self) -> str:
-        """Return a picture of the start, for a notebook."""
-        from mars2d.output.pages.notebook import scenario_svg
-
-        return scenario_svg(self)
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""

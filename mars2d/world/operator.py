@@ -276,7 +276,7 @@ class Operator:
         """Let a spring act on a body."""
         fx, fy, torque = self._spring(pull, pose, velocity)
         self._force[pull.body] = norm(fx, fy)
-        if not engine.bears(pull.body, norm(fx, fy), abs(torque)):
+        if not engine.withstands(pull.body, norm(fx, fy), abs(torque)):
             engine.pull(pull.body, (fx, fy), torque)
 
     def _spring(self, pull: Pull, pose: Float, velocity: Float) -> tuple[float, float, float]:
