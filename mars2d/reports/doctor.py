@@ -119,9 +119,9 @@ def _engine() -> Finding:
 
 def _plugins() -> Iterator[Finding]:
     """Yield the plug-ins of other packages; a broken one is not a fault of MARS2D."""
-    from mars2d.scenario.registry import BASES, misspelt_groups, plugins
+    from mars2d.scenario.registry import FAMILIES, misspelt_groups, plugins
 
-    for part in (part for family in BASES for part in plugins(family)):
+    for part in (part for family in FAMILIES for part in plugins(family)):
         text = f"{part.name}, {part.family}, of {part.package} {part.version}"
         problem = f": not usable: {part.problem}" if part.problem else ""
         yield Finding("plug-in", text + problem, ok=None if problem else True)

@@ -16,7 +16,7 @@ from mars2d.scenario import serialize
 from mars2d.scenario.law_reference import Reference, seen_from
 from mars2d.scenario.options import options_in_words
 from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, plain, quoted
-from mars2d.scenario.registry import BASES
+from mars2d.scenario.registry import FAMILIES
 from mars2d.scenario.scenario import Scenario
 
 Law = Callable[[Any], Any]
@@ -126,7 +126,8 @@ class _Lister:
         source = _public_module(kind), kind.__name__
         name = kind.__name__
         if self._names.get(name, source) != source:
-            name += next(base.__name__ for base in kind.__mro__ if base.__name__ in BASES.values())
+            bases = {base for _, base in FAMILIES.values()}
+            name += next(base.__name__ for base in kind.__mro__ if base.__name__ in bases)
         self._names[name] = source
         return name
 

@@ -7,9 +7,9 @@ A package ships a part by an entry point of the group ``mars2d.<family>``, such 
 from __future__ import annotations
 
 import importlib
-import pkgutil
 from dataclasses import dataclass
 from functools import cache
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from mars2d.core.description import Description
@@ -20,24 +20,14 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 FAMILIES = {
-    "bodies": "mars2d.bodies.drives",
-    "props": "mars2d.bodies.props",
-    "joints": "mars2d.bodies.joints",
-    "sensors": "mars2d.sensors",
-    "controllers": "mars2d.scenario.controllers",
-    "addons": "mars2d.addons",
+    "bodies": ("mars2d.bodies.drives", "Drive"),
+    "props": ("mars2d.bodies.props", "Prop"),
+    "joints": ("mars2d.bodies.joints", "Joint"),
+    "sensors": ("mars2d.sensors", "Sensor"),
+    "controllers": ("mars2d.scenario.controllers", "Controller"),
+    "addons": ("mars2d.addons", "Addon"),
 }
-"""The families of parts, and the package that holds the parts of each."""
-
-BASES = {
-    "bodies": "Drive",
-    "props": "Prop",
-    "joints": "Joint",
-    "sensors": "Sensor",
-    "controllers": "Controller",
-    "addons": "Addon",
-}
-"""The base class of each family."""
+"""The families of parts: the package that holds those of MARS2D, and their base class."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +83,8 @@ def plugin(family: str, name: str, package: str) -> type[Description] | None:
 
 def family_of(kind: type[Description]) -> str | None:
     """Return the family of one of MARS2D's own parts, None for any other class."""
-    return next((f for f, package in FAMILIES.items() if kind.__module__.startswith(package)), None)
+    packages = ((family, package) for family, (package, _) in FAMILIES.items())
+    return next((f for f, package in packages if kind.__module__.startswith(package)), None)
 
 
 def package_of(family: str, kind: type[Description]) -> str | None:
@@ -103,36 +94,36 @@ def package_of(family: str, kind: type[Description]) -> str | None:
 
 def _load(family: str, entry: EntryPoint) -> Plugin:
     package, version = _package(entry), entry.dist.version if entry.dist else ""
-    base = getattr(importlib.import_module(FAMILIES[family]), BASES[family])
     try:
         kind = entry.load()
     except (Exception, SystemExit) as error:  # raised by the other package's code
         problem = f"{entry.value} can't be loaded: {described(error)}"
-        return Plugin(family, entry.name, package, version, problem=problem)
-    if not (isinstance(kind, type) and issubclass(kind, base)):
+    else:
+        _, base = _package_and_base(family)
+        if isinstance(kind, type) and issubclass(kind, base):
+            return Plugin(family, kind.__name__, package, version, kind)
         problem = f"{entry.value} is {shown(kind)}: expected a class derived from {base.__name__}"
-        return Plugin(family, entry.name, package, version, problem=problem)
-    return Plugin(family, kind.__name__, package, version, kind)
+    return Plugin(family, entry.name, package, version, problem=problem)
 
 
 def _package(entry: EntryPoint) -> str:
     return entry.dist.name if entry.dist else "an unknown package"
 
 
+def _package_and_base(family: str) -> tuple[ModuleType, type[Description]]:
+    name, base = FAMILIES[family]
+    package = importlib.import_module(name)
+    return package, getattr(package, base)
+
+
 def _own(family: str) -> dict[str, type[Description]]:
     """Return MARS2D's own classes of a family by name."""
-    package, found = importlib.import_module(FAMILIES[family]), {}
-    base = getattr(package, BASES[family])
-    for info in sorted(pkgutil.iter_modules(package.__path__), key=lambda m: m.name):
-        module = importlib.import_module(f"{FAMILIES[family]}.{info.name}")
-        for name, kind in vars(module).items():
-            is_part = isinstance(kind, type) and issubclass(kind, base)
-            own = is_part and kind.__module__ == module.__name__ and name[0] != "_"
-            methods = (getattr(kind, name, None) for name in dir(kind))  # abstract in a Contest
-            abstract = any(getattr(method, "__isabstractmethod__", False) for method in methods)
-            if own and info.name != "base" and not abstract:
-                found[name] = kind
-    return found
+    package, base = _package_and_base(family)
+    parts = {name: getattr(package, name) for name in package.__all__}
+    return {
+        name: kind for name, kind in parts.items()
+        if isinstance(kind, type) and issubclass(kind, base) and kind is not base
+    }  # fmt: skip
 
 
 def misspelt_groups() -> list[str]:
@@ -140,7 +131,7 @@ def misspelt_groups() -> list[str]:
     from importlib.metadata import entry_points
 
     groups = {group for group in entry_points().groups if group.startswith("mars2d.")}
-    known = [f"mars2d.{family}" for family in BASES]
+    known = [f"mars2d.{family}" for family in FAMILIES]
     return [f"{group}{nearest(group, known)}" for group in sorted(groups - {*known})]
 
 

@@ -9,14 +9,14 @@ from __future__ import annotations
 import dataclasses
 import re
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from mars2d.core.description import Check, Description, wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.core.files import atomic_write, file_beside
-from mars2d.core.hints import described
 from mars2d.core.picture import holds_pixels, image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
@@ -184,24 +184,18 @@ def read(path: str | Path) -> tuple[Scenario, Law | None]:
     path = Path(path)
     if path.suffix.lower() != SUFFIX:
         raise InputError(f"{path}: expected a scenario, a file that ends in {SUFFIX}")
-    text = _text(path)
-    return _Reader(path, text).scenario(_parsed(path, text))
-
-
-def _text(path: Path) -> str:
     try:
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise InputError(f"{path}: can't be read: {reason}") from error
-    if len(data) > MAX_BYTES:
-        raise InputError(f"{path}: expected at most {MAX_BYTES / 1e6:g} MB, it is larger")
-    try:
-        return data.decode("utf-8-sig")  # some editors write a mark first
+        text = data.decode("utf-8-sig")  # some editors write a mark first
+    except OSError as error:
+        raise InputError(f"{path}: can't be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
         raise _at(f"{path.name}, line {line}", "expected text in UTF-8; save it so") from None
+    if len(data) > MAX_BYTES:
+        raise InputError(f"{path}: expected at most {MAX_BYTES / 1e6:g} MB, it is larger")
+    return _Reader(path, text).scenario(_parsed(path, text))
 
 
 def _parsed(path: Path, text: str) -> dict[str, Any]:
@@ -242,22 +236,35 @@ class _Reader:
 
     def scenario(self, data: dict[str, Any]) -> tuple[Scenario, Law | None]:
         """Return the scenario, and the law of its team."""
-        self._check_format(data)
-        control = data.get("control")
+        if "format" not in data:
+            raise _at(self.path.name, f"no scenario: the first line should be format = {FORMAT}")
+        with self._pointing("", "format"):
+            found = data["format"]
+            if type(found) is not int or found < 1:
+                raise wrong("format", found, str(FORMAT))
+            if found > FORMAT:
+                newer = f"newer than this MARS2D, which reads {FORMAT}"
+                raise InputError(f"format = {found}: {newer}")
         fields = {name: value for name, value in data.items() if name not in HEADS}
         scenario = self._part(Place(Scenario, default=Scenario), fields, "")
         assert isinstance(scenario, Scenario)
-        return scenario, None if control is None else self._law("control", control, "the world")
+        control = data.get("control")
+        with self._pointing("", "control"):
+            law = None if control is None else self._law("control", control, "the world")
+        return scenario, law
 
-    def _check_format(self, data: dict[str, Any]) -> None:
-        found = data.get("format")
-        if found is None:
-            raise _at(self.path.name, f"no scenario: the first line should be format = {FORMAT}")
-        if type(found) is not int or found < 1:
-            raise self._wrong("format", found, str(FORMAT))
-        if found > FORMAT:
-            problem = f"format = {found}: newer than this MARS2D, which reads {FORMAT}"
-            raise _at(self._where("", "format"), problem)
+    @contextmanager
+    def _pointing(self, table: str, field: str = "") -> Iterator[None]:
+        """Give errors their place: the file, the line if it is known, and the table."""
+        try:
+            yield
+        except InputError as error:
+            place = _inside(table, field) if field else table
+            while place and place not in self._lines:  # the line of a table around it
+                place = place[: max(place.rfind("."), place.rfind("["), 0)]
+            line = f"line {self._lines[place]}" if place else ""
+            error.where = error.where or ", ".join(filter(None, [self.path.name, line, table]))
+            raise
 
     def _part(self, place: Place, value: Any, at: str) -> Description:
         """Return the part that a table describes, or the name of its type alone."""
@@ -265,72 +272,54 @@ class _Reader:
             value = {"type": value}
         if not isinstance(value, dict):
             example = place.default or min(serialize.kinds_of(place.base).values(), key=repr)
-            shape = f"as {{ type = {quoted(example.__name__)} }}"
-            raise self._wrong(at, value, f"a table, {shape}")
-        kind = self._kind(place, value.get("type"), at)
+            expected = f"a table, as {{ type = {quoted(example.__name__)} }}"
+            raise wrong(at.rpartition(".")[2], value, expected)
+        with self._pointing(at, "type"):
+            kind = _kind(place, value.get("type"))
         fields = {field.name: field for field in dataclasses.fields(kind)}
         values = {}
         for name, item in value.items():
-            if name in fields:
-                values[name] = self._field(kind, fields[name], item, _inside(at, name))
-            elif name in kind.twins:
-                values[name] = item
-            elif name != "type":
-                known = [*fields, *(HEADS if kind is Scenario else ["type"])]
-                near = likely(name, known) or kind.meant(name)
-                problem = f"{kind.__name__} has no field {name!r}{near}"
-                raise _at(self._where(at, name), problem)
+            with self._pointing(at, name):
+                if name in fields:
+                    values[name] = self._field(kind, fields[name], item, _inside(at, name))
+                elif name in kind.twins:
+                    values[name] = item
+                elif name != "type":
+                    known = [*fields, *(HEADS if kind is Scenario else ["type"])]
+                    near = likely(name, known) or kind.meant(name)
+                    raise InputError(f"{kind.__name__} has no field {name!r}{near}")
         try:
             return kind(**values)
         except InputError as error:
-            named = re.match(rf"{kind.__name__}\.(\w+(?:\[\d+\])*)", str(error))
-            error.where = error.where or self._where(at, named[1] if named else "")
             error.args = (error.args[0].replace("True or False", "true or false"),)
-            raise
-        except Exception as error:  # of another package's part
-            raise _at(self._where(at), f"{kind.__name__}: {described(error)}") from error
-
-    def _kind(self, place: Place, name: object, at: str) -> type[Description]:
-        """Return the class that the name of a type means, or the default without a name."""
-        if name is None and place.default is not None:
-            return place.default
-        kinds = serialize.kinds_of(place.base)
-        if name is None:
-            example = f"as type = {quoted(min(kinds))}"
-            raise _at(self._where(at), f"its type is missing, {example}{nearest('', kinds)}")
-        if not isinstance(name, str) or name not in kinds:
-            problem = f"type = {shown(name)}: no {place.base.__name__} is called so"
-            raise _at(self._where(at, "type"), problem + nearest(name, kinds))
-        return kinds[name]
+            named = re.match(rf"{kind.__name__}\.(\w+(?:\[\d+\])*)", str(error))
+            with self._pointing(at, named[1] if named else ""):
+                raise
 
     def _field(
         self, kind: type[Description], field: dataclasses.Field[Any], value: Any, at: str
     ) -> Any:
         """Return the value of a field, before it is checked."""
-        check = field.metadata.get("check")
         if value == NONE and takes_none(field):
             return None
         place = serialize.parts_of(kind).get(field.name)
+        if place is not None and not place.many:
+            return self._part(place, value, at)
         if place is not None:
-            return self._parts(place, value, at) if place.many else self._part(place, value, at)
+            if isinstance(value, dict):
+                header = re.sub(r"\[\d+\]", "", at)
+                expected = f"expected a list of tables; write [[{header}]] above each"
+                raise InputError(f"{header}: {expected}")
+            if not isinstance(value, list):
+                return value  # such as robots = 5, or refused later
+            return [self._part(place, item, f"{at}[{i}]") for i, item in enumerate(value)]
         if field.name == "controller" and issubclass(kind, Robot):
             return self._controller(at, value)
-        if check is image_file and isinstance(value, str) and not holds_pixels(value):
-            try:
-                beside = self.path.absolute().parent / value
-                return str(beside) if beside.is_file() else value
-            except OSError:  # such as a name that is too long
-                return value
+        is_image = field.metadata.get("check") is image_file and isinstance(value, str)
+        if is_image and not holds_pixels(value):
+            beside = self.path.absolute().parent / value
+            return str(beside) if beside.is_file() else value
         return self._plain(value, at)
-
-    def _parts(self, place: Place, value: Any, at: str) -> Any:
-        if isinstance(value, dict):
-            header = re.sub(r"\[\d+\]", "", at)
-            problem = f"{header}: expected a list of tables; write [[{header}]] above each"
-            raise _at(self._where(*_split(at)), problem)
-        if not isinstance(value, list):
-            return value  # such as robots = 5, or refused later
-        return [self._part(place, item, f"{at}[{i}]") for i, item in enumerate(value)]
 
     def _plain(self, value: Any, at: str) -> Any:
         """Return a value of lists, text and numbers; a table with a type becomes a part."""
@@ -347,43 +336,32 @@ class _Reader:
         known = serialize.kinds_of(Controller)
         if isinstance(value, dict) or (isinstance(value, str) and value in known):
             return self._part(READY_MADE, value, at)
-        near = likely(value, known) if isinstance(value, str) else ""
-        if near:
-            raise _at(self._where(*_split(at)), f"controller = {shown(value)}: no such law{near}")
-        return self._law(at, value, "the robot")
+        if isinstance(value, str) and (near := likely(value, known)):
+            raise InputError(f"controller = {shown(value)}: no such law{near}")
+        return self._law("controller", value, "the robot")
 
-    def _law(self, at: str, value: Any, subject: str) -> Law:
-        try:
-            reference = Reference.read(_split(at)[1], value)
-            file = file_beside(Path(reference.file), self.path, "a law", [".py"])
-            return law_in(file, reference.name, subject)
-        except InputError as error:
-            error.where = error.where or self._where(*_split(at))
-            raise
-        except OSError as error:  # such as a name that is too long
-            raise self._wrong(at, value, "the name of a file") from error
+    def _law(self, field: str, value: Any, subject: str) -> Law:
+        reference = Reference.read(field, value)
+        file = file_beside(Path(reference.file), self.path, "a law", [".py"])
+        return law_in(file, reference.name, subject)
 
-    def _wrong(self, at: str, value: object, expected: str) -> InputError:
-        table, field = _split(at)
-        return _at(self._where(table, field), str(wrong(field, value, expected)))
 
-    def _where(self, table: str, field: str = "") -> str:
-        """Return the place of an error: the file, the line if it is known, and the table."""
-        place = _inside(table, field) if field else table
-        while place and place not in self._lines:  # the line of a table around it
-            place = place[: max(place.rfind("."), place.rfind("["), 0)]
-        line = f"line {self._lines[place]}" if place else ""
-        return ", ".join(filter(None, [self.path.name, line, table]))
+def _kind(place: Place, name: object) -> type[Description]:
+    """Return the class that the name of a type means, or the default without a name."""
+    if name is None and place.default is not None:
+        return place.default
+    kinds = serialize.kinds_of(place.base)
+    if name is None:
+        example = f"as type = {quoted(min(kinds))}"
+        raise InputError(f"its type is missing, {example}{nearest('', kinds)}")
+    if not isinstance(name, str) or name not in kinds:
+        problem = f"type = {shown(name)}: no {place.base.__name__} is called so"
+        raise InputError(problem + nearest(name, kinds))
+    return kinds[name]
 
 
 def _inside(at: str, name: str) -> str:
     return f"{at}.{name}" if at else name
-
-
-def _split(at: str) -> tuple[str, str]:
-    """Return the table and the field of ``robots[2].drive``."""
-    table, _, field = at.rpartition(".")
-    return table, field
 
 
 def takes_none(field: dataclasses.Field[Any]) -> bool:

@@ -15,7 +15,7 @@ import mars2d
 from mars2d.cli.command_line import main
 from mars2d.scenario import registry, serialize
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.registry import BASES, members
+from mars2d.scenario.registry import FAMILIES, members
 from tests.cases import each_case
 
 LIDAR = '''
@@ -235,7 +235,7 @@ def test_the_groups_in_the_documents_are_those_that_are_looked_up():
     text = (Path(__file__).parents[2] / "docs" / "own_sensor_and_addon.md").read_text("utf-8")
     project = tomllib.loads("[build-system]" + text.partition("[build-system]")[2].split("```")[0])
     assert set(project["project"]["entry-points"]) == {"mars2d.sensors"}
-    assert set(re.findall(r"`mars2d\.(\w+)`", text)) == set(BASES)
+    assert set(re.findall(r"`mars2d\.(\w+)`", text)) == set(FAMILIES)
 
 
 def test_a_class_of_the_same_name_in_a_file_of_ones_own_is_not_taken_for_the_packages(
