@@ -4,29 +4,21 @@ from __future__ import annotations
 
 import dataclasses
 import operator
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Set
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.bodies.drives.base import Drive
 from mars2d.core.arithmetic import norm
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError, counted
 from mars2d.core.usercode import name_of
-from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.starts import check_in_workspace, check_off_walls, cut_by, depth
 
 Float = NDArray[np.float64]
 Same = Callable[[Any, Any], bool]
-
-FREE = frozenset(
-    {"title", "robots", "props", "joints", "workspace", "on_exit", "stop_time", "addons"}
-    | {"animation"}
-)
-"""Fields of a scenario that may change; robots, props, joints and add-ons in some ways only."""
 
 MECHANICAL = frozenset(
     {"mass", "moment", "material", "friction", "restitution", "static_friction"}
@@ -34,57 +26,55 @@ MECHANICAL = frozenset(
 )
 """Fields of bodies that may change, and with which the engine starts again."""
 
-FREE_OF_BODIES = MECHANICAL | {"pose", "color"}
-FREE_OF_ROBOTS = FREE_OF_BODIES | {"drive", "controller"}
-
-FIXED_OF_DRIVES = frozenset({"noise", "dead_time"})
-"""Fields of drives that may not change; of a drive with noise, none may."""
-
-FREE_OF_JOINTS = frozenset({"stiffness", "damping"})
-"""Fields of joints that may change."""
-
-WHOLE = FREE - {"robots", "props", "joints", "addons"}
+WHOLE = frozenset({"title", "workspace", "on_exit", "stop_time", "animation"})
 """Fields of a scenario that may change while its world runs, each as a whole."""
 
 PARTS = {
-    "robots": FREE_OF_ROBOTS - {"controller"},
-    "props": FREE_OF_BODIES,
-    "joints": FREE_OF_JOINTS,
+    "robots": MECHANICAL | {"pose", "color", "drive"},
+    "props": MECHANICAL | {"pose", "color"},
+    "joints": frozenset({"stiffness", "damping"}),
 }
-"""The lists of parts, and the fields of each part that may change."""
+"""The lists of parts, and the fields of each part that may change, as a robot's law may."""
+
+FIXED_OF_DRIVES = ("noise", "dead_time")
+"""Fields of drives that may not change; of a drive with noise, none may."""
 
 
 def check_same(before: Scenario, after: Scenario, same: Same = operator.eq) -> None:
     """Refuse a scenario that a running world can't go on with; the InputError says why not.
 
-    same: decides whether two values are the same.
+    same: decides whether two values are the same: `alike` for a scenario that was read again, whose
+    laws may have changed.
     """
-    for name in _changed(before, after, FREE, same):
-        raise _needs_new_start(f"Scenario.{name} is another one")
-    for family, free in (("robots", FREE_OF_ROBOTS), ("props", FREE_OF_BODIES)):
+    for what in _obstacles(before, after, same):
+        raise InputError(f"this needs a new start: {what}")
+
+
+def _obstacles(before: Scenario, after: Scenario, same: Same) -> Iterator[str]:
+    """Yield the reasons why a world can't go on."""
+    for name in _differing(before, after, same, {*WHOLE, *PARTS, "addons"}):
+        yield f"Scenario.{name} is another one"
+    for family, free in PARTS.items():
         first, second = getattr(before, family), getattr(after, family)
         if len(first) != len(second):
-            raise _needs_new_start(f"{counted(len(second), family[:-1])} in place of {len(first)}")
-        for one, other in zip(first, second, strict=True):
+            yield f"{counted(len(second), family[:-1])} in place of {len(first)}"
+        for k, (one, other) in enumerate(zip(first, second, strict=True)):
+            what = getattr(one, "name", f"Scenario.joints[{k}]")
             if not _same_kind(one, other):
-                raise _needs_new_start(f"{one.name} is a {type(other).__name__} now")
-            for name in _changed(one, other, free, same):
-                raise _needs_new_start(f"{name} of {one.name} is another one")
+                yield f"{what} is a {type(other).__name__} now"
+            for name in _differing(one, other, same, free | {"controller"}):
+                yield f"{name} of {what} is another one"
     for one, other in zip(before.robots, after.robots, strict=True):
-        if not same(one.drive, other.drive):
-            _check_drive(f"drive of {one.name}", one.drive, other.drive)
-    joints = [*zip(before.joints, after.joints, strict=False)]
-    kept = all(
-        _same_kind(*pair) and not [*_changed(*pair, FREE_OF_JOINTS, same)] for pair in joints
-    )
-    if len(before.joints) != len(after.joints) or not kept:
-        raise _needs_new_start("Scenario.joints is another one")
+        drives, what = (one.drive, other.drive), f"drive of {one.name}"
+        if not same(*drives) and (one.drive.noise or not _same_kind(*drives)):
+            yield f"{what} is another one{', and has noise' * bool(one.drive.noise)}"
+        for name in FIXED_OF_DRIVES:
+            if getattr(one.drive, name) != getattr(other.drive, name):
+                yield f"{what} has another {name}"
     busy = [{a.key: a for a in scenario.addons if a.acts} for scenario in (before, after)]
     for key in sorted({*busy[0], *busy[1]}):
         if not same(busy[0].get(key), busy[1].get(key)):
-            raise _needs_new_start(
-                f"the add-on {key!r}, which does something at each step, is another one"
-            )
+            yield f"the add-on {key!r}, which does something at each step, is another one"
 
 
 def moves_alike(before: Scenario, after: Scenario) -> bool:
@@ -92,26 +82,16 @@ def moves_alike(before: Scenario, after: Scenario) -> bool:
 
     For a scenario that `check_same` lets pass: else an engine has to start again.
     """
-    if before.joints != after.joints:
-        return False
     pairs = [*zip(before.robots, after.robots, strict=True)]
-    if any(one.drive != other.drive for one, other in pairs):
-        return False
-    return all(
-        getattr(one, name, None) == getattr(other, name, None)
-        for one, other in [*pairs, *zip(before.props, after.props, strict=True)]
-        for name in MECHANICAL
+    return (
+        before.joints == after.joints
+        and all(one.drive == other.drive for one, other in pairs)
+        and all(
+            getattr(one, name, None) == getattr(other, name, None)
+            for one, other in [*pairs, *zip(before.props, after.props, strict=True)]
+            for name in MECHANICAL
+        )
     )
-
-
-def _check_drive(name: str, before: Drive, after: Drive) -> None:
-    if not _same_kind(before, after):
-        raise _needs_new_start(f"{name} is another one")
-    if before.noise:
-        raise _needs_new_start(f"{name} is another one, and has noise")
-    for field in FIXED_OF_DRIVES:
-        if getattr(before, field) != getattr(after, field):
-            raise _needs_new_start(f"{name} has another {field}")
 
 
 def _same_kind(before: object, after: object) -> bool:
@@ -119,18 +99,11 @@ def _same_kind(before: object, after: object) -> bool:
     return type(before).__qualname__ == type(after).__qualname__
 
 
-def _changed(
-    before: Description, after: Description, free: frozenset[str], same: Same
-) -> Iterator[str]:
-    """Yield the fields that differ, except those that are free; both are of one class."""
-    for field in dataclasses.fields(before):
-        here, there = (getattr(each, field.name, None) for each in (before, after))
-        if field.name not in free and not same(here, there):
-            yield field.name
-
-
-def _needs_new_start(what: str) -> InputError:
-    return InputError(f"this needs a new start: {what}")
+def _differing(before: Any, after: Any, same: Same, free: Set[str] = frozenset()) -> Iterator[str]:
+    """Yield the fields that differ in two descriptions, except those that are free."""
+    for name in (field.name for field in dataclasses.fields(before)):
+        if name not in free and not same(getattr(before, name), getattr(after, name, None)):
+            yield name
 
 
 def with_poses(scenario: Scenario, poses: Float) -> Scenario:
@@ -224,14 +197,6 @@ def alike(first: Any, second: Any) -> bool:
     return bool(first == second)
 
 
-def check_alike(before: Scenario, after: Scenario) -> None:
-    """Refuse a scenario read again if a run can't go on with it; the InputError says why not.
-
-    Laws may have changed, and what `mars2d.scenario.changes` allows.
-    """
-    check_same(before, after, alike)
-
-
 def carried(fresh: Scenario, kept: Scenario, given: Collection[str | None] = ()) -> Scenario:
     """Return a scenario read again, with everything that may change as in `kept`.
 
@@ -239,35 +204,10 @@ def carried(fresh: Scenario, kept: Scenario, given: Collection[str | None] = ())
     are those of `kept`.
     """
     read = {addon.key: addon for addon in fresh.addons}
-    return fresh.replace(
-        **{name: getattr(kept, name) for name in WHOLE},
-        addons=[read[a.key] if alike(read.get(a.key), a) else a for a in kept.addons],
-        **{
-            name: [
-                one.replace(**_different(one, other, one, free | _given(one, given)))
-                for one, other in zip(getattr(fresh, name), getattr(kept, name), strict=True)
-            ]
-            for name, free in PARTS.items()
-        },
-    )
-
-
-def _given(part: Any, given: Collection[str | None]) -> frozenset[str]:
-    """Return the field that a robot's law is in, if it was given one."""
-    named = isinstance(part, Robot) and part.name in given
-    return frozenset({"controller"} if named else ())
-
-
-def _different(before: Any, after: Any, of: Any, free: frozenset[str]) -> dict[str, Any]:
-    """Return the free fields that differ in two parts, with the values of the latter.
-
-    of: a part that has them all.
-    """
-    return {
-        field.name: getattr(after, field.name)
-        for field in dataclasses.fields(of)
-        if field.name in free and not alike(getattr(before, field.name), getattr(after, field.name))
-    }
+    addons = [read[a.key] if alike(read.get(a.key), a) else a for a in kept.addons]
+    found = _with_changes(fresh, fresh, kept, addons=addons)
+    laws = {r.name: r.controller for r in kept.robots if r.name in given}
+    return found.with_laws([laws.get(r.name, r.controller) for r in found.robots])
 
 
 def merged(before: Scenario, after: Scenario, live: Scenario) -> Scenario:
@@ -275,15 +215,29 @@ def merged(before: Scenario, after: Scenario, live: Scenario) -> Scenario:
 
     before, after: as the file had them when it was read, and as it has them now.
     """
-    changes: dict[str, Any] = {
-        name: getattr(after, name)
-        for name in (*WHOLE, "addons")
-        if not alike(getattr(before, name), getattr(after, name))
-    }
-    for name, free in PARTS.items():
-        parts = zip(*(getattr(s, name) for s in (before, after, live)), strict=True)
-        changes[name] = [
-            there.replace(**_different(one, other, there, free - {"pose"}))
-            for one, other, there in parts
+    addons = live.addons if alike(before.addons, after.addons) else after.addons
+    return _with_changes(live, before, after, {"pose"}, addons=addons)
+
+
+def _with_changes(
+    target: Scenario, before: Scenario, after: Scenario, kept: Set[str] = frozenset(), **more: Any
+) -> Scenario:
+    """Return a scenario with what differs in two others, but for fields `kept` of its parts.
+
+    more: other fields that change.
+    """
+    differing = [name for name in _differing(before, after, alike) if name in WHOLE]
+    changes = {name: getattr(after, name) for name in differing} | more
+    for family, free in PARTS.items():
+        parts = zip(*(getattr(each, family) for each in (before, after, target)), strict=True)
+        changes[family] = [
+            part.replace(
+                **{
+                    name: getattr(other, name)
+                    for name in _differing(one, other, alike)
+                    if name in free - kept
+                }
+            )
+            for one, other, part in parts
         ]
-    return live.replace(**changes)
+    return target.replace(**changes)

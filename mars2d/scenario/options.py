@@ -31,67 +31,63 @@ def override(scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
     options: values by dotted names, such as ``robots.*.diameter``. Raises InputError for unknown
     names.
     """
-    tree: dict[str, Any] = {}
-    for name, value in options.items():
-        *path, last = str(name).split(".")
-        branch = tree
-        for part in path:
-            branch = branch.setdefault(part, {})
-            if not isinstance(branch, dict):
-                raise InputError(f"the options set {part!r} and a field of it, in {name!r}")
-        branch[last] = _Leaf(value)
-    return scenario if not tree else _replaced(scenario, tree, ())
+    found = _replaced(scenario, {str(name): value for name, value in options.items()}, "")
+    assert isinstance(found, Scenario)
+    return found
 
 
-class _Leaf(NamedTuple):
-    """The value that an option sets, at the end of its path."""
+def _replaced(target: Any, options: Mapping[str, Any], path: str) -> Any:
+    """Return a part with the options set, by names within it; ``*`` means all items of a list.
 
-    value: Any
-
-
-def _replaced(target: Any, tree: Any, path: tuple[str, ...]) -> Any:
-    """Return `target` with the fields of the tree set; ``*`` means all items of a list."""
-    option = ".".join(path)
-    if isinstance(tree, _Leaf):
-        if isinstance(target, Description) and isinstance(tree.value, str):
+    path: its own name and a full stop; empty for the scenario.
+    """
+    option = path + next(iter(options), "")
+    if "" in options:  # the part itself
+        value = options[""]
+        if len(options) > 1:
+            raise InputError(f"the options set {path[:-1]!r}, and a field of it as well")
+        if isinstance(target, Description) and isinstance(value, str):
             raise InputError(
-                f"{option} = {tree.value!r}: an option is a number, a word or a tuple; write "
-                f"{tree.value} in the file, or set single fields, such as {option}.FIELD=..."
+                f"{path[:-1]} = {value!r}: an option is a number, a word or a tuple; write "
+                f"{value} in the file, or set single fields, such as {path}FIELD=..."
             )
-        return tree.value
-    first = ".".join((*path, next(iter(tree))))
+        return value
+    inside: dict[str, dict[str, Any]] = {}
+    for name, value in options.items():
+        first, _, rest = name.partition(".")
+        inside.setdefault(first, {})[rest] = value
     if isinstance(target, tuple):
         items = list(target)
-        for part, branch in tree.items():
-            if part == "*" and not items:
-                raise InputError(f"there is no option {first!r}: this scenario has no {path[-1]}")
-            for i in range(len(items)) if part == "*" else [_index(part, items, path)]:
-                items[i] = _replaced(items[i], branch, (*path, part))
+        for name, given in inside.items():
+            if name == "*" and not items:
+                raise InputError(f"there is no option {option!r}: this scenario has no {path[:-1]}")
+            for i in range(len(items)) if name == "*" else [_index(name, items, path)]:
+                items[i] = _replaced(items[i], given, f"{path}{name}.")
         return tuple(items)
     if not isinstance(target, Description):
-        raise InputError(f"there is no option {first!r}: {shown(target)} has no fields")
-    changes = {}
-    for part, branch in tree.items():
-        if part not in target.__dataclass_fields__ and part not in target.twins:
+        raise InputError(f"there is no option {option!r}: {shown(target)} has no fields")
+    for name in inside:
+        if name not in target.__dataclass_fields__ and name not in target.twins:
             raise InputError(
-                f"there is no option {'.'.join((*path, part))!r}: {type(target).__name__} has "
-                f"no field {part!r}{target.meant(part)}"
+                f"there is no option {path + name!r}: {type(target).__name__} has "
+                f"no field {name!r}{target.meant(name)}"
             )
-        changes[part] = _replaced(getattr(target, part), branch, (*path, part))
-    return target.replace(**changes)
+    changes = {
+        name: _replaced(getattr(target, name), given, f"{path}{name}.")
+        for name, given in inside.items()
+    }
+    return target.replace(**changes) if changes else target
 
 
-def _index(text: str, items: Sequence[Any], path: tuple[str, ...]) -> int:
+def _index(text: str, items: Sequence[Any], path: str) -> int:
     """Return the index of an item by its number or its name, the one that laws use."""
     names = [str(getattr(item, "key", None) or getattr(item, "name", "")) for item in items]
     if text in names:
         return names.index(text)
     if not text.isdigit() or int(text) >= len(items):
-        option = ".".join((*path, text))
         named = f" or a name{nearest(text, filter(None, names))}" if any(names) else ""
-        raise InputError(
-            f"there is no option {option!r}: expected * or 0 to {len(items) - 1}{named}"
-        )
+        expected = f"expected * or 0 to {len(items) - 1}{named}"
+        raise InputError(f"there is no option {path + text!r}: {expected}")
     return int(text)
 
 

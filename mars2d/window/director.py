@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.scenario.changes import carried, check_alike, with_poses, without_body
+from mars2d.scenario.changes import alike, carried, check_same, with_poses, without_body
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.driver import ARROWS, LETTERS, Driver
@@ -324,7 +324,7 @@ class Director:
         moved = {i: body.pose for i, body in bodies if body.pose != before[i].pose}
 
         def draw(world: World) -> None:
-            check_alike(world.scenario, outcome.scenario)
+            check_same(world.scenario, outcome.scenario, alike)
             # In the past this is another world, whose own laws go on.
             drawn = carried(world.scenario, outcome.scenario, given)
             world.operator.change(drawn, world.control, moved, given=given)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, LawError, Mars2dError
 from mars2d.core.usercode import quiet
 from mars2d.record.interventions import Change, Intervention
-from mars2d.scenario.changes import carried, check_alike
+from mars2d.scenario.changes import alike, carried, check_same
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import open_world
 from mars2d.world.world import World
@@ -157,7 +157,7 @@ class Past:
         start = perf_counter()
         with quiet():
             fresh = self._experiment.reopened()
-            check_alike(self._experiment.scenario, fresh.scenario)
+            check_same(self._experiment.scenario, fresh.scenario, alike)
             world = self.opened(fresh)
         self._opening = perf_counter() - start
         waiting = sorted((w for w in self.waiting if not w.over), key=lambda w: w.iteration)

@@ -33,7 +33,7 @@ def robots(**changes):
     [
         ({"sampling_time": 0.2}, "Scenario.sampling_time is another one"),
         ({"neighbours": Within(1.0)}, "Scenario.neighbours is another one"),
-        ({"joints": [Rope(a="red", b="blue")]}, "Scenario.joints is another one"),
+        ({"joints": [Rope(a="red", b="blue")]}, "1 joint in place of 0"),
         ({"robots": [RED, BLUE, Robot(pose=(0, 3, 0))]}, "3 robots in place of 2"),
         ({"props": [Puck(pose=(-2, 0, 0), name="crate")]}, "crate is a Puck now"),
         ({"props": [BOX.replace(length=0.7)]}, "length of crate is another one"),
