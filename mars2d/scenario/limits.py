@@ -11,13 +11,7 @@ from math import isfinite
 
 import numpy as np
 
-from mars2d.bodies.constraints import (
-    FixedDistance,
-    MaxDistance,
-    Pin,
-    SpringDamper,
-    TurningSpring,
-)
+from mars2d.bodies.constraints import FixedDistance, MaxDistance, Pin, SpringDamper, TurningSpring
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.joints.base import AttachedJoint, Joint
 from mars2d.bodies.props.base import MAX_SPEED

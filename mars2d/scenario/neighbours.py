@@ -6,6 +6,7 @@ import functools
 import numbers
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
+from operator import index
 from typing import Any, ClassVar
 
 import numpy as np
@@ -68,22 +69,18 @@ def _checked(of: Callable[[Any, Float], Neighbours]) -> Callable[[Any, Float], N
         name, n = f"{type(self).__name__}.of(position)", position.shape[1]
         found = of(self, position)
         try:
-            rows = [list(row) for row in found]
+            rows = [[index(j) for j in row] for row in found]
         except TypeError:
             expected = "expected for each robot a list of its neighbours' indices"
             raise LawError(f"{name} returned {shown(found)}: {expected}") from None
         if len(rows) != n:
             raise LawError(f"{name} returned {len(rows)} lists: expected {n}, one for each robot")
+        known = {*range(n)}
         for i, row in enumerate(rows):
-            lists = f"{name} for robot {i} lists"
-            for j in row:
-                if not _whole(j) or not 0 <= j < n:
-                    raise LawError(f"{lists} {shown(j)}: expected an index from 0 to {n - 1}")
-            if i in row:
-                raise LawError(f"{lists} {i}: no robot is its own neighbour")
-            if len({*row}) < len(row):
-                raise LawError(f"{lists} {shown(row)}: expected each neighbour once")
-        return [[int(j) for j in row] for row in rows]
+            if i in row or len(known.intersection(row)) < len(row):
+                expected = f"expected other robots, each once, by their indices, 0 to {n - 1}"
+                raise LawError(f"{name} for robot {i} lists {shown(row)}: {expected}")
+        return rows
 
     return checked
 
@@ -249,43 +246,33 @@ EXPECTED = (
 def _edges(name: str, value: Any) -> tuple[int, Edges]:
     """Check a graph, and return the number of its nodes and its edges in order."""
     if hasattr(value, "nodes") and hasattr(value, "is_directed"):
-        return _of_networkx(name, value)
+        nodes, edges = [*value.nodes], [*value.edges()]
+        if {*nodes} != {*range(len(nodes))}:
+            raise InputError(
+                f"{name}: its nodes are {shown(nodes)}: expected 0, 1, 2, ..., the robots' indices;"
+                " networkx.convert_node_labels_to_integers makes them so"
+            )
+        back = [] if value.is_directed() else [(j, i) for i, j in edges]
+        return _of_pairs(name, len(nodes), edges + back)
     if isinstance(value, (list, tuple)) and len(value) == 2 and _whole(value[0]):
         return _of_pairs(name, *value)
-    return _of_matrix(name, value)
-
-
-def _of_matrix(name: str, value: Any) -> tuple[int, Edges]:
     try:
         matrix = np.asarray(value)
-    except (TypeError, ValueError):  # such as rows of different lengths
+    except ValueError:  # rows of different lengths
         raise wrong(name, value, EXPECTED) from None
     if matrix.dtype.kind not in "biuf" or matrix.ndim != 2:
         raise wrong(name, value, EXPECTED)
     n, columns = matrix.shape
-    if n != columns or n == 0:
+    if n != columns:
         raise InputError(f"{name}: a matrix {n} x {columns}: expected as many columns as rows")
     if not np.isfinite(matrix).all():
         raise wrong(name, value, "finite numbers, 0 for no edge")
     return _of_pairs(name, n, np.argwhere(matrix != 0).tolist())
 
 
-def _of_networkx(name: str, graph: Any) -> tuple[int, Edges]:
-    nodes, edges = list(graph.nodes), [(i, j) for i, j in graph.edges()]
-    if not all(map(_whole, nodes)) or {*nodes} != {*range(len(nodes))}:
-        raise InputError(
-            f"{name}: its nodes are {shown(nodes)}: expected 0, 1, 2, ..., the robots' indices; "
-            "networkx.convert_node_labels_to_integers makes them so"
-        )
-    if not graph.is_directed():
-        edges += [(j, i) for i, j in edges]
-    return _of_pairs(name, len(nodes), edges)
-
-
-def _of_pairs(name: str, nodes: Any, edges: Any) -> tuple[int, Edges]:
-    n = int(nodes)
+def _of_pairs(name: str, n: int, edges: Any) -> tuple[int, Edges]:
     if n < 1:
-        raise wrong(name, (nodes, edges), "at least one node")
+        raise wrong(name, (n, edges), "at least one node")
     expected = f"a list of edges (i, j), with i and j from 0 to {n - 1}"
     found = set()
     for edge in items_of(f"{name}: edges", edges, expected):
@@ -296,7 +283,7 @@ def _of_pairs(name: str, nodes: Any, edges: Any) -> tuple[int, Edges]:
         if i == j:
             raise InputError(f"{name}: an edge from {i} to {j}: no robot is its own neighbour")
         found.add((i, j))
-    return n, tuple(sorted(found))
+    return int(n), tuple(sorted(found))
 
 
 class Graph(Neighbourhood):
@@ -329,11 +316,8 @@ class Graph(Neighbourhood):
     def check_size(self, robots: int) -> None:
         """Raise InputError if the graph has another number of nodes than there are robots."""
         if self.graph[0] != robots:
-            raise InputError(
-                f"Scenario.neighbours: the graph has {counted(self.graph[0], 'node')}, and there "
-                f"{'is' if robots == 1 else 'are'} {counted(robots, 'robot')}: expected one node "
-                "for each"
-            )
+            nodes, team = counted(self.graph[0], "node"), counted(robots, "robot")
+            raise InputError(f"Scenario.neighbours: the graph has {nodes}, the team {team}")
 
 
 def neighbourhood(name: str, value: object) -> object:

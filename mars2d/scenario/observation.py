@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from math import inf, isfinite
 from typing import Any, NamedTuple, Self
 
@@ -20,6 +20,14 @@ Row = NDArray[np.float32]
 
 SENSED = "sense."
 """The beginning of the names of parts that are readings of sensors."""
+
+SEEN: dict[str, Callable[[Any], Any]] = {
+    "pose": lambda view: view.pose,
+    "positions": lambda view: [other.position for other in view.neighbours],
+    "poses": lambda view: [other.pose for other in view.neighbours],
+    "props": lambda view: view.world.prop_pose,
+}
+"""What a law would ask its robot for that sees the other parts, by their names."""
 
 
 class Part(NamedTuple):
@@ -103,10 +111,10 @@ class Observation:
         Raises InputError where a part is of another size. It does not ask whether the robot's law
         may see all parts: `check` does.
         """
-        look = _Look(view) if self._posed else None
+        look = _look(view) if self._posed else None
         row: list[float] = []
         for name, low, _ in self.parts:
-            values = _sensed(view, name) if name.startswith(SENSED) else READERS[name](look)
+            values = look(name) if look and name in SEEN else _sensed(view, name)
             if len(values) != len(low):
                 raise InputError(
                     f"{name} of {view.name} has {len(values)} numbers, expected {len(low)}"
@@ -121,27 +129,18 @@ class Observation:
 
     def check(self, view: Any) -> None:
         """Raise InputError or LawError for a robot that can't be observed so, or may not see it."""
-        seen: dict[str, Callable[[], Any]] = {
-            "pose": lambda: view.pose,
-            "positions": lambda: [other.position for other in view.neighbours],
-            "poses": lambda: [other.pose for other in view.neighbours],
-            "props": lambda: view.world.prop_pose,
-        }
         for part in self.parts:
-            if part.name in seen:
-                seen[part.name]()
+            if part.name in SEEN:
+                SEEN[part.name](view)
         self(view)
 
     def to_json(self) -> list[dict[str, Any]]:
         """Return the parts as JSON, with None for a bound that is infinite."""
-        return [
-            {
-                "name": part.name,
-                "low": list(map(_finite, part.low)),
-                "high": list(map(_finite, part.high)),
-            }
-            for part in self.parts
-        ]
+
+        def finite(bounds: Sequence[float]) -> list[float | None]:
+            return [x if isfinite(x) else None for x in bounds]
+
+        return [{"name": p.name, "low": finite(p.low), "high": finite(p.high)} for p in self.parts]
 
     @classmethod
     def of_json(cls, given: Any) -> Self:
@@ -149,16 +148,14 @@ class Observation:
         parts = []
         try:
             for each in given:
-                low = tuple(-inf if x is None else float(x) for x in each["low"])
-                high = tuple(inf if x is None else float(x) for x in each["high"])
+                bounds = zip(each["low"], each["high"], strict=True)
+                low, high = zip(*((_or(a, -inf), _or(b, inf)) for a, b in bounds), strict=True)
                 parts.append(Part(str(each["name"]), low, high))
         except (TypeError, KeyError, ValueError) as error:
             raise InputError(f"its observation is {shown(json.dumps(given))}") from error
-        for name, low, high in parts:
-            if len(low) != len(high):
-                raise InputError(f"its observation is {shown(json.dumps(given))}")
-            if name not in READERS and not name.startswith(SENSED):
-                raise InputError(f"its observation has a part {name!r}{nearest(name, READERS)}")
+        for name in (part.name for part in parts):
+            if name not in SEEN and not name.startswith(SENSED):
+                raise InputError(f"its observation has a part {name!r}{nearest(name, SEEN)}")
         return cls(parts)
 
 
@@ -188,8 +185,8 @@ class Action(NamedTuple):
         )
 
 
-def _finite(number: float) -> float | None:
-    return number if isfinite(number) else None
+def _or(number: float | None, infinite: float) -> float:
+    return infinite if number is None else float(number)
 
 
 def _numbers_of(reading: Any, name: str) -> Float:
@@ -205,45 +202,32 @@ def _numbers_of(reading: Any, name: str) -> Float:
     return values.ravel().astype(float)
 
 
-class _Look:
-    """What the parts of one observation share: all poses, and the axes of the robot's commands."""
+def _look(view: Any) -> Callable[[str], list[float]]:
+    """Return a function that reads the parts of one observation, besides sensors, by name."""
+    world, me = view._world, view._index
+    places = world.pose.T.tolist()
+    x, y, heading = places[me]
+    turn = 0.0 if world.scenario.robots[me].drive.frame == "world" else heading
+    c, s = cosine_sine(turn)
 
-    def __init__(self, view: Any) -> None:
-        self.world, self.me = world, me = view._world, view._index
-        self.xs, self.ys, self.thetas = xs, ys, thetas = world.pose.tolist()
-        self.x, self.y, heading = xs[me], ys[me], thetas[me]
-        self.ahead = cosine_sine(heading)
-        self.turn = 0.0 if world.scenario.robots[me].drive.frame == "world" else heading
-        self.c, self.s = self.ahead if self.turn else (1.0, 0.0)
+    def seen(place: list[float], count: int = 4) -> list[float]:
+        """Return a position in the frame of the commands [m], and perhaps cos and sin."""
+        dx, dy = place[0] - x, place[1] - y
+        return [c * dx + s * dy, c * dy - s * dx, *cosine_sine(place[2] - turn)][:count]
 
-    def place(self, x: float, y: float) -> tuple[float, float]:
-        """Return a point in the frame of the commands, m."""
-        dx, dy = x - self.x, y - self.y
-        return self.c * dx + self.s * dy, self.c * dy - self.s * dx
-
-    def pose(self) -> list[float]:
-        """Return the robot's own pose."""
-        return [self.x, self.y, *self.ahead]
-
-    def positions(self, each: int = 2) -> list[float]:
-        """Return a row with the neighbours' positions, zeros for other robots.
-
-        each: 4 for their headings as well.
-        """
-        row = [0.0] * (each * (len(self.xs) - 1))
-        for j in self.world.neighbour_indices(self.me):
-            at = each * (j - (j > self.me))
-            row[at], row[at + 1] = self.place(self.xs[j], self.ys[j])
-            if each == 4:
-                row[at + 2], row[at + 3] = cosine_sine(self.thetas[j] - self.turn)
+    def look(name: str) -> list[float]:
+        if name == "pose":
+            return [x, y, *cosine_sine(heading)]
+        if name == "props":
+            return [number for place in world.prop_pose.T.tolist() for number in seen(place)]
+        count = 4 if name == "poses" else 2
+        row = [0.0] * (count * (len(places) - 1))  # zeros for those that are no neighbours
+        for j in world.neighbour_indices(me):
+            at = count * (j - (j > me))
+            row[at : at + count] = seen(places[j], count)
         return row
 
-    def props(self) -> list[float]:
-        """Return the positions and headings of props."""
-        row: list[float] = []
-        for x, y, theta in self.world.prop_pose.T.tolist():
-            row += *self.place(x, y), *cosine_sine(theta - self.turn)
-        return row
+    return look
 
 
 def _sensed(view: Any, name: str) -> list[float]:
@@ -252,12 +236,3 @@ def _sensed(view: Any, name: str) -> list[float]:
     if isinstance(reading, (bool, int, float)):
         return [float(reading)]
     return _numbers_of(reading, f"{view.name}: sensor {key!r}").tolist()  # type: ignore[no-any-return]
-
-
-READERS: Mapping[str, Callable[[Any], list[float]]] = {
-    "pose": _Look.pose,
-    "positions": _Look.positions,
-    "poses": lambda look: look.positions(4),
-    "props": _Look.props,
-}
-"""How the parts of an observation are read, besides sensors."""

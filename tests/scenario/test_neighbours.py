@@ -356,10 +356,10 @@ def test_a_rule_of_the_users_own_is_a_class_with_one_method():
         (None, "returned None: expected for each robot a list of its neighbours' indices"),
         ([1, 0], "returned [1, 0]: expected for each robot a list of its neighbours' indices"),
         ([[1]], "returned 1 lists: expected 2, one for each robot"),
-        ([[2], []], "for robot 0 lists 2: expected an index from 0 to 1"),
-        ([["robot1"], []], "for robot 0 lists 'robot1': expected an index from 0 to 1"),
-        ([[], [1]], "for robot 1 lists 1: no robot is its own neighbour"),
-        ([[1, 1], []], "for robot 0 lists [1, 1]: expected each neighbour once"),
+        ([["robot1"], []], "returned [['robot1'], []]: expected for each robot a list of its"),
+        ([[2], []], "for robot 0 lists [2]: expected other robots, each once"),
+        ([[], [1]], "for robot 1 lists [1]: expected other robots, each once"),
+        ([[1, 1], []], "for robot 0 lists [1, 1]: expected other robots, each once"),
     ],
 )
 def test_a_rule_that_returns_nonsense_is_an_error_that_points_at_it(found, message):
@@ -370,7 +370,8 @@ def test_a_rule_that_returns_nonsense_is_an_error_that_points_at_it(found, messa
     with pytest.raises(LawError) as raised:
         listed(Odd(), n=2)
     line = inspect.unwrap(Odd.of).__code__.co_firstlineno
-    assert untimed(raised.value) == f"test_neighbours.py, line {line}: Odd.of(position) {message}"
+    said = f"test_neighbours.py, line {line}: Odd.of(position) {message}"
+    assert untimed(raised.value).startswith(said)
 
 
 def test_a_rule_can_not_move_robots():
@@ -392,7 +393,10 @@ def test_a_rule_can_not_move_robots():
         ),
         (lambda: Scenario(neighbours=Within), "= Within: expected an object; write Within("),
         (lambda: Scenario(neighbours=np.eye(2)), "expected a rule; write Graph(...) of a graph"),
-        (lambda: Scenario(robots=3, neighbours=Graph([[0, 1], [1, 0]])), "has 2 nodes, and there"),
+        (
+            lambda: Scenario(robots=3, neighbours=Graph([[0, 1], [1, 0]])),
+            "has 2 nodes, the team 3",
+        ),
         (lambda: Within(0), "Within.range = 0: expected a number > 0"),
         (lambda: Nearest(0), "Nearest.count = 0: expected a whole number from 1"),
         (Nearest, "Nearest.count is missing"),
