@@ -202,10 +202,11 @@ def open_experiment(
     given, seed = dict(options or {}), None if seed is None else check_seed(seed)
     rest, of_laws = _split(given)
     with files_read() as files:
-        plain, chart = _opened(source, rest, control, seed)
+        plain = _opened(source, rest, control, seed)
         try:
-            scenario = chart.override(plain.scenario, rest) if chart else plain.scenario
-            scenario = scenario if chart else override(scenario, rest)
+            chart = MapOption.popped(rest, _file_of(source) or plain.source.path or Path())
+            change = chart.override if chart else override
+            scenario = change(plain.scenario, rest)
             scenario = scenario if seed is None else scenario.started(seed)
             experiment = replace(plain, scenario=scenario)
             if of_laws:
@@ -233,35 +234,37 @@ def _split(options: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     return {name: value for name, value in options.items() if name not in of_laws}, of_laws
 
 
+def _file_of(source: object) -> Path | None:
+    """Return the file of a module; None for another one, or anything else."""
+    name = getattr(source, "__file__", None) if isinstance(source, ModuleType) else None
+    return None if name is None else Path(name)
+
+
 def _opened(
     source: str | Path | ModuleType | Scenario,
     options: dict[str, Any],
     control: Callable[[Any], Any] | None,
     seed: int | None,
-) -> tuple[Experiment, MapOption | None]:
-    """Return an experiment without fields set, and the map that is to be.
-
-    Those of the options that its scenario function takes, and a map's, are taken out.
-    """
+) -> Experiment:
+    """Return an experiment without fields set; what its scenario function takes is taken out."""
     if isinstance(source, Scenario):
-        return Experiment(source, control), MapOption.popped(options, Path())
+        return Experiment(source, control)
+    if not isinstance(source, (str, Path, ModuleType)):
+        expected = "a file, the name of an example, or a Scenario"
+        raise InputError(f"experiment = {shown(source)}: expected {expected}")
+    path = None
     if isinstance(source, ModuleType):
-        module, name = source, getattr(source, "__file__", None) or source.__name__
-    elif isinstance(source, (str, Path)):
+        module = source
+    else:
         path = _find(source)
         if path.suffix.lower() == ".toml":
             note_file(path)
             drawn, law = toml_file.read(path)
-            found = Experiment(drawn, control or law, Source(path.name, path.absolute()))
-            return found, MapOption.popped(options, path)
-        module, name = module_in(path), str(path)
-    else:
-        raise InputError(
-            f"experiment = {shown(source)}: expected a file, the name of an example, or a Scenario"
-        )
+            return Experiment(drawn, control or law, Source(path.name, path.absolute()))
+        module = module_in(path)
+    file = _file_of(module) or Path(module.__name__)
     try:
-        chart = MapOption.popped(options, Path(name))
-        scenario, function, chart = _scenario_of(module, options, chart, seed)
+        scenario, function = _scenario_of(module, options, seed)
         own, check = getattr(module, "control", None), getattr(module, "checks", None)
         if own is not None:
             checks.function("control", own, "the world")
@@ -269,22 +272,16 @@ def _opened(
             checks.function("checks", check, "the record")
         scopes = _scopes_of(module)
     except Mars2dError as error:
-        error.where = error.where or Path(name).name
+        error.where = error.where or file.name
         raise
-    said = Source(
-        Path(name).name,
-        Path(name).absolute() if isinstance(source, (str, Path)) else None,
-        (module.__doc__ or "").strip().partition("\n")[0],
-        check,
-        function,
-        {
-            key: value
-            for key, value in vars(module).items()
-            if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
-        },
-        scopes,
-    )
-    return Experiment(scenario, own if control is None else control, said), chart
+    functions = {
+        name: value for name, value in vars(module).items()
+        if inspect.isfunction(value) and value.__module__ == module.__name__ and name[0] != "_"
+    }  # fmt: skip
+    summary = (module.__doc__ or "").strip().partition("\n")[0]
+    path = None if path is None else path.absolute()
+    said = Source(file.name, path, summary, check, function, functions, scopes)
+    return Experiment(scenario, own if control is None else control, said)
 
 
 def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
@@ -354,11 +351,11 @@ def _find(source: str | Path) -> Path:
 
 
 def _scenario_of(
-    module: ModuleType, options: dict[str, Any], chart: MapOption | None, seed: int | None
-) -> tuple[Scenario, Callable[..., Any] | None, MapOption | None]:
-    """Return a module's scenario, its scenario function if it has one, and the map that is to be.
+    module: ModuleType, options: dict[str, Any], seed: int | None
+) -> tuple[Scenario, Callable[..., Any] | None]:
+    """Return a module's scenario, and its scenario function if it has one.
 
-    Options that the function takes are taken out, and so is the map.
+    Options that the function takes are taken out.
     """
     if not hasattr(module, "scenario"):
         meant = likely("scenario", {*vars(module)} - {"Scenario"})
@@ -368,14 +365,13 @@ def _scenario_of(
     scenario, function = module.scenario, None
     if callable(scenario) and not isinstance(scenario, (type, Scenario)):
         function, takes = scenario, inspect.signature(scenario).parameters
-        if chart is not None and "map" in takes:
+        if "map" in takes and (chart := MapOption.popped(options, _file_of(module) or Path())):
             options["map"] = chart.value_for(takes["map"].default)
-            chart = None
         if seed is not None and "seed" in takes:
             options.setdefault("seed", seed)
         scenario = _call_scenario(function, options)
     checks.instance(Scenario, "Scenario(robots=[...]), or a function of one")("scenario", scenario)
-    return scenario, function, chart
+    return scenario, function
 
 
 def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any:
@@ -384,7 +380,7 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
     chosen = {name: options.pop(name) for name in list(options) if name in takes}
     known_fields = [f.name for f in fields(Scenario)]
     for name in options:
-        if name.partition(".")[0] not in known_fields:
+        if name.partition(".")[0] not in [*known_fields, "map"]:
             known = [*takes, *known_fields, *(f"map.{option}" for option in reading_options())]
             raise InputError(f"there is no option {name!r}{nearest(name, known)}")
     for name, p in takes.items():
