@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -28,8 +28,7 @@ from mars2d.scenario.starts import footprint
 if TYPE_CHECKING:
     import shapely
 
-Float = NDArray[np.float64]
-Points = tuple[Float, Float]
+    from mars2d.scenario.scenario import Scenario
 
 BATCH = 64
 """How many places are tried at once."""
@@ -82,118 +81,93 @@ class RandomStarts(Description):
     )  # fmt: skip
 
 
-class Lottery:
-    """Places bodies at random in the room that walls, obstacles and other bodies leave.
+def poses_of(scenario: Scenario, seed: int) -> dict[str, Triple]:
+    """Return the poses that the bodies of `random_starts` start with, by name.
 
-    field: the scenario's, for errors. starts: where which bodies start. bodies: all, the first of
-    which are the `robots` robots. joined: the names of bodies that a joint ties. Raises InputError
-    for a name that is not known, occurs twice, or is tied.
+    A body that is no disc is kept as far away as the circle round its pose that holds it. Raises
+    InputError for a name that is not known, occurs twice, or is tied by a joint, and where no place
+    is found.
     """
+    import shapely
 
-    def __init__(
-        self, field: str, starts: Sequence[RandomStarts], bodies: Sequence[Rigid], robots: int,
-        joined: Collection[str], workspace: Outline | None, on_exit: str,
-        obstacles: Sequence[Outline],
-    ) -> None:  # fmt: skip
-        known, before = {body.name: body for body in bodies}, dict[str, str]()
-        self._groups: list[tuple[str, RandomStarts, list[Rigid]]] = []
-        for index, each in enumerate(starts):
-            where = f"{field}[{index}]"
-            names = each.bodies or [body.name for body in bodies[:robots]]
-            for name in names:
-                if name not in known:
-                    near = nearest(name, known)
-                    raise InputError(f"{where}: there is no robot or prop {name!r}{near}")
-                if name in before:
-                    raise InputError(f"{where}: {name!r} is in {before[name]} already")
-                if name in joined:
-                    raise InputError(
-                        f"{where}: a joint ties {name!r}; expected bodies without joints"
-                    )
-                before[name] = where
-            if each.area is None and workspace is None:
-                raise InputError(f"{where}: expected an area, since the scenario has no workspace")
-            self._groups.append((where, each, [known[name] for name in names]))
-        standing = [body for body in bodies if body.name not in before]
-        self._workspace, self._walled = workspace, on_exit == "wall"
-        bounded = workspace is not None and on_exit != "ignore"
-        self._edge = np.array(workspace) if bounded else None
-        solid = lines_and_areas(obstacles)
-        solid += [footprint(body) for body in standing if not body.is_disc]
-        self._solid: shapely.STRtree | None = None
-        if solid:
-            import shapely
-
-            self._solid = shapely.STRtree(solid)
-        discs = [body.bound for body in standing if body.is_disc]
-        self._discs = [(*middle, radius) for middle, radius in discs]
-
-    def poses(self, seed: int) -> dict[str, Triple]:
-        """Return the poses that the bodies start with, by name.
-
-        A body that is no disc is kept as far away as the circle round its pose that holds it.
-        Raises InputError where no place is found.
-        """
-        rng = stream(seed, "random starts")
-        for _ in range(ROUNDS):
-            taken, poses = [*self._discs], dict[str, Triple]()
-            for where, starts, bodies in self._groups:
-                stuck = self._place(starts, bodies, taken, poses, rng)
-                if stuck is not None:
-                    why = f"{where}: found no place in {ROUNDS} rounds for {stuck.name!r}, which"
-                    why += f" needs {_reach(stuck):.3g} m round its pose"
-                    break
-            else:
-                return poses
-        raise InputError(f"{why}; expected a larger area, fewer bodies or a smaller least_distance")
-
-    def _place(
-        self, starts: RandomStarts, bodies: list[Rigid], taken: list[tuple[float, float, float]],
-        poses: dict[str, Triple], rng: np.random.Generator,
-    ) -> Rigid | None:  # fmt: skip
-        """Place bodies; return the one that finds no place, or None.
-
-        taken: x, y, radius of what is there already; what is placed is added there and to `poses`.
-        """
-        area = starts.area or self._workspace
-        assert area is not None
-        corners, first = np.array(area), len(taken)
-        xmin, xmax, ymin, ymax = bounds_of(area)
-        for body in bodies:
-            heading = rng.uniform(-pi, pi) if starts.heading is None else starts.heading
+    to_place = _to_place(scenario)
+    placed = {body.name for _, body in to_place}
+    standing = [body for body in scenario.bodies if body.name not in placed]
+    solid = [footprint(body) for body in standing if not body.is_disc]
+    tree = shapely.STRtree([*lines_and_areas(scenario.obstacles), *solid])
+    discs = [(*body.bound[0], body.bound[1], -1.0) for body in standing if body.is_disc]
+    rng = stream(seed, "random starts")
+    for _ in range(ROUNDS):
+        taken, poses = [*discs], dict[str, Triple]()
+        for which, body in to_place:
             reach = _reach(body) + MARGIN
-            others = np.array(taken).reshape(-1, 3)
-            apart = others[:, 2] + reach
-            apart[first:] = np.maximum(apart[first:], starts.least_distance)
-            for _ in range(BATCHES):
-                u, v = rng.random((2, BATCH))
-                x, y = places = xmin + (xmax - xmin) * u, ymin + (ymax - ymin) * v
-                gaps = norms(x[:, None] - others[:, 0], y[:, None] - others[:, 1]) - apart
-                free = inside_polygon(x, y, corners) & (gaps >= 0).all(axis=1)
-                found = np.flatnonzero(free & self._free(places, reach))
-                if len(found):
-                    break
-            else:
-                return body
-            place = float(x[found[0]]), float(y[found[0]])
-            taken.append((*place, reach))
-            poses[body.name] = (*place, float(heading))
-        return None
+            pose = _place(scenario, tree, which, reach, np.array(taken).reshape(-1, 4), rng)
+            if pose is None:
+                break
+            taken.append((*pose[:2], reach, which))
+            poses[body.name] = pose
+        else:
+            return poses
+    why = f"found no place in {ROUNDS} rounds for {body.name!r}, which needs {_reach(body):.3g} m"
+    hint = "expected a larger area, fewer bodies or a smaller least_distance"
+    raise InputError(f"Scenario.random_starts[{which}]: {why} round its pose; {hint}")
 
-    def _free(self, places: Points, reach: float) -> NDArray[np.bool_]:
-        """Return at which places (k,) no wall, obstacle or corner is within `reach` metres."""
-        x, y = places
-        free = np.ones(x.shape, bool)
-        if self._edge is not None:
-            free &= ~outside_polygon(x, y, self._edge)
-            if self._walled:
-                free &= distance_to_ring(x, y, self._edge) >= reach
-        if self._solid is not None:
-            import shapely
 
-            hit, _ = self._solid.query(shapely.points(x, y), "dwithin", reach)
-            free[hit] = False
-        return free
+def _to_place(scenario: Scenario) -> list[tuple[int, Rigid]]:
+    """Return the bodies that start at random, each with the index of its entry."""
+    known, before = {body.name: body for body in scenario.bodies}, dict[str, str]()
+    joints = [*scenario.joints, *(joint for prop in scenario.props for joint in prop.joints())]
+    tied = {name for joint in joints for name in (joint.a, joint.b)}
+    found = []
+    for index, each in enumerate(scenario.random_starts):
+        where = f"Scenario.random_starts[{index}]"
+        names = each.bodies or [str(robot.name) for robot in scenario.robots]
+        for name in names:
+            if name not in known:
+                near = nearest(name, known)
+                raise InputError(f"{where}: there is no robot or prop {name!r}{near}")
+            if name in before:
+                raise InputError(f"{where}: {name!r} is in {before[name]} already")
+            if name in tied:
+                raise InputError(f"{where}: a joint ties {name!r}; expected bodies without joints")
+            before[name] = where
+        if each.area is None and scenario.workspace is None:
+            raise InputError(f"{where}: expected an area, since the scenario has no workspace")
+        found += [(index, known[name]) for name in names]
+    return found
+
+
+def _place(
+    scenario: Scenario, solid: shapely.STRtree, which: int, reach: float,
+    taken: NDArray[np.float64], rng: np.random.Generator,
+) -> Triple | None:  # fmt: skip
+    """Return a pose at which no wall, obstacle or disc is within `reach` metres, or None.
+
+    taken: (k, 4), x, y, radius of the discs and the index of their entry, -1 for none.
+    """
+    import shapely
+
+    starts = scenario.random_starts[which]
+    corners = np.array(starts.area or scenario.workspace)
+    edge = None if scenario.on_exit == "ignore" else scenario.workspace
+    xmin, xmax, ymin, ymax = bounds_of(corners)
+    heading = rng.uniform(-pi, pi) if starts.heading is None else starts.heading
+    apart = taken[:, 2] + reach
+    apart[taken[:, 3] == which] = apart[taken[:, 3] == which].clip(starts.least_distance)
+    for _ in range(BATCHES):
+        u, v = rng.random((2, BATCH))
+        x, y = xmin + (xmax - xmin) * u, ymin + (ymax - ymin) * v
+        gaps = norms(x[:, None] - taken[:, 0], y[:, None] - taken[:, 1]) - apart
+        free = inside_polygon(x, y, corners) & (gaps >= 0).all(axis=1)
+        if edge is not None:
+            free &= ~outside_polygon(x, y, np.array(edge))
+            if scenario.on_exit == "wall":
+                free &= distance_to_ring(x, y, np.array(edge)) >= reach
+        free[solid.query(shapely.points(x, y), "dwithin", reach)[0]] = False
+        if free.any():
+            k = int(np.argmax(free))
+            return float(x[k]), float(y[k]), float(heading)
+    return None
 
 
 def _reach(body: Rigid) -> float:

@@ -28,7 +28,7 @@ from mars2d.scenario import limits, starts
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
-from mars2d.scenario.random_starts import Lottery, RandomStarts
+from mars2d.scenario.random_starts import RandomStarts, poses_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.team_colors import team_colors
 
@@ -184,7 +184,7 @@ class Scenario(Description):
         self.neighbours.check_size(len(self.robots))
         self._check_bodies()
         if self.random_starts:
-            self._start_at_random(self._lottery, 0)  # it always has poses
+            self._start_at_random(0)  # it always has poses
         self._check_joints()
         self._check_starts()
 
@@ -246,7 +246,7 @@ class Scenario(Description):
         if not self.random_starts:
             return self
         found = copy.copy(self)  # whatever was checked holds for these starts as well
-        found._start_at_random(self._lottery, seed)
+        found._start_at_random(seed)
         object.__setattr__(found, "random_starts", ())
         return found
 
@@ -258,19 +258,9 @@ class Scenario(Description):
         object.__setattr__(found, "robots", tuple(robots))
         return found
 
-    @cached_property
-    def _lottery(self) -> Lottery:
-        """Draws the poses of the bodies of `random_starts`."""
-        of_props = [joint for prop in self.props for joint in prop.joints()]
-        ends = {str(name) for joint in (*self.joints, *of_props) for name in (joint.a, joint.b)}
-        return Lottery(
-            "Scenario.random_starts", self.random_starts, self.bodies, len(self.robots), ends,
-            self.workspace, self.on_exit, self.obstacles,
-        )  # fmt: skip
-
-    def _start_at_random(self, lottery: Lottery, seed: int) -> None:
+    def _start_at_random(self, seed: int) -> None:
         """Give the bodies of `random_starts` the poses that follow from the seed."""
-        poses = lottery.poses(seed)
+        poses = poses_of(self, seed)
         for field in ("robots", "props"):
             parts = [
                 part.replace(pose=poses[part.name]) if part.name in poses else part
