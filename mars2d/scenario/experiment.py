@@ -22,7 +22,7 @@ from mars2d.core.usercode import called, quiet
 from mars2d.scenario import parameters, toml_file
 from mars2d.scenario.code_file import law_in, line_in, module_in
 from mars2d.scenario.examples import examples
-from mars2d.scenario.options import MapOption, override, reading_options
+from mars2d.scenario.options import map_in, override, popped_map, reading_options, with_map
 from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.scenario.policy import SUFFIX
 from mars2d.scenario.prediction import Prediction
@@ -204,9 +204,12 @@ def open_experiment(
     with files_read() as files:
         plain = _opened(source, rest, control, seed)
         try:
-            chart = MapOption.popped(rest, _file_of(source) or plain.source.path or Path())
-            change = chart.override if chart else override
-            scenario = change(plain.scenario, rest)
+            file = _file_of(source) or plain.source.path or Path()
+            chart = popped_map(rest, file)
+            if chart is None:
+                scenario = override(plain.scenario, rest)
+            else:
+                scenario = with_map(plain.scenario, map_in(chart, file), rest)
             scenario = scenario if seed is None else scenario.started(seed)
             experiment = replace(plain, scenario=scenario)
             if of_laws:
@@ -365,8 +368,9 @@ def _scenario_of(
     scenario, function = module.scenario, None
     if callable(scenario) and not isinstance(scenario, (type, Scenario)):
         function, takes = scenario, inspect.signature(scenario).parameters
-        if "map" in takes and (chart := MapOption.popped(options, _file_of(module) or Path())):
-            options["map"] = chart.value_for(takes["map"].default)
+        if "map" in takes and any(str(name).partition(".")[0] == "map" for name in options):
+            default = takes["map"].default
+            options["map"] = popped_map(options, _file_of(module) or Path(), default)
         if seed is not None and "seed" in takes:
             options.setdefault("seed", seed)
         scenario = _call_scenario(function, options)

@@ -6,7 +6,8 @@ import ast
 import inspect
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from types import MappingProxyType
+from typing import Any
 
 from mars2d.addons.map import Map
 from mars2d.core import checks
@@ -119,71 +120,61 @@ def reading_options() -> list[str]:
     return [name for name in inspect.signature(Map.from_file).parameters if name != "path"]
 
 
-class MapOption(NamedTuple):
-    """The option ``map``, with options for reading it such as ``map.unit``.
+def popped_map(options: dict[str, Any], caller: Path, default: Any = None) -> Any:
+    """Take the option ``map`` out of others, with those for reading it, such as ``map.unit``.
 
-    file: a file's name or a Map, None if it was not given. reading: the options for reading it.
+    Returns its value, or the default; the Map itself if there are options for reading it. caller:
+    see `map_in`.
+    """
+    known = [f"map.{name}" for name in reading_options()]
+    reading = {}
+    for name in [name for name in options if str(name).startswith("map.")]:
+        if name not in known:
+            raise InputError(f"there is no option {name!r}{nearest(name, known)}")
+        reading[name.partition(".")[2]] = options.pop(name)
+    file = options.pop("map", default)
+    return map_in(file, caller, reading) if reading else file
+
+
+def map_in(file: Any, caller: Path, reading: Mapping[str, Any] = MappingProxyType({})) -> Map:
+    """Return the map in a file, or a Map itself. Raises InputError if it can't be read.
+
     caller: a relative path is looked for beside this file, then in the current folder.
     """
+    if isinstance(file, Map) and not reading:
+        return file
+    if file is None or isinstance(file, Map):
+        raise InputError(f"map.{next(iter(reading))} needs map=FILE as well")
+    if not isinstance(file, (str, Path)):
+        raise wrong("map", file, "the name of a map's file, such as 'plan.dxf', or a Map")
+    from mars2d.addons.maps import SUFFIXES
 
-    file: Any
-    reading: dict[str, Any]
-    caller: Path
+    return Map.from_file(file_beside(Path(file), caller, "a map", SUFFIXES).absolute(), **reading)
 
-    @classmethod
-    def popped(cls, options: dict[str, Any], caller: Path) -> MapOption | None:
-        """Take the option out of others; None if it is not among them."""
-        names = [name for name in options if str(name).partition(".")[0] == "map"]
-        given = {name: options.pop(name) for name in names}
-        file, known = given.pop("map", None), [f"map.{name}" for name in reading_options()]
-        for name in given:
-            if name not in known:
-                raise InputError(f"there is no option {name!r}{nearest(name, known)}")
-        reading = {name.partition(".")[2]: value for name, value in given.items()}
-        return cls(file, reading, caller) if names else None
 
-    def value_for(self, default: Any) -> Any:
-        """Return the value of a scenario function's parameter `map`, instead of its default."""
-        found = self._replace(file=default if self.file is None else self.file)
-        return found.map() if self.reading else found.file
+def with_map(scenario: Scenario, chart: Map, options: Mapping[str, Any]) -> Scenario:
+    """Return the scenario with a map instead of its own, and other options set.
 
-    def map(self) -> Map:
-        """Return the map. Raises InputError if it can't be read."""
-        if isinstance(self.file, Map) and not self.reading:
-            return self.file
-        if self.file is None or isinstance(self.file, Map):
-            raise InputError(f"map.{next(iter(self.reading))} needs map=FILE as well")
-        if not isinstance(self.file, (str, Path)):
-            raise wrong("map", self.file, "the name of a map's file, such as 'plan.dxf', or a Map")
-        from mars2d.addons.maps import SUFFIXES
-
-        file = file_beside(Path(self.file), self.caller, "a map", SUFFIXES)
-        return Map.from_file(file.absolute(), **self.reading)
-
-    def override(self, scenario: Scenario, options: Mapping[str, Any]) -> Scenario:
-        """Return the scenario with the map instead of its own, and other options set.
-
-        A workspace that is the default one, or smaller than the map, becomes the rectangle around
-        the map. Raises InputError, which names free room, if a body would stand in a wall.
-        """
-        chart, rest = self.map(), dict(options)
-        for name in reading_options():
-            if name in rest:  # as mars2d check has it
-                raise InputError(f"there is no option {name!r}; did you mean 'map.{name}'?")
-        workspace = _workspace_for(scenario, chart)
-        if "workspace" in rest:
-            workspace = checks.optional(checks.outline, 3)(
-                "Scenario.workspace", rest.pop("workspace")
-            )
-        own = next((addon for addon in scenario.addons if isinstance(addon, Map)), None)
-        if own is not None:  # keep its name and surface
-            chart = own.replace(outlines=chart.outlines, walls=chart.walls)
-        others = [addon for addon in scenario.addons if not isinstance(addon, Map)]
-        bare = override(scenario.replace(addons=others, workspace=None), rest)
-        try:
-            return bare.replace(addons=[*bare.addons, chart], workspace=workspace)
-        except InputError as error:
-            raise InputError(f"{error}{_room(bare, chart, workspace)}") from error
+    A workspace that is the default one, or smaller than the map, becomes the rectangle around the
+    map. Raises InputError, which names free room, if a body would stand in a wall.
+    """
+    rest = dict(options)
+    for name in reading_options():
+        if name in rest:  # as mars2d check has it
+            raise InputError(f"there is no option {name!r}; did you mean 'map.{name}'?")
+    workspace = _workspace_for(scenario, chart)
+    if "workspace" in rest:
+        given = rest.pop("workspace")
+        workspace = checks.optional(checks.outline, 3)("Scenario.workspace", given)
+    own = next((addon for addon in scenario.addons if isinstance(addon, Map)), None)
+    if own is not None:  # keep its name and surface
+        chart = own.replace(outlines=chart.outlines, walls=chart.walls)
+    others = [addon for addon in scenario.addons if not isinstance(addon, Map)]
+    bare = override(scenario.replace(addons=others, workspace=None), rest)
+    try:
+        return bare.replace(addons=[*bare.addons, chart], workspace=workspace)
+    except InputError as error:
+        raise InputError(f"{error}{_room(bare, chart, workspace)}") from error
 
 
 def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:

@@ -100,18 +100,14 @@ class Parameter:
     @property
     def step(self) -> float:
         """The step of a slider: a power of ten, at most a hundredth of the way from low to high."""
-        return 1.0 if self.whole else 10.0**self._exponent
-
-    @property
-    def _exponent(self) -> int:
-        return floor(log10((self.high - self.low) / STEPS))
+        return 1.0 if self.whole else 10.0 ** floor(log10((self.high - self.low) / STEPS))
 
     def nearest(self, value: float) -> float:
         """Return the value nearest to a number that a slider can have, between low and high."""
         value = min(max(value, self.low), self.high)
         if self.whole:
             return round(value)
-        stepped = round(value, -self._exponent)
+        stepped = round(value, -round(log10(self.step)))
         return stepped if self.low <= stepped <= self.high else value
 
     @classmethod

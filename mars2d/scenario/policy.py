@@ -55,8 +55,6 @@ class Policy:
             self._session = onnxruntime.InferenceSession(
                 file.read_bytes(), options, providers=["CPUExecutionProvider"]
             )
-        except OSError as error:
-            raise InputError(f"{file}: {one_line(error.strerror or error)}") from error
         except Exception as error:  # of many kinds, of the library's own
             raise InputError(f"{file}: no network in the format ONNX: {one_line(error)}") from error
         self._take(self._session.get_modelmeta().custom_metadata_map)
@@ -77,14 +75,14 @@ class Policy:
             self._refuse(str(error))
         except (ValueError, TypeError, KeyError):
             self._refuse(f"has metadata {KEY!r} that can't be read{hint}")
-        (taken, *more), made = self._session.get_inputs(), self._session.get_outputs()[0]
+        taken, made = self._session.get_inputs(), self._session.get_outputs()[0]
         size = len(self.observation.low)
-        if more or taken.type != "tensor(float)" or taken.shape[-1] != size:
-            found = ", ".join(f"{each.type} {each.shape}" for each in (taken, *more))
+        if [(each.type, each.shape[-1]) for each in taken] != [("tensor(float)", size)]:
+            found = ", ".join(f"{each.type} {each.shape}" for each in taken)
             self._refuse(f"takes {found}; its metadata say one tensor(float) [1, {size}]")
         if made.shape[-1] != 2:
             self._refuse(f"returns {made.shape}, expected an action [1, 2]")
-        self._input = taken.name
+        self._input = taken[0].name
 
     def _refuse(self, why: str) -> NoReturn:
         raise InputError(f"{self.file}: {why}")
@@ -109,14 +107,12 @@ class Policy:
         """Raise LawError unless a robot has the drive and the parts that it was learned with."""
         drive = type(robot.drive).__name__
         if drive != self.drive:
-            raise LawError(
-                f"{self.file.name} commands a {self.drive}, and {robot.name} is a {drive}"
-            )
+            problem = f"commands a {self.drive}, and {robot.name} is a {drive}"
+            raise LawError(f"{self.file.name} {problem}")
         try:
             self.observation.check(robot)
         except (Mars2dError, IndexError, ValueError) as error:
             names = ", ".join(part.name for part in self.observation.parts)
-            raise LawError(
-                f"{self.file.name} does not fit: it observes {names}; {one_line(error)}"
-            ) from error
+            problem = f"does not fit: it observes {names}; {one_line(error)}"
+            raise LawError(f"{self.file.name} {problem}") from error
         robot.memory._fits = self

@@ -87,11 +87,6 @@ def family_of(kind: type[Description]) -> str | None:
     return next((f for f, package in packages if kind.__module__.startswith(package)), None)
 
 
-def package_of(family: str, kind: type[Description]) -> str | None:
-    """Return the package that ships a class by an entry point, or None."""
-    return next((p.package for p in plugins(family) if p.kind is kind), None)
-
-
 def _load(family: str, entry: EntryPoint) -> Plugin:
     package, version = _package(entry), entry.dist.version if entry.dist else ""
     try:

@@ -64,10 +64,8 @@ def robots_named(
     """
     people = () if named is None else (named,) if isinstance(named, (str, int)) else tuple(named)
     if len(people) > MOST_PEOPLE:
-        raise InputError(
-            f"{field} {', '.join(map(str, people))}: two people at most, one by the arrow keys, "
-            "the other by W, A, S and D"
-        )
+        keys = "one by the arrow keys, the other by W, A, S and D"
+        raise InputError(f"{field} {', '.join(map(str, people))}: two people at most, {keys}")
     taken: list[int] = []
     for who in people:
         team = _named(scenario, who, field)

@@ -23,7 +23,7 @@ from mars2d.scenario.controllers import Controller
 from mars2d.scenario.material_pair import MaterialPair
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.scenario.random_starts import RandomStarts
-from mars2d.scenario.registry import FAMILIES, family_of, members, package_of, plugin
+from mars2d.scenario.registry import FAMILIES, family_of, members, plugin, plugins
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
@@ -122,10 +122,9 @@ def from_description(value: Any) -> Any:
             if isinstance(value, base):
                 return {"type": base.__name__, **_fields(value, base)}
         own, family = next((n, f) for n, (base, f) in _OWN.items() if isinstance(value, base))
-        package = package_of(family, kind) if family else None
-        shipped = {} if package is None else {"from": package}
-        head = {"type": kind.__name__, "own": own, **shipped}
-        return head | _fields(value) | _moving(value)
+        shippers = [p.package for p in plugins(family) if p.kind is kind] if family else []
+        shipped = {"from": shippers[0]} if shippers else {}
+        return {"type": kind.__name__, "own": own, **shipped, **_fields(value), **_moving(value)}
     if isinstance(value, (list, tuple)):
         return [from_description(item) for item in value]
     if isinstance(value, Coefficient):
@@ -192,12 +191,10 @@ def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
 
     Laws do not come back, except the ready-made ones, nor do parts that hold a function of the
     user's own. Of parts of the user's own, sensors and joints are left out, and add-ons keep their
-    obstacles only. A prop is
-    replaced by a Solid of its shape, mass and surface, a shape by the parts that were drawn of it,
-    a drive by a Unicycle, a neighbourhood by Everyone. All are named in the second value, such as
-    ``sensor Eyes``. A part that a package ships by an entry point comes back if that package is
-    installed, else it is named with it, such as ``sensor Lidar (of the package acme)``. Raises
-    InputError for anything but a scenario.
+    obstacles only. A prop is replaced by a Solid of its shape, mass and surface, a shape by the
+    parts that were drawn of it, a drive by a Unicycle, a neighbourhood by Everyone. All are named
+    in the second value, such as ``sensor Eyes``, those of a package that is not installed as
+    ``sensor Lidar (of the package acme)``. Raises InputError for anything but a scenario.
     """
     missing: list[str] = []
     result = _to_description(data, missing)
@@ -232,10 +229,8 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         return value
     if _is_function(value):
         return value["function"]
-    if "from" in value:
-        shipped = _shipped(value, missing)
-        if shipped is not None:
-            return shipped
+    if "from" in value and (shipped := _shipped(value, missing)) is not None:
+        return shipped
     unread = ("type", "own", "from", "controller")
     read = {name: each for name, each in value.items() if name not in unread}
     lost = next((each["function"] for each in read.values() if _is_function(each)), "")
