@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.deadline import Deadline
-from mars2d.core.errors import shown
 from mars2d.core.plane import rectangle
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
@@ -54,7 +51,7 @@ def check_addon(
             lambda: _placed(addon, sensors, scenario, control),
             deadline,
             small=scenario is None,
-            looker=looker(on_sensed=looks.look),
+            looker=looker("on_sensed", looks.look),
             own=(f"add-on {addon.key}.",),
             besides=addon.key,
         )
@@ -95,15 +92,6 @@ class _Looks:
         with called(f"{name}.beacons", live.beacons):
             for beacon, point in live.beacons().items():
                 checks.point(f"{name}.beacons()[{beacon!r}]", point)
-        for x, y in world.position.T.tolist():
-            color = live.ground((x, y))
-            if color is not None and (
-                np.shape(color) != (3,) or not all(0 <= value <= 1 for value in color)
-            ):
-                self._subject.wrong(
-                    f"{name}.ground((x, y)) returned {shown(color)}: expected red, green "
-                    "and blue from 0 to 1, such as (1.0, 0.5, 0.0), or None"
-                )
         if "on_draw" in self._own:
             scene = Scene()
             with self._subject.looking(live, "on_draw", world, key):

@@ -54,7 +54,7 @@ def check_sensor(
             lambda: _placed(sensor, scenario, control),
             deadline,
             small=scenario is None,
-            looker=looker(on_step=looks.read, on_sensed=looks.draw),
+            looker=looker("on_step", looks.look),
             own=(f"sensor {sensor.key} ",),
         )
     return subject.hints()
@@ -85,23 +85,19 @@ class _Looks:
         devices = world.simulation.sensing.devices
         return [each for each in devices if type(each.described) is self._kind]
 
-    def read(self, world: World) -> None:
-        """Call `read` once more, just before the world does, and look at what it returns."""
+    def look(self, world: World) -> None:
+        """Call `read` just before the world does, and draw as figures do, by the frozen sensor."""
         with self._subject.looking(self._sensor, "read", world):
             for device in self._devices(world):
                 rng = copy.deepcopy(device.rng)
                 self._check_reading(device.sensor.read(device.view, device.world, rng))
-
-    def draw(self, world: World) -> None:
-        """Draw as window and figures do, by the frozen sensor of the scenario."""
-        if self._kind.draw is Sensor.draw:
-            return
         scene = Scene()
         with self._subject.looking(self._sensor, "draw", world):
             for each in self._devices(world):
                 if each.reading is not None:
                     color = world.scenario.colors[each.robot]
-                    self._sensor.draw(scene, world.pose[:, each.robot], each.reading, color)
+                    pose = world.pose[:, each.robot]
+                    self._sensor.draw(scene, pose, each.reading, color)
         self._subject.check_finite(scene, "draw")
 
     def _check_reading(self, reading: Any) -> None:

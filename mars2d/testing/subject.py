@@ -8,6 +8,7 @@ import json
 import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from mars2d.core.usercode import called, name_of
 from mars2d.scenario import serialize
 from mars2d.sensors.sensing import Sense
 from mars2d.testing.finding import Report
-from mars2d.testing.trial import Placed, Trial, changed, difference, state
+from mars2d.testing.trial import Placed, changed, difference, run, state
 from mars2d.world.world import World
 
 KEEP = "Keep things in attributes of self, set in on_start"
@@ -64,15 +65,15 @@ class Subject(Report):
         responsible. besides: the key of an add-on that may keep what it finds when it is looked at.
         """
         with deadline or Deadline() as limit:
-            trial = Trial(self.name, place, limit)
-            looked = plain = trial.run(looker)
+            again = partial(run, self.name, place, limit)
+            looked = plain = again(looker)
             if looker and looked.error is None:
-                plain = trial.run()
+                plain = again()
             if plain.error is not None:
                 self._blame(plain.error, small)
                 return
-            noisy = difference(plain, trial.run(noise=2))
-            beside = noisy or difference(plain, trial.run(beside=True))
+            noisy = difference(plain, again(noise=2))
+            beside = noisy or difference(plain, again(beside=True))
             found = beside or (difference(plain, looked, besides) if self.sound else None)
             if found is None or not (small or found[1].startswith(own)):
                 return
@@ -83,7 +84,7 @@ class Subject(Report):
                     "more: how often that is depends on rates, laws and windows, so it must not "
                     "matter; do this in on_step"
                 )
-            elif noisy and difference(plain, trial.run()) is None:
+            elif noisy and difference(plain, again()) is None:
                 self.wrong(
                     f"{self.name} draws from random or numpy.random, which all of Python shares: "
                     f"{another}; draw from {self._stream}"
