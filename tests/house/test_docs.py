@@ -197,14 +197,14 @@ class Reader:
 
 SLOW = {
     "README", "addons", "clusters", "commands", "films", "laws", "logs", "own_sensor_and_addon",
-    "paper", "window", "circular_motion", "cyclic_pursuit", "herding", "leader_following",
-    "path_planning", "rendezvous",
+    "paper", "window",
 }  # fmt: skip
 """Documents that take a second and more."""
 
 NIGHTLY = {
     "communication", "contact", "editors", "figures", "information", "sensing", "speed", "studies",
-    "tournaments", "coverage_circle", "coverage_square", "pursuit_corners", "pursuit_voronoi",
+    "tournaments",
+    *({path.stem for path in EXPERIMENTS} - {"formation", "random_walk"}),
     *(path.stem for path in PURSUIT),
 }  # fmt: skip
 """Documents that take many seconds."""
