@@ -50,6 +50,19 @@ def test_what_slides_beside_a_smooth_wall_goes_as_far_as_in_the_open(sampling_ti
         assert gone == pytest.approx(4 / (2 * 0.6 * GRAVITY), rel=1e-6)
 
 
+@each_case("sampling_time", [0.5, 0.1, 0.01])
+def test_a_ball_turns_where_it_touches_also_if_a_control_step_ends_there(sampling_time):
+    for late in (-1e-3, 0.0, 1e-12, 1e-3, 2e-3):
+        ball = Ball(pose=(-2 * sampling_time - late, 0, 0), velocity=(1, 0, 0), restitution=1.0)
+        walls = Map(walls=[[(0.1, -5), (0.1, 5)]])
+        world = world_of(
+            props=[ball], addons=[walls], sampling_time=sampling_time, stop_time=5 * sampling_time
+        )
+        at_rest(world)
+        way = -3 * sampling_time + late
+        assert world.prop_pose[0, 0] == pytest.approx(way, abs=3e-5), late
+
+
 @each_case("sampling_time", [0.5, 0.1, 0.005])
 def test_what_slides_and_spins_at_a_smooth_wall_does_as_in_the_open(sampling_time):
     ends = []

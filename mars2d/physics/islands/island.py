@@ -451,12 +451,16 @@ class Island:
 
         What gathers speed has at the touch what it has gathered by then, and no more. And where no
         drive pushes, a blow along a normal that has turned inside would change angular momentum.
+        Bodies that just touch as the substep begins turn where they are.
         """
         if pair.a.accelerates or (not pair.is_wall and pair.b.accelerates):
             return self.accuracy.touch
-        told: cython.bint = pair.a.is_told() or (not pair.is_wall and pair.b.is_told())
-        if pair.gap > self.accuracy.closed and not told:
+        if pair.a.is_told() or (not pair.is_wall and pair.b.is_told()):
+            return self.accuracy.entry
+        if pair.gap > self.accuracy.closed:
             return self.accuracy.impact_depth
+        if pair.gap > -self.accuracy.closed:
+            return self.accuracy.touch
         return self.accuracy.entry
 
     @cython.cfunc
