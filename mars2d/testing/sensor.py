@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from math import pi
+from math import inf, pi
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,13 @@ from mars2d.testing.finding import Finding
 from mars2d.testing.subject import KEEP, Subject
 from mars2d.testing.trial import ControlLaw, Placed, looker, small_world
 from mars2d.world.world import World
+
+VALID = {
+    "distance": (0.0, inf, "a distance is not negative, and inf to nothing"),
+    "angle": (-pi, pi, "an angle lies in (-pi, pi]; mars2d.core.plane has wrap"),
+    "color": (0.0, 1.0, "a colour lies in 0 to 1"),
+}
+"""The least and the largest value of a quantity of each kind, and what it is."""
 
 
 def check_sensor(
@@ -124,28 +131,17 @@ class _Looks:
 
 
 def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> str:
-    """Return an invalid value of a quantity and what is expected, or "" if all are valid."""
-    of = f"of {quantity.name}" + (f" [{quantity.unit}]" if quantity.unit else "")
-    flags = values.dtype == bool
-    if quantity.kind == "flag":
-        return "" if flags else f"{shown(values.flat[0].item())} {of}: expected True or False"
-    if flags:
-        undeclared = quantity.kind == "number"  # of which nothing was said: it is taken for a flag
-        wanted = "expected numbers, or quantities = (FLAG,)"
-        return "" if undeclared else f"True or False {of}: {wanted}"
-    problems = [(np.isinf(values), "a missing value is nan; only a distance is inf")]
-    if quantity.kind == "distance":
-        problems = [
-            (np.isnan(values), "a distance to nothing is inf"),
-            (values < 0, "a distance is not negative"),
-        ]
-        if isinstance(top, float):
-            beyond = f"beyond the range, {top:g} {quantity.unit}, a distance is inf"
-            problems.append(((values > top) & np.isfinite(values), beyond))
-    elif quantity.kind == "angle":
-        why = "an angle lies in (-pi, pi]; mars2d.core.plane has wrap"
-        problems.append((np.abs(values) > pi, why))
-    elif quantity.kind == "color":
-        problems.append(((values < 0) | (values > 1), "a colour lies in 0 to 1"))
-    found = ((values[bad].flat[0], why) for bad, why in problems if bad.any())
-    return next((f"{value:.6g} {of}: {why}" for value, why in found), "")
+    """Return an invalid value of a quantity and what is expected, or "" if all are valid.
+
+    top: the range of the sensor, metres, if it has one.
+    """
+    kind, of = quantity.kind, f"of {quantity.name}" + f" [{quantity.unit}]" * bool(quantity.unit)
+    if kind != "number" and (values.dtype == bool) != (kind == "flag"):
+        expected = "True or False" if kind == "flag" else "numbers, or quantities = (FLAG,)"
+        return f"{shown(values.flat[0].item())} {of}: expected {expected}"
+    low, high, why = VALID.get(kind, (-inf, inf, "a missing value is nan; only a distance is inf"))
+    if kind == "distance" and isinstance(top, float):
+        high, why = top, f"{why}, or beyond the range, {top:g} {quantity.unit}"
+    missing = np.isinf(values) if kind == "distance" else np.isnan(values)
+    bad = values[~missing & ~(np.isfinite(values) & (values >= low) & (values <= high))]
+    return f"{bad.flat[0]:.6g} {of}: {why}" if bad.size else ""

@@ -6,6 +6,7 @@ import dataclasses
 import inspect
 import json
 import pickle
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -22,14 +23,16 @@ from mars2d.core.scene import Scene
 from mars2d.core.usercode import called, name_of
 from mars2d.scenario import serialize
 from mars2d.sensors.sensing import Sense
-from mars2d.testing.finding import Report
+from mars2d.testing.finding import CheckError, Finding
 from mars2d.testing.trial import Placed, changed, difference, run, state
 from mars2d.world.world import World
+
+_NUMBER = re.compile(r"[-+]?(\d[\d.]*(e[-+]?\d+)?|\binf\b|\bnan\b)")
 
 KEEP = "Keep things in attributes of self, set in on_start"
 
 
-class Subject(Report):
+class Subject:
     """A part or law on trial, and what has been found.
 
     name: of its class, or of the law.
@@ -42,10 +45,31 @@ class Subject(Report):
         things, as a sentence.
         """
         self.name = type(what).__name__ if isinstance(what, Description) else name_of(what)
-        super().__init__(f"{family} {self.name}")
+        self._title = f"{family} {self.name}"
+        self._findings: dict[str, Finding] = {}
         self._stream, self._keep = stream, keep
         key = f"{family} {what.key!r} " if hasattr(what, "key") else f"{self.name} "
         self._labels = key, f"{self.name}."  # of the errors for which it is responsible
+
+    def wrong(self, text: str, *, untried: bool = False) -> None:
+        """Add something wrong; of sentences that differ only in numbers, the first counts."""
+        self._findings.setdefault(_NUMBER.sub("#", text), Finding("wrong", text, untried))
+
+    def hint(self, text: str) -> None:
+        """Add something that could be better."""
+        self._findings.setdefault(_NUMBER.sub("#", text), Finding("hint", text))
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing wrong has been found so far."""
+        return not any(finding.kind == "wrong" for finding in self._findings.values())
+
+    def hints(self) -> tuple[Finding, ...]:
+        """Return the hints; raise CheckError if anything is wrong."""
+        found = sorted(self._findings.values(), key=lambda finding: finding.kind == "hint")
+        if not self.sound:
+            raise CheckError(self._title, found)
+        return tuple(found)
 
     def check_runs(
         self,

@@ -137,7 +137,7 @@ SENSORS = {
         ["test_testing.py, line", "Probe.read raised ZeroDivisionError", "at 1.1 s"],
     ),
     "a distance is nan": (
-        lambda: sensor(value(np.nan), quantities=(DISTANCE,)), ["nan of distance [m]", "is inf"],
+        lambda: sensor(value(np.nan), quantities=(DISTANCE,)), ["nan of distance [m]", "inf to nothing"],
     ),
     "a distance is negative": (
         lambda: sensor(value(-0.1), quantities=(DISTANCE,)), ["-0.1 of distance", "not negative"],
