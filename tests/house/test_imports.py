@@ -24,12 +24,7 @@ LAYERS = [
     {"reports"},
     {"cli"},
 ]
-"""The rooms of the house, low to high: each imports from below only, for types as well."""
-
-LAZY_UPWARDS = {
-    ("scenario", "output"): "the picture of a scenario in a notebook",
-}
-"""The conveniences that import from above, when they are called."""
+"""The rooms of the house, low to high: each imports from below only, for types and late as well."""
 
 HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "svgelements", "yaml"}
 
@@ -94,8 +89,6 @@ def test_a_module_imports_only_from_rooms_below(path: Path) -> None:
         if len(names) == 1:
             assert kind == "lazy" or room == "cli", f"{path} imports mars2d itself: a circle"
             continue
-        if kind == "lazy" and (room, names[1]) in LAZY_UPWARDS:
-            continue
         assert _level(names[1]) < _level(room), f"{path} imports {module}, which is not below it"
 
 
@@ -110,7 +103,7 @@ def test_physics_alone_knows_the_engine_library_and_the_bare_loop_that_it_is_mea
     knows = {path for path in FILES for m, _ in _own_imports(path) if m.startswith("pymunk")}
     assert {path.relative_to(PACKAGE).as_posix() for path in knows} == {
         "physics/rays.py", "physics/space.py", "physics/islands/__init__.py",
-        "physics/islands/chipmunk.py", "physics/islands/layout.py", "reports/bench/yardstick.py",
+        "physics/islands/chipmunk.py", "reports/bench/yardstick.py",
     }  # fmt: skip
 
 

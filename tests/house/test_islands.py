@@ -71,7 +71,7 @@ def test_chipmunk_is_the_same_in_python_and_in_c():
     """What is in C alone is for itself: it hands functions' addresses over, and takes them."""
     assert len(taken()) > 45
     alone = {"connect", "surfaced", "new_joint", "Found", "note_arbiter", "number_of", "Engine"}
-    alone |= {"settle_contact", "mend_contact", "move", "pull", "engine", "vector", "damped"}
+    alone |= {"settle_contact", "correct_contact", "move", "pull", "engine", "vector", "damped"}
     alone |= {"twist_back", "straighten_contact", "Before", "set_handler", "turn_to"}
     alone |= {name for name in offered() if name.startswith("cp")}
     assert set(offered()) - alone <= set(defined(text_of("chipmunk.py")))

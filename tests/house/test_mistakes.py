@@ -77,7 +77,7 @@ FILES = [
     ("a = plt.figure()", "write `import matplotlib.pyplot as plt` at the top"),
     ("mars2d.run(Scenario())", "write `import mars2d` at the top"),
     ("scenarios = Scenario()", "needs `scenario = Scenario(...)`"),
-    ("scenario = 3", "expected a Scenario, or a function of one"),
+    ("scenario = 3", "or a function of one"),
     ("def scenario(n): return Scenario(robots=n)", "give it a default, or set it with --set n=..."),
     ("scenario = Scenario(robots=2 stop_time=3)", "line 7: invalid syntax"),
     ("scenario = Scenario(robots=2", "line 7: '(' was never closed"),

@@ -53,7 +53,7 @@ def played(scenario: Scenario, laws: dict, seed: int = 1, limits: Limits = LIMIT
     """Run a match to its end or its failure; return the record, the guard, and the error."""
     with Guard(scenario, laws, seed, limits) as guard:
         try:
-            return simulate(Experiment(guard.scenario), seed).record, guard, None
+            return simulate(Experiment(guard.scenario, seed=seed)).record, guard, None
         except LawError as error:
             return error.record, guard, error
 
@@ -180,7 +180,7 @@ def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path
         for i in indices:
             robots[i] = robots[i].replace(controller=load_law(file))
     for seed in (3, 4):
-        here = simulate(Experiment(scenario.replace(robots=robots)), seed).record
+        here = simulate(Experiment(scenario.replace(robots=robots), seed=seed)).record
         there, guard, error = played(scenario, laws, seed, Limits())
         assert error is None, error
         assert len(there) == len(here) > 20

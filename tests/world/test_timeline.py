@@ -50,7 +50,7 @@ def written(tmp_path):
 
 
 def simulated(path, seed=3):
-    return simulate(open_experiment(path), seed).record
+    return simulate(open_experiment(path, seed=seed)).record
 
 
 # -- every example ---------------------------------------------------------------------------------
@@ -68,8 +68,8 @@ QUICK = {"go_to_point", "own_sensor_and_addon", "random_walk", "wall_slide"}
 )
 def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     options = {"stop_time": 4.0} if name in ("random_walk", "flocking") else {}
-    expected = simulate(open_experiment(name, options), 1).record
-    timeline = Timeline(open_experiment(name, options), 1)
+    expected = simulate(open_experiment(name, options, seed=1)).record
+    timeline = Timeline(open_experiment(name, options, seed=1))
     timeline.go(0)
     finish(timeline)
     assert timeline.record.digest == expected.digest
@@ -158,7 +158,7 @@ def memory(written):
 
 def test_memory_of_every_kind_is_rebuilt(memory):
     expected = simulated(memory)
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     finish(timeline)
     for row in (100, 199, 0):
         timeline.go(row)
@@ -171,7 +171,7 @@ def test_memory_of_every_kind_is_rebuilt(memory):
 @pytest.mark.slow
 def test_worlds_that_wait_change_nothing(memory):
     expected = simulated(memory)
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     run_to(timeline, 120)
     timeline.go(60)
     idle(timeline)
@@ -213,7 +213,7 @@ def poke(timeline, upto=150):
 
 @each_case("row", [20, 25, 45, 70, 120])
 def test_what_hands_did_is_done_again(memory, row):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     poke(timeline)
     before = timeline.world.record
     timeline.go(row)
@@ -278,7 +278,7 @@ scenario = Scenario(
 
 def test_a_branch_of_a_branch_and_back(memory):
     expected = simulated(memory)
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     finish(timeline)
     timeline.go(80)
     timeline.change(lambda w: w.operator.place(0, (-4.0, -4.0, 0.0)))
@@ -406,9 +406,9 @@ def test_an_experiment_that_is_not_from_a_file(capsys):
         robot.memory.k = getattr(robot.memory, "k", 0) + 1
         return 0.2, 0.01 * robot.memory.k
 
-    experiment = Experiment(Scenario(robots=[Robot(controller=law)], stop_time=3))
-    expected = simulate(experiment, 3).record
-    timeline = Timeline(experiment, 3)
+    experiment = Experiment(Scenario(robots=[Robot(controller=law)], stop_time=3), seed=3)
+    expected = simulate(experiment).record
+    timeline = Timeline(experiment)
     finish(timeline)
     timeline.go(11)
     idle(timeline, 20)
@@ -449,7 +449,7 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=1)
 
 
 def test_a_way_back_can_be_broken_off(memory, monkeypatch):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     run_to(timeline, 190)
     timeline.go(180)
     told = []
@@ -586,7 +586,7 @@ def test_what_needs_a_new_start_is_said_and_nothing_happens(written, old, new, w
 
 
 def test_the_record_of_a_window_run_is_run_again_to_the_bit(memory, tmp_path):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     poke(timeline)
     timeline.go(100)
     timeline.change(lambda w: w.operator.place(0, (-4.0, -4.0, 0.0)))
@@ -601,7 +601,7 @@ def test_the_record_of_a_window_run_is_run_again_to_the_bit(memory, tmp_path):
 
 
 def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path, capsys):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     run_to(timeline, 30)
     for row, y in ((20, -4.0), (10, -3.0)):
         timeline.go(row)
@@ -623,7 +623,7 @@ def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path
 
 
 def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     run_to(timeline, 60)
     timeline.go(40)
     timeline.change(lambda w: w.operator.place(0, (-4.0, -4.0, 0.0)))

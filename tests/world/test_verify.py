@@ -222,7 +222,7 @@ def test_a_law_that_was_changed_is_told_with_its_row_and_command(walk, capsys):
 
 
 def test_a_command_by_hand_is_no_laws(walk):
-    world = open_world(open_experiment(str(walk)), 3)
+    world = open_world(open_experiment(str(walk), seed=3))
     for k in range(12):
         if k == 4:
             world.operator.steer("red", (0.1, 0.2))
