@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from functools import partial
 from math import inf, pi
 from typing import Any
 
@@ -16,7 +17,6 @@ from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.sensors.sensing import Device
 from mars2d.testing.finding import Finding
 from mars2d.testing.subject import KEEP, Subject
 from mars2d.testing.trial import ControlLaw, Placed, looker, small_world
@@ -56,12 +56,11 @@ def check_sensor(
             "returns the perfect reading"
         )
     elif subject.check_part(sensor, Sensor):
-        looks = _Looks(sensor, subject)
         subject.check_runs(
             lambda: _placed(sensor, scenario, control),
             deadline,
             small=scenario is None,
-            looker=looker("on_step", looks.look),
+            looker=looker("on_step", partial(_look, sensor, subject)),
             own=(f"sensor {sensor.key} ",),
         )
     return subject.hints()
@@ -82,52 +81,44 @@ def _placed(sensor: Sensor, scenario: Scenario | None, control: ControlLaw | Non
     return scenario.replace(robots=robots), control
 
 
-class _Looks:
-    """Looks at the answers of a sensor's methods during a run."""
-
-    def __init__(self, sensor: Sensor, subject: Subject) -> None:
-        self._sensor, self._kind, self._subject = sensor, type(sensor), subject
-
-    def _devices(self, world: World) -> list[Device]:
-        devices = world.simulation.sensing.devices
-        return [each for each in devices if type(each.described) is self._kind]
-
-    def look(self, world: World) -> None:
-        """Call `read` just before the world does, and draw as figures do, by the frozen sensor."""
-        with self._subject.looking(self._sensor, "read", world):
-            for device in self._devices(world):
-                rng = copy.deepcopy(device.rng)
-                self._check_reading(device.sensor.read(device.view, device.world, rng))
+def _look(sensor: Sensor, subject: Subject, world: World) -> None:
+    """Call `read` just before the world does, and draw as figures do, by the frozen sensor."""
+    devices = [d for d in world.simulation.sensing.devices if type(d.described) is type(sensor)]
+    with subject.looking(sensor, "read", world):
+        for device in devices:
+            reading = device.sensor.read(device.view, device.world, copy.deepcopy(device.rng))
+            _check_reading(sensor, subject, reading)
+    if type(sensor).draw is not Sensor.draw:
         scene = Scene()
-        with self._subject.looking(self._sensor, "draw", world):
-            for each in self._devices(world):
-                if each.reading is not None:
-                    color = world.scenario.colors[each.robot]
-                    pose = world.pose[:, each.robot]
-                    self._sensor.draw(scene, pose, each.reading, color)
-        self._subject.check_finite(scene, "draw")
+        with subject.looking(sensor, "draw", world):
+            for device in devices:
+                i, reading = device.robot, device.reading
+                if reading is not None:
+                    sensor.draw(scene, world.pose[:, i], reading, world.scenario.colors[i])
+        subject.check_finite(scene, "draw")
 
-    def _check_reading(self, reading: Any) -> None:
-        """Report a value that the sensor's quantities can't have; the recorder refuses the rest."""
-        try:
-            values = np.asarray(reading)
-        except ValueError:  # rows of different lengths
-            return
-        name, quantities = self._subject.name, self._kind.quantities
-        if values.dtype.kind not in "bifu" or not values.size:
-            return
-        if len(quantities) > 1 and (not values.ndim or values.shape[-1] != len(quantities)):
-            names = ", ".join(quantity.name for quantity in quantities)
-            self._subject.wrong(
-                f"{name}.read returned numbers of shape {values.shape}, but {name}.quantities has "
-                f"{len(quantities)} ({names}): the last axis must have one entry for each"
-            )
-            return
-        for k, quantity in enumerate(quantities):
-            column = values if len(quantities) == 1 else values[..., k]
-            problem = _out_of_range(column, quantity, getattr(self._sensor, "range", None))
-            if problem:
-                self._subject.wrong(f"{name}.read returned {problem}")
+
+def _check_reading(sensor: Sensor, subject: Subject, reading: Any) -> None:
+    """Report a value that the sensor's quantities can't have; the recorder refuses the rest."""
+    try:
+        values = np.asarray(reading)
+    except ValueError:  # rows of different lengths
+        return
+    name, quantities = subject.name, sensor.quantities
+    if values.dtype.kind not in "bifu" or not values.size:
+        return
+    if len(quantities) > 1 and (not values.ndim or values.shape[-1] != len(quantities)):
+        names = ", ".join(quantity.name for quantity in quantities)
+        subject.wrong(
+            f"{name}.read returned numbers of shape {values.shape}, but {name}.quantities has "
+            f"{len(quantities)} ({names}): the last axis must have one entry for each"
+        )
+        return
+    for k, quantity in enumerate(quantities):
+        column = values if len(quantities) == 1 else values[..., k]
+        problem = _out_of_range(column, quantity, getattr(sensor, "range", None))
+        if problem:
+            subject.wrong(f"{name}.read returned {problem}")
 
 
 def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> str:

@@ -30,7 +30,7 @@ STEPS = 50
 MAX_RUN_TIME = 1.0
 """Seconds after which a slow run ends early."""
 
-LOOKER = "looker_of_the_trial"
+LOOKER = "trial_looker"
 
 ControlLaw = Callable[[Any], Any]
 
@@ -60,9 +60,12 @@ def small_world(
     robot = Robot(sensors=sensors, controller=law, sees=sees)
     poses = (x - 1.5, 0.2, 0.1), (x + 0.7, -0.6, 2.0), (x + 1.4, 1.2, -2.3)
     furniture = (
-        Map([[(-0.2, -1.9), (-0.2, -0.7)], [(1.6, -1.4), (2.1, -1.4), (1.9, -0.9)]], name="walls"),
-        Beacon(at=(0.3, 1.5), name="lamp"),
-        Floor(patches=[([(0, -3), (3, -3), (3, 3), (0, 3)], "gray")], name="half_gray"),
+        Map(
+            [[(-0.2, -1.9), (-0.2, -0.7)], [(1.6, -1.4), (2.1, -1.4), (1.9, -0.9)]],
+            name="trial_walls",
+        ),
+        Beacon(at=(0.3, 1.5), name="trial_lamp"),
+        Floor(patches=[([(0, -3), (3, -3), (3, 3), (0, 3)], "gray")], name="trial_floor"),
     )
     return Scenario(
         title="A trial",
@@ -148,11 +151,11 @@ def state(world: World) -> dict[str, bytes]:
     }
     for key, readings in world.frame.readings.items():
         found |= {f"sensor {key} of {robots[i].name}": value for i, value in readings}
+    found |= {f"command {robot.name}": world.command[:, i] for i, robot in enumerate(robots)}
     for i, robot in enumerate(robots):
-        found[f"command {robot.name}"] = world.command[:, i]
+        found[f"pose {robot.name}"] = world.pose[:, i]
         found[f"the memory of {robot.name}"] = vars(robot.memory)
         found[f"the random stream of {robot.name}"] = robot.rng
-    found |= {f"pose {robot.name}": world.pose[:, i] for i, robot in enumerate(robots)}
     found["the random stream of the team's law"] = world.rng
     found["the poses of props"] = world.prop_pose
     found["whether the experiment is over"] = world.over
