@@ -30,8 +30,6 @@ STEPS = 50
 MAX_RUN_TIME = 1.0
 """Seconds after which a slow run ends early."""
 
-LOOKER = "trial_looker"
-
 ControlLaw = Callable[[Any], Any]
 
 Placed = tuple[Scenario, ControlLaw | None]
@@ -83,7 +81,7 @@ def looker(hook: str, look: Callable[[World], None]) -> Addon:
     """Return an add-on with one hook, which calls a function of the world."""
     methods = {hook: lambda _, world: look(world)}
     kind: type[Addon] = type("Looker", (Addon,), methods)
-    return kind(name=LOOKER)
+    return kind(name="trial_looker")
 
 
 @dataclass
@@ -146,7 +144,7 @@ def state(world: World) -> dict[str, bytes]:
     found: dict[str, Any] = {
         f"add-on {key}.{attribute}": value
         for key, addon in vars(world.addons).items()
-        if key != LOOKER
+        if not key.startswith("trial_")
         for attribute, value in vars(addon).items()
     }
     for key, readings in world.frame.readings.items():

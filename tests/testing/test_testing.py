@@ -107,7 +107,7 @@ SENSORS = {
         ["test_testing.py, line", "Probe.read raised ZeroDivisionError", "at 1.1 s"],
     ),
     "a distance is nan": (
-        lambda: sensor(value(np.nan), quantities=(DISTANCE,)), ["nan of distance", "inf to nothing"],
+        lambda: sensor(value(np.nan), quantities=(DISTANCE,)), ["nan of distance", "inf to"],
     ),
     "a distance is negative": (
         lambda: sensor(value(-0.1), quantities=(DISTANCE,)), ["-0.1 of distance", "not negative"],
