@@ -20,7 +20,7 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.scenario import load_scenario, save_scenario, serialize
 from mars2d.scenario.schema import schema
 from tests.cases import each_case
-from tests.house.test_any_scenario import any_scenario
+from tests.house.test_any_scenario import scenarios
 from tests.worlds import without_laws
 
 SCHEMA = schema()
@@ -96,7 +96,7 @@ def test_gate_and_schema_refuse_the_same_mistakes(text, tmp_path):
 
 
 @pytest.mark.slow
-@given(data=any_scenario())
+@given(data=scenarios())
 def test_the_schema_refuses_nothing_that_the_gate_takes(data, tmp_path_factory):
     """A file with something odd in it: what a Scenario is made of, the schema accepts as saved."""
     try:
