@@ -195,15 +195,12 @@ class Reader:
         return printed.getvalue() + errors
 
 
-SLOW = {
-    "README", "addons", "clusters", "commands", "films", "laws", "logs", "own_sensor_and_addon",
-    "paper", "window",
-}  # fmt: skip
+SLOW = {"README", "addons", "films", "laws", "logs", "own_sensor_and_addon", "paper", "window"}
 """Documents that take a second and more."""
 
 NIGHTLY = {
-    "communication", "contact", "editors", "figures", "information", "sensing", "speed", "studies",
-    "tournaments",
+    "clusters", "commands", "communication", "contact", "editors", "figures", "information",
+    "sensing", "speed", "studies", "tournaments",
     *({path.stem for path in EXPERIMENTS} - {"formation", "random_walk"}),
     *(path.stem for path in PURSUIT),
 }  # fmt: skip
