@@ -24,8 +24,8 @@ settings.register_profile(
 )
 settings.load_profile("stable")
 
-SLOW_FIXTURES = {"browser", "screen"}
-"""Fixtures whose tests are marked `slow`: they start Chromium or an X server."""
+SLOW_FIXTURES = {"browser", "screen", "display"}
+"""Fixtures whose tests are marked `slow`: they start Chromium or an X server, or draw a window."""
 
 
 def pytest_configure() -> None:

@@ -250,37 +250,6 @@ class Fans:
         """
         return self._cast(poses, bearings, reach, ignore, nothing)
 
-    def first_met(self, start: Point, ends: Float, ignore: int) -> tuple[Float, Int]:
-        """Return how far one gets from a point to others (k, 2), and the body met first, (k,) each.
-
-        It is the quicker way for few rays of different lengths. Metres; inf and any number where
-        nothing is met. ignore: the body that is not seen, a negative number for none.
-        """
-        origin = np.reshape(start, (2, 1))
-        way = np.transpose(ends) - origin
-        apart = norms(*way)
-        c, s = (way / np.where(apart > 0, apart, 1.0))[:, :, None]
-        near = norms(*(self._middle - origin)) <= self._radius + WITHIN * apart.max(initial=0.0)
-        near &= self._owner != ignore
-        rings, discs = near[: self._rings], near[self._rings :]
-        lengths, bodies = [np.full((len(apart), 1), inf)], [np.array([NOBODY])]
-        if rings.any():
-            edges = np.repeat(rings, self._ring_size)
-            a, b = self._edge_a[:, edges] - origin, self._edge_b[:, edges] - origin
-            lengths.append(_to_edges(c, s, a, b))
-            area = a[0] * (b[1] - a[1]) - a[1] * (b[0] - a[0])
-            size = self._ring_size[rings]
-            inside = np.minimum.reduceat(area, np.cumsum(size) - size) >= 0
-            lengths[-1][:, np.repeat(inside & self._ring_solid[rings], size)] = 0
-            bodies.append(self._edge_number[edges])
-        if discs.any():
-            lengths.append(_to_discs(c, s, self._disc[:, discs] - origin, self._disc_radius[discs]))
-            bodies.append(self._disc_body[discs])
-        length = np.hstack(lengths)
-        nearest = length.argmin(axis=1)
-        length = up_to(length[np.arange(len(apart)), nearest], apart)
-        return length, np.concatenate(bodies)[nearest]
-
     def _cast(
         self,
         poses: Float,
@@ -441,27 +410,6 @@ class Fans:
         distance = np.maximum(along - np.sqrt(np.maximum(inner, 0)), 0)
         distance[inner < 0] = inf
         return _Met(ray, distance, self._disc_body[discs.disc], count)
-
-
-def _to_edges(c: Float, s: Float, a: Float, b: Float) -> Float:
-    """Return how far rays (k, 1) go to edges from a to b (2, e), from where they start, (k, e)."""
-    beside_a, beside_b = c * a[1] - s * a[0], c * b[1] - s * b[0]
-    along_a, along_b = c * a[0] + s * a[1], c * b[0] + s * b[1]
-    at_a, at_b = np.abs(beside_a) <= _aimed(norms(*a)), np.abs(beside_b) <= _aimed(norms(*b))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        crossed = (along_a * beside_b - along_b * beside_a) / (beside_b - beside_a)
-    inline = np.where(along_a * along_b < 0, 0, np.minimum(along_a, along_b))
-    met = [at_a & at_b, at_a, at_b, (beside_a > 0) != (beside_b > 0)]
-    length = np.select(met, [inline, along_a, along_b, crossed], inf)
-    return np.where(length < -CORNER, inf, np.maximum(length, 0))
-
-
-def _to_discs(c: Float, s: Float, middle: Float, radius: Float) -> Float:
-    """Return how far rays (k, 1) go to discs (2, e), from where they start, (k, e)."""
-    along, across = c * middle[0] + s * middle[1], c * middle[1] - s * middle[0]
-    inner = radius * radius - across * across
-    length = np.where((inner < 0) | (along < 0), inf, along - np.sqrt(np.maximum(inner, 0)))
-    return np.where(norms(*middle) <= radius, 0, length)
 
 
 @lru_cache(maxsize=16)

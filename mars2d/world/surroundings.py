@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon, Color
 from mars2d.bodies.colors import OBSTACLE, prop_colors
-from mars2d.core.arithmetic import cosine_sine, norms
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.core.usercode import called
@@ -24,9 +23,6 @@ Int = NDArray[np.int64]
 
 WHITE = (1.0, 1.0, 1.0)
 """The colour of the floor where no add-on gives it one."""
-
-AT_THE_END = 1e-9
-"""A surface as near to a point does not hide it, metres."""
 
 
 class Around:
@@ -84,9 +80,7 @@ class Around:
         """Return the length of a ray to the first surface, metres; inf if none is hit."""
         _check_look("start", start, "length", length)
         _check_all("angle", angle)
-        c, s = cosine_sine(angle)
-        end = start[0] + length * c, start[1] + length * s
-        return float(self._fans_now.first_met(start, np.array([end]), ignore)[0][0])
+        return self._space.rays.length(start, angle, length, ignore)
 
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
         """Return the lengths of rays at angles (k,), metres; inf where nothing is hit."""
@@ -131,9 +125,7 @@ class Around:
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:
         """Return whether something stands between `start` and points (k, 2)."""
-        distance, met = self._fans_now.first_met(start, points, ignore)
-        apart = norms(*(np.transpose(points) - np.reshape(start, (2, 1))))
-        return np.asarray((apart - distance > AT_THE_END) & (met != bodies))
+        return self._space.rays.hidden(start, points, bodies, ignore)
 
     # -- looks -------------------------------------------------------------------------------
 

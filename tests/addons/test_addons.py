@@ -9,9 +9,7 @@ import pytest
 
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, Sensor, World
-from mars2d.addons import HOOKS, Addon, Beacon, Map
-from mars2d.core.scene import Circle, Text
-from mars2d.output.layers import addons as drawn
+from mars2d.addons import Addon, Map
 from tests.cases import each_case
 
 
@@ -34,21 +32,10 @@ def test_an_own_addon_is_a_short_class_that_laws_can_ask():
     assert world.addons.counter.steps == 8
 
 
-def test_two_of_a_kind_need_names():
-    with pytest.raises(InputError, match="two are called 'counter'"):
-        Scenario(addons=[Counter(), Counter()])
-    world = World(Scenario(addons=[Counter(), Counter(name="second", start=1)]))
-    assert (world.addons.counter.steps, world.addons.second.steps) == (0, 1)
-
-
 @each_case(("hook", "meant"), [("on_stepp", "on_step"), ("on_begin", ""), ("on_steps", "on_step")])
 def test_an_unknown_hook_is_an_error_when_the_class_is_written(hook, meant):
     with pytest.raises(InputError, match=f"{hook} is no hook of an add-on.*{meant}"):
         type("Wrong", (Addon,), {hook: lambda self, world: None})
-
-
-def test_the_hooks_are_these():
-    assert HOOKS == ("on_start", "on_step", "on_sensed", "on_draw", "on_stop")
 
 
 def test_in_a_scenario_an_addon_is_frozen_and_in_a_world_it_is_not():
@@ -69,21 +56,6 @@ def test_worlds_work_on_copies_of_their_own():
     first.step()
     assert (first.addons.counter.steps, second.addons.counter.steps) == (2, 0)
     assert scenario == Scenario(addons=[Counter()])
-
-
-def test_what_an_addon_holds_does_not_leak_between_worlds():
-    class Diary(Addon):
-        pages: list = mars2d.core.description.entry(check=lambda _n, v: v, factory=list)
-
-        def on_step(self, world):
-            self.pages.append(world.time)
-
-    scenario = Scenario(addons=[Diary()])
-    first, second = World(scenario), World(scenario)
-    first.step()
-    assert first.addons.diary.pages == [0.0]
-    assert second.addons.diary.pages == []
-    assert scenario.addons[0].pages == []
 
 
 def test_an_addon_that_fails_is_named_with_its_line():
@@ -147,23 +119,6 @@ def test_all_hooks_are_called_at_their_moments():
     assert [call for call in calls if call != "draw"] == ["start", "step", "step", "stop"]
 
 
-def test_a_map_takes_outlines_without_their_name_and_keeps_them():
-    outline = [(2, 2), (3, 2), (3, 3)]
-    assert Map([outline]) == Map(outlines=[outline])
-    assert Map([outline]).obstacles() == (tuple(outline),)
-
-
-def test_a_subclass_of_an_addon_keeps_its_hooks():
-    class Double(Counter):
-        def on_step(self, world):
-            super().on_step(world)
-            super().on_step(world)
-
-    world = World(Scenario(addons=[Double()]))
-    world.step()
-    assert world.addons.double.steps == 2
-
-
 # -- sensors and replays ------------------------------------------------------------------------
 
 
@@ -189,16 +144,6 @@ def test_an_add_on_finds_the_readings_of_this_step_in_on_sensed_and_none_before(
     assert world.addons.watch.seen == [(t, t) for t in (0.0, 0.1, 0.2)]
 
 
-def test_what_an_add_on_draws_of_its_fields_and_the_time_is_in_a_replay(tmp_path):
-    ferry = Beacon(path=[(1, 0), (2, 0)], speed=0.5, name="ferry")
-    record = mars2d.run(Scenario(addons=[ferry], stop_time=2))
-    loaded = mars2d.load(record.save(tmp_path / "ferry.npz"))
-    scene = drawn.addons(loaded.frame(10))
-    lamps = [shape for shape in scene.shapes if isinstance(shape, Circle)]
-    assert lamps[-1].center == pytest.approx((1.5, 0))
-    assert "ferry" in [s.text.strip() for s in scene.shapes if isinstance(s, Text)]
-
-
 def test_a_map_takes_walls_of_several_corners_that_stay_open():
     corridor = Map(walls=[[(-5, 1), (2, 1), (2, 5)], [(-5, -1), (4, -1), (4, 5)]])
     assert corridor.obstacles() == (
@@ -218,24 +163,3 @@ def test_a_wall_is_checked_as_outlines_are_but_may_cross_itself():
     ]:
         with pytest.raises(InputError, match=rf"Map\.walls.*{message}"):
             Map(walls=walls)
-
-
-def test_a_map_without_anything_is_an_error():
-    with pytest.raises(InputError, match="Map: expected outlines or walls"):
-        Map()
-
-
-def test_an_own_addon_may_paint_the_floor():
-    class Carpet(Addon):
-        def paint(self, scene, area):
-            scene.polygon(area, fill="#ff0000")
-
-    (shape,) = drawn.floor(Scenario(addons=[Carpet()], workspace=None)).shapes
-    assert np.ptp(shape.points, axis=0).tolist() == [2.0, 2.0]  # a metre round the only robot
-
-    class Torn(Carpet):
-        def paint(self, scene, area):
-            raise ValueError("torn")
-
-    with pytest.raises(LawError, match=r"add-on 'torn' raised ValueError: torn"):
-        drawn.floor(Scenario(addons=[Torn()]))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
-
 import numpy as np
 import pytest
 from PIL import Image
@@ -12,13 +10,8 @@ import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Density, Voronoi
 from mars2d.core.scene import Image as Pixels
-from mars2d.core.scene import Scene
 from mars2d.output.layers.addons import floor
-from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.painter import Painter
 from tests.cases import each_case
-
-SQUARE = ((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0))
 
 
 @pytest.fixture
@@ -38,31 +31,8 @@ def test_a_function_is_called_with_arrays_of_coordinates():
     assert density.of(np.empty((2, 0))).shape == (0,)
 
 
-def test_a_constant_is_a_density():
-    assert Density(lambda x, y: 3).of([[1, 2], [0, 0]]).tolist() == [3, 3]
-
-
-def test_what_a_function_does_to_its_arrays_changes_nothing():
-    def rude(x, y):
-        x += 1
-        return x
-
-    points = np.array([[1.0, 2.0], [0.0, 0.0]])
-    assert Density(rude).of(points).tolist() == [2, 3]
-    assert points[0].tolist() == [1, 2]
-
-
 def test_an_image_is_dense_where_it_is_dark(picture):
     assert picture.of([[0.5, 1.5, 0.5, 1.5], [1.5, 1.5, 0.5, 0.5]]) == pytest.approx([1, 0.6, 0, 0])
-
-
-def test_between_the_middles_of_pixels_it_changes_evenly(picture):
-    assert picture.of([[1.0, 0.5, 1.0], [1.5, 1.0, 1.0]]) == pytest.approx([0.8, 0.5, 0.4])
-
-
-def test_at_its_edge_it_is_that_of_the_outermost_pixels_and_beyond_it_nothing(picture):
-    x, y = [0, 0.2, 2, -0.01, 1, 1], [2, 1.9, 2, 1.5, 2.01, -0.01]
-    assert picture.of([x, y]) == pytest.approx([1, 1, 0.6, 0, 0, 0])
 
 
 def test_colours_count_by_how_bright_they_look(tmp_path, monkeypatch):
@@ -71,26 +41,6 @@ def test_colours_count_by_how_bright_they_look(tmp_path, monkeypatch):
     Image.fromarray(values).save("p.png")
     density = Density(image="p.png", bounds=(0, 3, 0, 1))
     assert density.of([[0.5, 1.5, 2.5], [0.5] * 3]) == pytest.approx([0.701, 0.413, 0.886])
-
-
-def test_all_worlds_share_an_images_pixels(picture):
-    worlds = [World(Scenario(addons=[picture])) for _ in range(2)]
-    first, second = (world.addons.density.picture.pixels for world in worlds)
-    assert first is second
-    with pytest.raises(ValueError, match="read-only"):
-        first[0] = 0
-
-
-def test_a_scenario_that_was_drawn_is_sent_without_the_pixels(tmp_path):
-    noise = np.random.default_rng(0).integers(0, 256, (300, 300), dtype=np.uint8)
-    Image.fromarray(noise).save(tmp_path / "noise.png")
-    scenario = Scenario(addons=[Density(image=tmp_path / "noise.png", bounds=(-5, 5, -5, 5))])
-    sent = pickle.dumps(scenario)
-    (drawn,) = floor(scenario).shapes
-    assert len(pickle.dumps(scenario)) < len(sent) + 100
-    (again,) = floor(pickle.loads(sent)).shapes
-    assert (again.pixels == drawn.pixels).all()
-    assert pickle.loads(sent) == scenario
 
 
 def test_robots_gather_where_it_is_dense():
@@ -149,14 +99,6 @@ def test_what_a_function_returns_is_looked_at_when_a_world_is_made(phi, message)
     assert not isinstance(e.value, LawError)
 
 
-def test_what_a_function_raises_is_an_error_with_its_line():
-    def phi(x, y):
-        return 1.0 if x > 0 else 2.0  # not of arrays
-
-    with pytest.raises(LawError, match=r"test_density.py, line \d+: Density.function raised Value"):
-        World(Scenario(addons=[Density(phi)]))
-
-
 def test_an_image_that_is_not_there_or_white_is_an_error(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(InputError, match=r"^Density.image = 'gone.png': there is no such file"):
@@ -182,37 +124,6 @@ def test_it_lies_on_the_floor_darker_where_it_is_denser():
     assert shape.pixels.shape == (200, 200, 4)
     assert shape.pixels[100, 50].tolist() == [255, 0, 0, 128]
     assert shape.pixels[100, 150].tolist() == [255, 0, 0, 32]
-
-
-def test_beyond_the_workspace_nothing_of_it_is_seen():
-    triangle = [(0, 0), (4, 0), (0, 2)]
-    scenario = Scenario(
-        robots=[Robot(pose=(0.5, 0.5, 0))], workspace=triangle, addons=[Density(lambda x, y: 1)]
-    )
-    (shape,) = floor(scenario).shapes
-    opacity = shape.pixels[..., 3]
-    assert opacity.shape == (100, 200)  # the upper row first
-    assert (opacity[-2, 1], opacity[1, -2]) == (128, 0)
-    assert (opacity > 0).mean() == pytest.approx(0.5, abs=0.01)
-
-
-def test_it_is_seen_through():
-    scene = Scene()
-    pixels = np.zeros((1, 2, 4), dtype=np.uint8)
-    pixels[0, 1] = 0, 0, 255, 128
-    scene.polygon([(-5, -5), (5, -5), (5, 5), (-5, 5)], fill="#ff0000")
-    scene.image(pixels, (-5, 5, -5, 5))
-    import pygame
-
-    surface = pygame.Surface((100, 100), 0, 32)
-    Painter().paint(surface, scene.shapes, Camera(scale=10.0, x=50.0, y=50.0))
-    assert surface.get_at((25, 50))[:3] == (255, 0, 0)
-    assert surface.get_at((75, 50))[:3] == pytest.approx((127, 0, 128), abs=2)
-
-
-def test_without_a_workspace_it_is_drawn_where_something_is():
-    (shape,) = floor(Scenario(workspace=None, addons=[Density(lambda x, y: 1)])).shapes
-    assert (shape.pixels[..., 3] == 128).all()
 
 
 def test_a_replay_shows_an_image_whose_file_is_gone(picture, tmp_path):

@@ -65,10 +65,6 @@ def test_the_addon_knows_what_the_function_says():
     assert world.addons.estimate.covariance == pytest.approx(expected, rel=1e-9)
 
 
-def test_one_that_stands_stays_sure():
-    assert not covariances(np.ones((5, 3)), AXLE, DRIFT).any()
-
-
 def test_to_turn_on_the_spot_makes_one_unsure_of_the_heading_alone():
     turns = [(1.0, 2.0, angle) for angle in (0.0, np.pi, 3 * np.pi)]  # the last a whole turn
     spread = covariances(turns, AXLE, DRIFT)[-1]
@@ -91,18 +87,7 @@ def test_an_ellipse_holds_its_share_of_a_normal_distribution(probability):
     assert inside.mean() == pytest.approx(probability, abs=0.01)
 
 
-def test_an_ellipse_without_doubt_is_a_point():
-    assert np.ptp(ellipse((1, 2), np.zeros((3, 3))), axis=0).max() < 1e-5
-
-
 # -- what is drawn -------------------------------------------------------------------------------
-
-
-def test_ellipses_are_kept_every_so_often_beside_the_last():
-    shapes = drawn(driven([runner()], Estimate(every=2.0), seconds=9.0))
-    assert [type(shape).__name__ for shape in shapes] == ["Polygon"] * 5 + ["Line", "Circle"]
-    middles = [shape.points[:, 0].mean() for shape in shapes[:5]]
-    assert middles[:4] == pytest.approx([0.95, 1.95, 2.95, 3.95], abs=0.2)
 
 
 def test_the_estimate_is_drawn_in_the_worlds_frame_whatever_its_origin():
@@ -113,11 +98,6 @@ def test_the_estimate_is_drawn_in_the_worlds_frame_whatever_its_origin():
     ]
     assert ends[0] == pytest.approx(ends[1])
     assert ends[0] == pytest.approx((2.0, 6.0))
-
-
-def test_nothing_is_drawn_before_the_first_step():
-    world = World(Scenario(robots=[runner()], addons=[Estimate()]))
-    assert drawn(world) == []
 
 
 def test_to_draw_changes_nothing():
@@ -164,9 +144,3 @@ def test_it_takes_the_robot_that_is_named_or_the_first_with_odometry():
 def test_one_that_cannot_be_followed_is_named(robot, addon, message):
     with pytest.raises(InputError, match=message):
         World(Scenario(robots=[robot], addons=[addon]))
-
-
-@each_case("bad", [{"probability": 1.0}, {"probability": 0.0}, {"every": 0.0}])
-def test_fields_out_of_range_are_refused(bad):
-    with pytest.raises(InputError, match=f"Estimate.{next(iter(bad))} = "):
-        Estimate(**bad)

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import tracemalloc
 from math import nan
 
 import numpy as np
 import pygame
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from PIL import Image
 
 import mars2d
 from mars2d import Addon, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Floor
-from mars2d.core.scene import Circle, Polygon, Scene
-from mars2d.output.figures.artists import paint
+from mars2d.core.scene import Scene
 from mars2d.output.layers.addons import floor as floor_of
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
@@ -86,54 +82,6 @@ def test_what_is_read_is_what_is_seen(floors):
         assert read_at((x, y), *floors) == color
 
 
-def test_through_a_transparent_pixel_white_is_seen_where_there_is_no_colour(tmp_path):
-    values = np.array([[[255, 0, 0, 0], [255, 0, 0, 255]]], dtype=np.uint8)
-    Image.fromarray(values).save(tmp_path / "p.png")
-    floor = Floor(image=tmp_path / "p.png", bounds=(0, 2, 0, 1))
-    assert [floor.ground((x, 0.5)) for x in (0.5, 1.5, 2.5)] == [(1.0, 1.0, 1.0), RED, None]
-
-
-def test_an_image_is_read_once_for_all_worlds_until_it_changes(picture, monkeypatch):
-    looks, opened = [], Image.open
-
-    def watched(path, **more):
-        looks.append(path)
-        return opened(path, **more)
-
-    monkeypatch.setattr(Image, "open", watched)
-    scenario = Scenario(addons=[Floor(image="p.png", bounds=(0, 3, 0, 2))])
-    first, again = (World(scenario).addons.floor.pixels for _ in range(2))
-    floor_of(scenario)
-    assert len(looks) == 1
-    assert first is again
-    with pytest.raises(ValueError, match="read-only"):
-        first[0] = 0
-    Image.fromarray(picture[:, ::-1]).save("p.png", compress_level=0)
-    changed = World(Scenario(addons=[Floor(image="p.png", bounds=(0, 3, 0, 2))]))
-    assert (changed.addons.floor.pixels == picture[:, ::-1]).all()
-    assert len(looks) == 2
-
-
-def test_a_large_image_without_transparent_pixels_is_not_blended(tmp_path):
-    Image.new("RGB", (2000, 2000), "red").save(tmp_path / "p.png")
-    floor = Floor(image=tmp_path / "p.png", bounds=(0, 1, 0, 1))
-    tracemalloc.start()
-    assert floor.ground((0.5, 0.5)) == RED
-    most = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert most < 2000 * 2000 * 16  # bytes: no floats of all of it
-
-
-def test_patches_may_be_concave():
-    floor = Floor(patches=[([(0, 0), (4, 0), (4, 4), (2, 1)], "#ff0000")])
-    assert floor.ground((3.5, 2)) == RED
-    assert floor.ground((1, 1)) is None
-
-
-def test_colours_are_read_to_the_last_digit():
-    assert Floor(color="#0180fe").ground((0, 0)) == (1 / 255, 128 / 255, 254 / 255)
-
-
 def test_the_mount_is_where_it_looks():
     floor = Floor(patches=[(SQUARE, "#ff0000")])
     assert read_at((-0.2, 1), floor) == [1, 1, 1]
@@ -150,28 +98,11 @@ def test_each_pixel_of_an_image_covers_its_part_of_the_floor(picture):
                 assert floor.ground((-1 + column + off, 12 - row - off)) == color
 
 
-def test_at_its_edge_an_image_has_its_outermost_pixels_and_beyond_it_the_colour_of_the_rest(
-    picture,
-):
-    floor = Floor(image="p.png", bounds=(-1, 2, 10, 12), color="#00ff00")
-    assert floor.ground((2, 10)) == tuple((picture[1, 2] / 255).tolist())
-    assert floor.ground((-1, 12)) == tuple((picture[0, 0] / 255).tolist())
-    for outside in [(2.001, 11), (-1.001, 11), (0, 9.999), (0, 12.001)]:
-        assert floor.ground(outside) == (0, 1, 0)
-
-
 def test_through_a_transparent_pixel_the_colour_of_the_rest_is_seen(tmp_path):
     values = np.array([[[255, 0, 0, 0], [255, 0, 0, 255], [255, 0, 0, 51]]], dtype=np.uint8)
     Image.fromarray(values).save(tmp_path / "p.png")
     floor = Floor(image=tmp_path / "p.png", bounds=(0, 3, 0, 1), color="#0000ff")
     assert [floor.ground((x, 0.5)) for x in (0.5, 1.5, 2.5)] == [BLUE, RED, (0.2, 0.0, 0.8)]
-
-
-@each_case("mode", ["1", "L", "P", "RGB", "RGBA", "LA"])
-def test_images_of_any_usual_kind_can_be_used(tmp_path, mode):
-    Image.new("RGB", (4, 4), "white").convert(mode).save(tmp_path / "p.png")
-    floor = Floor(image=str(tmp_path / "p.png"), bounds=(0, 1, 0, 1), color="#0000ff")
-    assert floor.ground((0.5, 0.5)) == (1.0, 1.0, 1.0)
 
 
 def test_a_reading_is_recorded_and_disturbed_like_any_other():
@@ -312,51 +243,6 @@ def test_an_image_is_painted_where_it_lies_with_its_first_row_on_top(picture):
     assert (outside == 255).all()
 
 
-def test_of_a_large_image_the_part_in_sight_is_painted_at_any_zoom(picture):
-    close = painted(image_scene(picture, (-3e3, 3e3, -1e3, 3e3)), Camera(scale=1e4, x=50, y=50))
-    assert (close == picture[1, 1]).all()
-    away = painted(image_scene(picture, (6, 8, 6, 8)))
-    assert (away == 255).all()
-
-
-def test_small_pixels_are_averaged():
-    board = np.zeros((400, 400, 3), dtype=np.uint8)
-    board[::2, ::2] = board[1::2, 1::2] = 255
-    made = painted(image_scene(board, (-5, 5, -5, 5))).astype(int)
-    assert np.abs(made - 127).max() <= 2
-
-
-def test_a_figure_shows_an_image_where_it_lies(picture):
-    figure = Figure(figsize=(1, 1), dpi=100)
-    canvas = FigureCanvasAgg(figure)
-    ax = figure.add_axes((0, 0, 1, 1))
-    ax.set(xlim=(-5, 5), ylim=(-5, 5))
-    ax.axis("off")
-    paint(image_scene(picture, (-3, 3, -1, 3)), ax)
-    canvas.draw()
-    made = np.asarray(canvas.buffer_rgba())[..., :3]
-    assert made.shape == (100, 100, 3)
-    for row in range(2):
-        for column in range(3):
-            assert (made[30 + 20 * row, 30 + 20 * column] == picture[row, column]).all()
-    assert (made[:18] == 255).all()
-
-
-@each_case(
-    ("pixels", "bounds"),
-    [
-        (np.zeros((2, 2), dtype=np.uint8), (0, 1, 0, 1)),
-        (np.zeros((2, 2, 3)), (0, 1, 0, 1)),
-        (np.zeros((0, 2, 3), dtype=np.uint8), (0, 1, 0, 1)),
-        (np.zeros((1, 4097, 3), dtype=np.uint8), (0, 1, 0, 1)),
-        (np.zeros((2, 2, 3), dtype=np.uint8), (0, 0, 0, 1)),
-    ],
-)
-def test_an_image_that_can_not_be_drawn_is_an_error(pixels, bounds):
-    with pytest.raises(InputError, match=r"pixels of shape|bounds = "):
-        Scene().image(pixels, bounds)
-
-
 @pytest.mark.slow
 def test_the_floor_lies_beneath_obstacles_grid_and_robots_and_is_in_every_picture():
     patch = [(-4, -4), (4, -4), (4, 4), (-4, 4)]
@@ -383,26 +269,3 @@ def test_a_replay_shows_the_image_of_the_floor_when_its_file_is_gone(picture, tm
     assert [type(shape).__name__ for shape in floor_of(loaded).shapes] == ["Image"]
     (again,) = loaded.addons
     assert np.array_equal(again.pixels, floor.pixels)
-
-
-def test_without_a_workspace_the_floor_is_drawn_where_something_is():
-    scenario = Scenario(workspace=None, addons=[Floor(color="#00ff00")])
-    (area,) = floor_of(scenario).shapes
-    assert isinstance(area, Polygon)
-    assert np.ptp(area.points, axis=0).min() > 1
-    assert floor_of(Scenario(addons=[Floor()])).shapes == []
-
-
-def test_what_is_read_is_drawn_as_a_disc_of_that_colour():
-    scene = Scene()
-    Ground(mount=(0.5, 0, 0)).draw(scene, np.zeros(3), np.array([1.0, 0.5, nan]), "#0072b2")
-    (disc,) = scene.shapes
-    assert isinstance(disc, Circle)
-    assert disc.center == (0.5, 0)
-    assert disc.fill == "#ff8080"
-
-
-def test_no_reading_breaks_the_picture_of_the_sensor():
-    scene = Scene()
-    Ground().draw(scene, np.zeros(3), np.array([1.3, -0.2, np.inf]), "#0072b2")
-    assert scene.shapes[0].fill == "#ff00ff"

@@ -9,7 +9,6 @@ import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Game
 from mars2d.core.scene import Circle, Line, Scene, Text
-from mars2d.testing import check_addon
 from mars2d.world.verify import rerun
 from tests.cases import each_case
 from tests.worlds import finished
@@ -64,14 +63,6 @@ def test_a_distance_is_a_capture_at_the_first_control_step_within_it():
     assert world.over_message == "red catches blue after 2 s: pursuer wins"
 
 
-def test_who_is_free_at_the_stop_time_has_won():
-    world = finished(chase(stop_time=3.0))
-    assert world.over_message == "blue was not caught in 3 s: evader wins"
-    assert world.addons.game.winner == "evader"
-    assert world.addons.game.score == {"pursuer": 0, "evader": 1}
-    assert np.isnan(world.addons.game.outcome(world.record).capture_time)
-
-
 def test_nobody_has_won_before_the_end_nor_when_something_else_ends_it():
     world = World(chase())
     for _ in range(5):
@@ -97,12 +88,6 @@ def test_the_caught_stand_still_while_the_game_goes_on():
     assert np.ptp(record.pose[caught:, 0, 1]) == 0
     assert (record.command[:over, 0, 2] == 0.2).all()
     assert "catches green, the last of 2, after" in world.over_message
-
-
-def test_some_caught_and_some_free_at_the_stop_time_is_a_win_of_the_evaders():
-    world = finished(chase(evaders=[(1.0, 0.0), (1.5, 5.0), (9.0, 0.0)], stop_time=5.0))
-    assert world.addons.game.score == {"pursuer": 1, "evader": 2}
-    assert world.over_message == "2 of 3 were not caught in 5 s: evader wins"
 
 
 def test_the_nearest_of_several_hunters_is_the_one_who_catches():
@@ -180,10 +165,6 @@ def test_captures_are_drawn_from_a_record_as_they_were_live(tmp_path):
     assert [type(shape) for shape in before] == [Circle]  # the reach alone
 
 
-def test_the_checker_of_add_ons_finds_nothing():
-    check_addon(Game({"a": [0], "b": [1]}))
-
-
 # -- what is refused ----------------------------------------------------------------------------
 
 
@@ -219,57 +200,3 @@ def test_roles_that_can_not_be_are_refused_in_words(roles, words):
 def test_robots_that_are_not_there_or_in_two_roles_are_refused(roles, words):
     with pytest.raises(InputError, match=words):
         World(chase(Game(roles)))
-
-
-@each_case(
-    ("capture", "words"),
-    [
-        ("contcat", "did you mean 'contact'"),
-        (0, "> 0"),
-        (-1.0, "> 0"),
-        (np.inf, "finite"),
-        (None, "'contact', 'sight', or a distance"),
-        (True, "'contact', 'sight', or a distance"),
-    ],
-)
-def test_captures_that_can_not_be_are_refused(capture, words):
-    with pytest.raises(InputError, match=words):
-        Game(ROLES, capture=capture)
-
-
-# -- World.hold ---------------------------------------------------------------------------------
-
-
-def test_a_held_robot_stands_still_whatever_its_law_says():
-    robot = Robot(drive=Holonomic(), controller=right)
-    world = World(Scenario(robots=[robot.at(0, 0), robot.at(0, 2)], stop_time=2.0))
-    world.step()
-    world.hold(1)
-    world.hold(1)  # twice is once
-    while not world.over:
-        world.step()
-    x = world.record.pose[:, 0]
-    assert x[-1, 0] == pytest.approx(1.0)
-    assert (x[1:, 1] == x[1, 1]).all()
-    assert (world.record.command[1:, :, 1] == 0).all()
-
-
-def test_a_held_robot_slows_down_as_its_drive_can():
-    drive = Holonomic(max_acceleration=1.0)
-    robot = Robot(drive=drive, controller=right)
-    world = World(Scenario(robots=[robot], stop_time=3.0))
-    for _ in range(10):
-        world.step()
-    world.hold(0)
-    world.step([[0.5], [0.0]])  # a command from outside does not free it
-    assert world.command[0, 0] == pytest.approx(0.4)
-    while not world.over:
-        world.step()
-    assert world.command[0, 0] == 0
-    assert rerun(world.record) is None
-
-
-def test_to_hold_a_robot_that_is_not_there_is_an_error():
-    for robot in (3, -1):
-        with pytest.raises(InputError, match=rf"World.hold: there is no robot {robot}; they are 0"):
-            World(Scenario()).hold(robot)

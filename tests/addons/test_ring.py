@@ -7,9 +7,6 @@ import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Ring
 from mars2d.core.scene import Circle, Line, Scene, Text
-from mars2d.scenario import load_scenario, save_scenario
-from mars2d.scenario.registry import members
-from mars2d.scenario.roles import robots_named
 from mars2d.world.verify import rerun
 from tests.cases import each_case
 from tests.worlds import finished
@@ -60,13 +57,6 @@ def test_a_robot_is_in_the_ring_as_long_as_its_middle_is():
         assert world.addons.ring.out == out
 
 
-def test_the_ring_is_where_its_center_is():
-    ring = Ring(ROLES, radius=2.0, center=(10.0, 0.0))
-    world = World(bout([0.0] * 4, ring=ring, starts=(10.0, 10.0, 0.0, 10.0)))
-    world.step()
-    assert world.addons.ring.out == (2,)
-
-
 @each_case(
     ("speeds", "stop_time", "score"),
     [
@@ -114,23 +104,6 @@ def test_a_loaded_record_tells_the_same_and_runs_again(tmp_path):
     assert [type(shape) for shape in before] == [Circle]  # the rim alone
 
 
-def test_a_scenario_file_keeps_it(tmp_path):
-    ring = Ring(ROLES, radius=2.5, center=(1.0, 0.0))
-    file = tmp_path / "sumo.toml"
-    still = bout([0.0] * 4, ring=ring)
-    save_scenario(still.replace(robots=[r.replace(controller=None) for r in still.robots]), file)
-    assert load_scenario(file).addons == (ring,)
-
-
-def test_what_all_contests_derive_from_is_no_add_on_to_be_listed():
-    assert {"Ring", "Game"} <= {*members("addons")}
-    assert "Contest" not in members("addons")
-
-
-def test_a_person_may_drive_a_role():
-    assert robots_named(bout([0.0] * 4), "blue", "human =") == (2,)
-
-
 # -- what is refused ----------------------------------------------------------------------------
 
 
@@ -148,8 +121,3 @@ def test_a_person_may_drive_a_role():
 def test_rings_that_can_not_be_are_refused_in_words(fields, words):
     with pytest.raises(InputError, match=words):
         Ring(**({"roles": ROLES} | fields))
-
-
-def test_robots_that_are_not_there_are_refused():
-    with pytest.raises(InputError, match=r"Ring.roles\['red'\]: there is no robot 'r3'"):
-        World(bout([0.0] * 4, ring=Ring({"red": ["r3"], "blue": ["b1"]})))

@@ -5,7 +5,7 @@ import pytest
 
 import mars2d
 from mars2d import Animation, InputError, LawError, Robot, Scenario, World, load
-from mars2d.addons import Addon, Beacon, Theory
+from mars2d.addons import Beacon, Theory
 from mars2d.core.scene import Circle
 from mars2d.output.layers import addons as drawn
 from mars2d.output.raster.picture import paint_frame
@@ -16,14 +16,6 @@ VIOLET = "#7b3294"
 
 def circle(scene, seen):
     scene.circle(seen.pose[:2, 0], 1.5, fill=VIOLET)
-
-
-class Halo(Addon):
-    """Draws a ring round each robot on request."""
-
-    def theory(self, scene, frame):
-        for x, y in frame.pose[:2].T:
-            scene.circle((x, y), 1.0, stroke=VIOLET)
 
 
 def scenario(**fields):
@@ -75,25 +67,9 @@ def test_figures_at_several_times_show_theory_in_each_panel():
     assert discs(theory=True) == [1, 1]
 
 
-def test_in_a_figure_theory_lies_above_the_paths_that_may_cover_it():
-    from matplotlib.patches import Circle as Disc
-
-    halo = scenario(addons=[Halo()], animation=Animation(theory=True))
-    drawn = mars2d.run(halo, control=east).plot().get_children()
-    (ring,) = (k for k, a in enumerate(drawn) if isinstance(a, Disc) and a.radius == 1.0)
-    (path,) = (k for k, a in enumerate(drawn) if len(getattr(a, "get_xdata", list)()) == 21)
-    assert path < ring
-    assert drawn[path].get_zorder() <= drawn[ring].get_zorder()
-
-
 def test_theory_does_not_change_a_run():
     plain = mars2d.run(scenario(), control=east)
     assert mars2d.run(scenario(addons=[Theory(circle)]), control=east).digest == plain.digest
-
-
-def test_an_add_on_of_ones_own_may_have_theory():
-    world = World(scenario(addons=[Halo()]))
-    assert len(drawn.theory(world.frame).shapes) == 1
 
 
 def test_a_saved_record_names_the_theory_that_it_lacks(tmp_path):

@@ -77,36 +77,6 @@ def test_only_the_robots_that_are_named_have_one_in_their_colours():
     assert all(np.all(line.points[:, 1] == 1.0) for line in drawn)
 
 
-def test_what_is_drawn_does_not_grow_with_the_length_nor_with_the_team():
-    long = record_of(Trails(duration=1e4), robots=1, sampling_time=0.01, stop_time=100.0)
-    drawn = lines(long.frame(-1))
-    assert 1 <= len(drawn) <= 12
-    assert 200 < sum(len(line.points) for line in drawn) < 430
-    crowd = record_of(Trails(duration=5.0), robots=200)
-    assert 200 <= len(lines(crowd.frame(-1))) <= 600
-
-
-def test_points_that_are_left_out_are_the_same_ones_from_frame_to_frame():
-    record = record_of(Trails(duration=50), robots=1, sampling_time=0.01, stop_time=30.0)
-
-    def inner(row):
-        drawn = lines(record.frame(row))
-        return {tuple(point) for line in drawn for point in line.points[:-1].tolist()}
-
-    assert len(inner(2000)) > 50
-    assert inner(2000) <= inner(2001)
-
-
-def test_between_two_rows_a_trail_ends_where_the_robot_is_seen():
-    from mars2d.window.player import between
-
-    record = record_of(Trails(duration=2.0), robots=1)
-    drawn = lines(between(record.frame(20), record.frame(30), 2.35))
-    points = np.concatenate([line.points for line in drawn])
-    assert points[:, 0].max() == pytest.approx(PACE * 2.35)
-    assert points[:, 0].min() == pytest.approx(PACE * 0.4)
-
-
 def test_a_window_a_replay_and_a_figure_show_the_same_trails(tmp_path):
     scenario = Scenario(
         robots=[Robot(pose=(-2, 0, 0), controller=ahead)],
@@ -141,8 +111,3 @@ def test_a_window_a_replay_and_a_figure_show_the_same_trails(tmp_path):
 def test_trails_that_can_not_be_are_an_error(fields, message):
     with pytest.raises(InputError, match=message):
         Trails(**fields)
-
-
-def test_a_name_that_no_robot_has_is_an_error_that_knows_the_nearest():
-    with pytest.raises(InputError, match=r"Trails.robots: .*'laeder'.*did you mean 'leader'\?"):
-        World(Scenario(robots=[Robot(name="leader")], addons=[Trails(robots=["laeder"])]))

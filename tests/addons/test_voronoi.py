@@ -10,10 +10,8 @@ import mars2d
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Density, Voronoi
 from mars2d.core.scene import Circle, Line, Polygon, Scene
-from mars2d.geometry.partition import Partition
-from mars2d.geometry.voronoi import Tessellation, Weight
+from mars2d.geometry.voronoi import Tessellation
 from mars2d.output.raster.picture import paint_frame
-from tests.cases import each_case
 
 SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
 HOOK = ((0, 0), (4, 0), (4, 1.5), (1.5, 1.5), (1.5, 2.5), (4, 2.5), (4, 4), (0, 4))
@@ -46,44 +44,6 @@ def test_laws_find_the_cells_of_this_instant():
         assert [cells.neighbours(i) for i in range(3)] == [(1, 2), (0, 2), (0, 1)]
         assert cells.edge(0, 2) == found.edge(0, 2)
         world.step([[0.3, 0, -0.2], [0.1, 0.3, 0]])
-
-
-def test_cells_are_worked_out_once_a_control_step_whoever_asks(monkeypatch):
-    made = []
-    original = Partition.__init__
-
-    def watched(self, *args):
-        made.append(args)
-        original(self, *args)
-
-    def law(world):
-        return lloyd(world) + 0 * lloyd(world) + 1e-3 * (1 + world.iteration)
-
-    monkeypatch.setattr(Partition, "__init__", watched)
-    world = World(team(addons=[Density(slope)]), control=law)
-    world.step()
-    made.clear()
-    for count in range(1, 5):
-        world.step()
-        world.addons.voronoi.draw(Scene(), world.frame)
-        world.addons.voronoi.theory(Scene(), world.frame)
-        world.scenario.addons[0].of(world.record.frame(-1)).edge(0, 1)
-        assert len(made) == count + 1  # the cells after a step are those of the next law
-
-
-def test_a_law_can_not_change_what_the_next_one_sees():
-    cells = World(team()).addons.voronoi
-    for array in (cells.centroids, cells.areas, cells.masses):
-        with pytest.raises(ValueError, match="read-only"):
-            array[..., 0] = 1
-
-
-def test_nothing_is_worked_out_that_nobody_asks_for():
-    world = World(team(), control=lambda world: np.full((2, 3), 0.0123))
-    world.step()
-    assert "_diagram" not in vars(world.addons.voronoi._now._partition)
-    assert world.addons.voronoi.cells
-    assert "_diagram" in vars(world.addons.voronoi._now._partition)
 
 
 def test_a_record_has_the_cells_that_the_law_saw():
@@ -159,27 +119,6 @@ def test_a_name_that_no_density_has_is_an_error_with_the_nearest_one():
         World(scenario)
 
 
-def test_an_addon_of_ones_own_may_weigh():
-    class Twice(mars2d.Addon, Weight):
-        def of(self, points):
-            return np.full(points.shape[1], 2.0)
-
-    voronoi = World(team(addons=[Twice()])).addons.voronoi
-    assert voronoi.masses == pytest.approx(2 * voronoi.areas)
-
-
-def test_a_finer_resolution_sees_a_smaller_spot():
-    def spot(x, y):
-        return np.where((x - 2) ** 2 + (y - 2) ** 2 < 0.04, 1.0, 0.0)
-
-    def total(resolution):
-        addons = [Voronoi(resolution=resolution), Density(spot)]
-        return World(team().replace(addons=addons)).addons.voronoi.masses.sum()
-
-    off = [abs(total(resolution) - 0.04 * np.pi) for resolution in (1.0, 0.05)]
-    assert off[1] < 0.3 * off[0]
-
-
 def test_what_a_density_does_wrong_on_the_way_is_an_error_of_its_function():
     def hole(x, y):  # only looked at once robots are at work
         return np.where(np.abs(x - y) < 1e-3, np.nan, 1.0) if len(x) < 20_000 else 1.0 + 0 * x
@@ -189,26 +128,6 @@ def test_what_a_density_does_wrong_on_the_way_is_an_error_of_its_function():
     with pytest.raises(LawError, match=r"Density\.function: expected of phi\(x, y\) .* is nan at"):
         for _ in range(20):
             world.step()
-
-
-# -- what can't be ----------------------------------------------------------------------------
-
-
-def test_without_a_workspace_there_is_nothing_to_divide():
-    with pytest.raises(InputError, match=r"^Scenario.workspace = None: expected a polygon") as e:
-        World(team(workspace=None))
-    assert not isinstance(e.value, LawError)
-
-
-def test_outside_of_a_world_there_are_no_cells():
-    with pytest.raises(InputError, match=r"voronoi.of\(record.frame\(row\)\)"):
-        Voronoi().areas  # noqa: B018
-
-
-@each_case("fields", [{"resolution": 0}, {"density": 3}, {"cells": 2}])
-def test_fields_that_can_not_be_are_errors(fields):
-    with pytest.raises(InputError, match=r"Voronoi"):
-        Voronoi(**fields)
 
 
 # -- what is seen -----------------------------------------------------------------------------
@@ -250,16 +169,3 @@ def test_cells_stand_in_pictures_films_and_replays(tmp_path):
     pictures = [paint_frame(r.frame(-1), (400, 400), theory=True) for r in (record, loaded)]
     assert [picture.get_size() for picture in pictures] == [(400, 400)] * 2
     record.plot().figure.canvas.draw()
-
-
-def test_a_replay_that_has_lost_the_named_density_shows_no_centroids(tmp_path):
-    scenario = team().replace(addons=[Voronoi(density="density"), Density(slope)])
-    record = mars2d.run(scenario, control=lloyd)
-    record.save(tmp_path / "r.npz")
-    loaded = mars2d.load(tmp_path / "r.npz")
-    assert "Density, with its function slope" in loaded.missing
-    assert [type(a).__name__ for a in loaded.scenario.addons] == ["Voronoi"]
-    for what, some in (("draw", True), ("theory", False)):
-        scene = Scene()
-        getattr(loaded.scenario.addons[0], what)(scene, loaded.frame(-1))
-        assert bool(scene.shapes) == some

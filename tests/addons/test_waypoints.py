@@ -58,17 +58,6 @@ def test_waypoints_are_reached_one_after_the_other_and_then_the_robot_has_arrive
         assert np.hypot(x - place[0], y - place[1]) <= 0.1
 
 
-def test_a_later_waypoint_does_not_count_before_the_ones_before_it():
-    path = [[(0.0, 1.0)], [(1.0, 1.0)], [(1.0, 0.0)]]
-    assert Waypoints([ROUTE]).passed(path) == (1,)
-    assert Waypoints([ROUTE]).passed([*path, [(1.0, 0.9)], [(0.2, 1.0)]]) == (3,)
-
-
-def test_waypoints_that_lie_close_together_are_reached_in_one_step():
-    close = Waypoints([[(1, 0), (1.1, 0), (1.2, 0), (2, 0)]], tolerance=0.3)
-    assert close.passed([[(0, 0)], [(1, 0)]]) == (3,)
-
-
 def test_a_waypoint_is_reached_at_the_tolerance_and_not_beyond():
     for x, reached in ((0.75, 1), (0.749, 0)):
         assert Waypoints([[(1, 0)]], tolerance=0.25).passed([[(x, 0)]]) == (reached,)
@@ -115,15 +104,6 @@ def test_it_moves_nobody():
     )
     shown = mars2d.run(scenario(ROUTE), stop_time=5.0, control=lambda _: [[1], [0]])
     assert (plain.pose == shown.pose).all()
-
-
-def test_each_world_counts_for_itself():
-    described = scenario(ROUTE)
-    first = World(described, go)
-    while not first.over:
-        first.step()
-    assert World(described, go).addons.waypoints.reached == (0,)
-    assert described.addons[0].reached == (0,)
 
 
 # -- what is drawn --------------------------------------------------------------------------------
@@ -178,11 +158,6 @@ def test_routes_that_are_none_are_refused_in_words(routes, message):
         Waypoints(routes)
 
 
-def test_more_routes_than_robots_are_refused():
-    with pytest.raises(InputError, match="has 2 routes, but there is 1 robot"):
-        World(scenario(ROUTE, ROUTE, robots=1))
-
-
 def test_a_waypoint_outside_of_the_workspace_is_named_unless_robots_may_leave_it():
     outside = scenario(ROUTE, [(2, 0), (9, 0)])
     with pytest.raises(
@@ -191,9 +166,3 @@ def test_a_waypoint_outside_of_the_workspace_is_named_unless_robots_may_leave_it
         World(outside)
     World(outside.replace(on_exit="ignore"))
     World(outside.replace(workspace=None))
-
-
-@each_case("tolerance", [0.0, -1.0, float("inf")])
-def test_a_tolerance_out_of_range_is_refused(tolerance):
-    with pytest.raises(InputError, match=r"Waypoints\.tolerance = "):
-        Waypoints([ROUTE], tolerance=tolerance)

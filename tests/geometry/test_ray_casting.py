@@ -1,4 +1,4 @@
-"""Fans of rays: who is hit, to how many digits; and a fan alone is as one in a team."""
+"""Fans of rays: the engine's rays, found in another way; and a fan alone is as one in a team."""
 
 from __future__ import annotations
 
@@ -6,14 +6,17 @@ from fractions import Fraction
 from math import cos, inf, pi, sin
 
 import numpy as np
+import pymunk
 import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
+from mars2d.core.plane import edges_of
 from mars2d.geometry.ray_casting import MAX_RAYS_AT_ONCE as AT_ONCE
 from mars2d.geometry.ray_casting import Fans
 from mars2d.geometry.shapes import Compound, Disc, Polygon
+from mars2d.physics.rays import BODY, Rays, end_bars
 from mars2d.sensors import LineCamera, RangeFinder, SonarRing
 from tests.cases import each_case
 
@@ -57,7 +60,55 @@ def fans_of(bodies, poses, outlines):
     return fans
 
 
+def engines(bodies, poses, outlines):
+    """The engine's rays in the same scene."""
+    space, numbers = pymunk.Space(), {}
+    for i, (pieces, (x, y, theta)) in enumerate(zip(bodies, poses.T.tolist(), strict=True)):
+        body = pymunk.Body(1.0, 1.0)
+        body.position, body.angle = (x, y), theta
+        space.add(body)
+        for points, radius in pieces:
+            disc = len(points) == 1
+            shape = pymunk.Circle(body, radius, points[0]) if disc else pymunk.Poly(body, points)
+            shape.filter = pymunk.ShapeFilter(i + 1, categories=BODY)
+            numbers[shape] = i
+    for k, outline in enumerate(outlines):
+        edges = edges_of(outline)
+        for a, b in edges + (end_bars(*edges[0]) if len(edges) == 1 else []):
+            numbers[pymunk.Segment(space.static_body, a, b, 0.0)] = -1 - k
+    space.add(*numbers)
+    return Rays(space, numbers)
+
+
 # -- what rays meet -----------------------------------------------------------------------------
+
+
+def test_fans_are_the_engines_rays():
+    rng = np.random.default_rng(0)
+    hits = starts_within = 0
+    for _ in range(150):
+        bodies, poses, _ = scene = some_scene(rng)
+        fans, rays = fans_of(*scene), engines(*scene)
+        count, beams = int(rng.integers(1, 8)), int(rng.integers(1, 60))
+        looks = rng.uniform(-4, 4, (3, count))
+        whose = rng.integers(len(bodies), size=count)
+        looks[:2, 0] = poses[:2, whose[0]]  # from within its own body
+        looks[:2, -1] = poses[:2, 0]  # perhaps from within another one
+        bearings = np.linspace(-rng.uniform(0.1, pi), rng.uniform(0.1, pi), beams)
+        if rng.random() < 0.3:
+            bearings = rng.uniform(-9, 9, beams)
+        reach = rng.uniform(0.5, 9)
+        found = fans.distances(looks, bearings, reach, whose)
+        for row, (x, y, theta), own in zip(found, looks.T.tolist(), whose.tolist(), strict=True):
+            angles = (theta + bearings).tolist()
+            wanted = np.array([rays.length((x, y), angle, reach, own) for angle in angles])
+            assert np.array_equal(np.isfinite(row), np.isfinite(wanted))
+            hit = np.isfinite(row)
+            assert np.abs(row[hit] - wanted[hit]).max(initial=0) < EXACT
+            hits += hit.sum()
+            starts_within += (row == 0).all()
+    assert hits > 5000
+    assert starts_within > 20
 
 
 def test_a_ray_hits_the_body_that_alone_is_as_far():

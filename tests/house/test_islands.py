@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mars2d.physics import islands
-from mars2d.physics.islands import build, chipmunk
+from mars2d.physics.islands import build
 from tests.cases import each_case
 
 FOLDER = Path(islands.__file__).parent
@@ -79,13 +79,6 @@ def test_chipmunk_is_the_same_in_python_and_in_c():
     assert set(build.in_c()) <= set(defined(text_of("chipmunk.py")))
 
 
-def test_each_method_of_arbiters_is_there_in_both():
-    own = text_of("chipmunk.pxi")
-    body = own[own.index("cdef class Arbiters:") : own.index("cdef int first_of")]
-    methods = set(re.findall(r"^    (?:cdef|def) .*?(\w+)\(", body, flags=re.M))
-    assert methods - {"__dealloc__"} == {n for n in vars(chipmunk.Arbiters) if n[0] != "_"}
-
-
 @each_case("name", build.MODULES)
 def test_a_module_imports_only_what_is_there_when_they_are_joined(name):
     """Of those before it in the list, by their own names; of C's mathematics; of typing."""
@@ -99,22 +92,3 @@ def test_a_module_imports_only_what_is_there_when_they_are_joined(name):
     }
     for module, names in imports(name):
         assert names <= known.get(module, set()), f"{names} of {module}"
-
-
-def test_every_module_is_joined():
-    apart = {"__init__", "build", "chipmunk", "layout", "plain", "shadow"}
-    assert {path.stem for path in FOLDER.glob("*.py")} - apart == set(build.MODULES)
-
-
-def test_cythons_names_that_the_modules_use_are_there_in_python():
-    used = {
-        n for each in build.MODULES for n in re.findall(r"cython\.(\w+)", text_of(f"{each}.py"))
-    }
-    assert used <= set(defined(text_of("shadow.py")))
-
-
-def test_what_is_joined_imports_nothing_of_its_own_parts():
-    joined = build.joined()
-    assert IMPORTS not in joined
-    assert "cython.Doubles" not in joined
-    assert f'FINGERPRINT = "{build.fingerprint()}"' in joined

@@ -24,7 +24,6 @@ from mars2d.output.films.triptych import Triptych, save_triptych
 from mars2d.record.rows import COLUMNS
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
-from tests.cases import each_case
 
 SIZE = (640, 360)
 
@@ -89,14 +88,6 @@ def test_the_drift_ends_with_the_run_that_ends_first(comparison):
     assert comparison.end == 4.0
 
 
-def test_headings_do_not_count():
-    first = run(0.5)
-    pose = first.pose.copy()
-    pose[:, 2] += 1.0
-    drift = Drift.between(first, dataclasses.replace(first, pose=pose))
-    assert drift.max.max() == 0.0
-
-
 def test_the_drift_counts_props_after_the_robots():
     first = run(0.5)
     prop = np.zeros((len(first), 3, 1))
@@ -137,14 +128,6 @@ def test_three_panels_show_the_same_part_of_the_plane_at_the_same_size(compariso
     assert (below.get_xlabel(), below.get_ylabel()) == ("time [s]", "drift [m]")
 
 
-def test_a_panel_that_leaves_the_workspace_widens_all(comparison):
-    far = run(3.0, on_exit="ignore", stop_time=4.0)
-    near = run(0.5, on_exit="ignore", stop_time=4.0)
-    *panels, _ = plot_comparison(Comparison(near, near, far)).axes
-    assert {ax.get_xlim()[1] for ax in panels} == {panels[0].get_xlim()[1]}
-    assert panels[0].get_xlim()[1] > far.pose[-1, 0].max()
-
-
 def test_titles_say_which_physics_how_many_collisions_and_how_it_ended(comparison):
     words = texts(plot_comparison(comparison))
     for mode in MODES:
@@ -154,22 +137,6 @@ def test_titles_say_which_physics_how_many_collisions_and_how_it_ended(compariso
     assert "Time is over: 4 s" in words
     assert "It ended early" in words
     assert "seed 0" in words
-
-
-def test_texts_neither_overlap_nor_leave_the_page():
-    long = "Out of bounds: a robot of a very long name left the workspace at (12.345, -67.89)"
-    message = cut(run(0.5), 5, " and ".join([long] * 3))
-    figure = plot_comparison(Comparison(message, message, message))
-    figure.canvas.draw()
-    boxes = [text.get_window_extent() for text in figure.texts]
-    page = figure.bbox
-    for k, box in enumerate(boxes):
-        assert box.x0 >= page.x0
-        assert box.x1 <= page.x1
-        for other in boxes[k + 1 :]:
-            assert not box.overlaps(other), (figure.texts[k].get_text(), other)
-        for ax in figure.axes:
-            assert not box.overlaps(ax.get_window_extent()), figure.texts[k].get_text()
 
 
 def test_the_curves_are_the_drift_in_the_colours_of_the_titles(comparison):
@@ -214,34 +181,6 @@ def test_runs_that_agree_say_so():
     assert ax.get_ylim() == (0, 1)
 
 
-def test_a_run_of_no_step_is_drawn_too(tmp_path):
-    start = cut(run(0.5), 1)
-    path = Comparison(start, start, start).save_figure(tmp_path / "a.png")
-    assert path.stat().st_size > 10_000
-
-
-@pytest.mark.slow
-def test_the_file_has_the_size_of_the_page_and_always_the_same_bytes(comparison, tmp_path):
-    path = comparison.save_figure(tmp_path / "a.png")
-    with Image.open(path) as picture:
-        width, height = picture.size
-    page = plot_comparison(comparison).get_size_inches()
-    assert width == 2200
-    assert height == pytest.approx(200 * page[1], abs=1)
-    comparison.save_figure(tmp_path / "b.png")
-    assert path.read_bytes() == (tmp_path / "b.png").read_bytes()
-    assert comparison.save_figure(tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
-    assert b"<svg" in comparison.save_figure(tmp_path / "a.svg").read_bytes()
-    with pytest.raises(InputError, match=r"a\.jpg.*\.png, \.pdf or \.svg"):
-        comparison.save_figure(tmp_path / "a.jpg")
-
-
-def test_titles_are_no_formulas(tmp_path):
-    first = run(0.5, title="Cost: $5 and $x_")
-    comparison = Comparison(first, first, cut(first, 3, "$^ is no formula"))
-    assert comparison.save_figure(tmp_path / "a.png").exists()
-
-
 # -- the film ---------------------------------------------------------------------------------
 
 
@@ -272,16 +211,6 @@ def test_a_film_lasts_as_long_as_the_longest_run(tmp_path):
     assert duration == 100 * frames
 
 
-def test_a_film_can_be_an_mp4(tmp_path):
-    av = pytest.importorskip("av")
-    comparison, reels = takes()
-    save_triptych(comparison, reels, tmp_path / "a.mp4", fps=10, size=SIZE)
-    with av.open(str(tmp_path / "a.mp4")) as film:
-        pictures = [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
-    assert len(pictures) == 22
-    assert pictures[0].shape == (360, 640, 3)
-
-
 def pixels(surface):
     from pygame.surfarray import array3d
 
@@ -292,21 +221,6 @@ def near(picture, color, part):
     """Return in which columns of a part of a picture a colour is seen."""
     wanted = np.array(list(bytes.fromhex(color[1:])))
     return np.flatnonzero((np.abs(picture[part] - wanted).max(axis=2) < 24).any(axis=1))
-
-
-def test_the_curves_grow_with_time():
-    comparison, reels = takes()
-    triptych = Triptych(comparison, (1280, 720))
-    shown = [list(footage.frames(last)) for footage, last in reels.values()]
-    reach = []
-    for k in (0, 7, 14):
-        frames = [film[min(k, len(film) - 1)] for film in shown]
-        picture = pixels(triptych.paint(frames))
-        below = np.s_[:, triptych._plot.place.top + 40 :]
-        reach.append(near(picture, COLORS["stop"], below).max())
-    left, right = triptych._plot._span
-    wanted = [left + (right - left) * k * 0.2 / 4.0 for k in (0, 7, 14)]
-    np.testing.assert_allclose(reach, wanted, atol=7)
 
 
 def test_a_run_that_ended_earlier_stands_still_and_says_why(tmp_path):
@@ -322,38 +236,3 @@ def test_a_run_that_ended_earlier_stands_still_and_says_why(tmp_path):
     first = np.s_[: 1280 // 3, 60:bottom]
     assert (early[third] == late[third]).all()
     assert (early[first] != late[first]).any()
-
-
-def test_collisions_are_counted_as_they_happen():
-    head_on = [Robot(pose=(-1, 0, 0), diameter=0.4), Robot(pose=(1, 0, math.pi), diameter=0.4)]
-    record = mars2d.run(scenario(robots=head_on), control=straight(0.5))
-    assert record.collisions == 1
-    collisions, *_ = Triptych(Comparison(record, record, record), SIZE)._collisions
-    assert 1.4 < collisions[0] < 1.8
-
-
-@each_case(
-    "size, corners",
-    [((640, 360), (10, 1)), ((1280, 720), (1, 10)), ((1920, 1080), (10, 10))],
-)
-def test_panels_and_drift_share_the_height(size, corners):
-    width, height = corners
-    outline = [(0, 0), (width, 0), (width, height), (0, height)]
-    still = scenario(robots=[Robot(pose=(0.5, 0.5, 0))], workspace=outline, stop_time=1.0)
-    record = mars2d.run(still, control=lambda world: [[0.0], [0.0]])
-    triptych = Triptych(Comparison(record, record, record), size)
-    place = triptych._plot.place
-    assert place.bottom == size[1]
-    assert place.height >= 0.29 * size[1]
-    frame = record.frame(0)
-    for panel, camera in zip(triptych._arenas, triptych._cameras, strict=True):
-        (left, top), (right, bottom) = camera.to_pixels([(0, height), (width, 0)])
-        assert panel.plot.left <= left < right <= panel.plot.right
-        assert panel.plot.top <= top < bottom <= place.top
-    assert triptych.paint([frame] * 3).get_size() == size
-
-
-def test_a_film_of_no_step_has_the_start_and_the_end(tmp_path):
-    comparison, reels = takes(steps=(1, 1, 1), speed=100.0)
-    save_triptych(comparison, reels, tmp_path / "a.gif", fps=10, size=SIZE)
-    assert (tmp_path / "a.gif").read_bytes().startswith(b"GIF89a")

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
 
 import mars2d
-from mars2d import InputError, Robot, Scenario
+from mars2d import Robot, Scenario
 from mars2d.addons import Map
-from mars2d.output.figures.contacts import normal_force, pair_name
+from mars2d.output.figures.contacts import normal_force
 from tests.cases import each_case
 
 
@@ -82,33 +79,6 @@ def test_obstacles_and_walls_are_named():
     assert record.scenario.body_name(-2) == "wall"
 
 
-def test_of_many_pairs_the_most_important_are_shown_and_the_others_counted():
-    crowd = mars2d.run("crowd", stop_time=5)
-    pairs = len({(a, b) for a, b in zip(crowd.contacts["a"], crowd.contacts["b"], strict=True)})
-    assert pairs > 40
-    for style, shown in (("screen", 16), ("projector", 8)):
-        upper, _ = crowd.plot_contacts(style=style)
-        assert len(names(upper)) == shown
-        assert f"and {pairs - shown} more pairs" in [text.get_text() for text in upper.texts]
-        begins = [begin for begin, _ in spans(upper)]
-        assert begins == sorted(begins), "in the order in which they met"
-    impulse = {}
-    for row in crowd.contacts:
-        key = pair_name(crowd.scenario, row["a"], row["b"])
-        impulse[key] = impulse.get(key, 0) + row["normal_impulse"]
-    assert set(names(upper)) == set(sorted(impulse, key=impulse.get, reverse=True)[:8])
-
-
-def test_the_shortest_touch_in_a_long_run_is_wide_enough_to_be_seen():
-    record = meet()
-    contacts = record.contacts[:1].copy()
-    contacts["duration"] = 0
-    time = np.arange(len(record)) * 1000.0
-    long = dataclasses.replace(record, contacts=contacts, time=time)
-    ((begin, end),) = spans(long.plot_contacts()[0])
-    assert end - begin > time[-1] / 500
-
-
 def test_without_contacts_the_figure_says_so():
     (ax,) = meet(stop_time=1).plot_contacts()
     assert "no contacts: nothing touched in 1 s" in [text.get_text() for text in ax.texts]
@@ -122,23 +92,3 @@ def test_without_forces_the_bars_stand_alone(physics):
     assert len(axes) == 1
     assert axes[0].child_axes == []
     assert spans(axes[0])[0][0] == pytest.approx(2.0, abs=0.1)
-
-
-def test_axes_given_are_drawn_on_one_or_both():
-    figure = Figure()
-    upper, lower, other = figure.subplots(3, 1)
-    record = meet()
-    assert record.plot_contacts([upper, lower]) == [upper, lower]
-    assert record.plot_contacts(other) == [other]
-    assert figure.axes == [upper, lower, other]
-    with pytest.raises(InputError, match="axes: 3 of them, for 2 panels"):
-        record.plot_contacts([upper, lower, other])
-
-
-def test_a_record_without_rows_is_refused_and_one_of_one_row_drawn():
-    record = meet()
-    none = dataclasses.replace(record, time=record.time[:0], contacts=record.contacts[:0])
-    with pytest.raises(InputError, match="no rows"):
-        none.plot_contacts()
-    one = dataclasses.replace(record, time=record.time[:1], contacts=record.contacts[:0])
-    one.plot_contacts()[0].figure.canvas.draw()

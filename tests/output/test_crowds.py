@@ -6,15 +6,14 @@ from itertools import combinations
 
 import numpy as np
 
-from mars2d import Animation, Holonomic, Robot, Scenario
+from mars2d import Holonomic, Robot, Scenario
 from mars2d.addons import Communication, Theory
-from mars2d.core.scene import PALETTE, Circle, Line, Text, rgb
+from mars2d.core.scene import PALETTE, Circle, Text, rgb
 from mars2d.output.layers import bodies
-from mars2d.output.layers.legend import legends, sign_rows
+from mars2d.output.layers.legend import legends
 from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.rings import RING, rings
-from mars2d.output.pages.notebook import scenario_svg
-from mars2d.scenario.controllers import ByHand, Wander
+from mars2d.scenario.controllers import ByHand
 from mars2d.sensors import Beacon, Imu, Proximity, RangeBearing, RangeFinder, SonarRing
 from tests.cases import each_case
 
@@ -38,12 +37,6 @@ def test_robots_of_less_than_a_hundredth_of_the_arena_have_rings(side, count):
     for ring in found:
         assert isinstance(ring, Circle)
         assert (ring.radius, ring.pixels) == (0.0, RING)  # under a robot that is seen large
-
-
-def test_where_robots_are_drawn_as_points_there_are_no_rings():
-    points = Animation(show_real_shape=False)
-    far = [(-99, -99), (99, -99), (99, 99), (-99, 99)]
-    assert rings(frame_of(Scenario(robots=3, workspace=far, animation=points))).shapes == []
 
 
 # -- names -----------------------------------------------------------------------------------------
@@ -87,27 +80,7 @@ def test_a_name_stays_at_its_place_as_long_as_that_is_as_good():
     assert all(place == places[0] for place in places)
 
 
-def test_names_of_bodies_out_of_sight_stay_out_of_sight():
-    frame = frame_of(Scenario(robots=[Robot(), Robot(pose=(4, 0, 0))]))
-    scene = placed_names(bodies.names(frame), frame, 0.01, Box(0, 0, 1, 1))
-    assert [label.position[0] for label in scene.shapes] == [0.0, 4.0]
-
-
-def test_a_picture_for_a_notebook_has_names_apart():
-    robots = [Robot(name=f"a long name {k}", pose=(0.31 * k, 0, 0)) for k in range(5)]
-    text = scenario_svg(Scenario(robots=robots))
-    lines = [line for line in text.splitlines() if "a long name" in line and "<text" in line]
-    heights = {line.partition('y="')[2].partition('"')[0] for line in lines}
-    assert len(lines) == 5
-    assert len(heights) > 1
-
-
 # -- colours ---------------------------------------------------------------------------------------
-
-
-def test_up_to_twenty_robots_have_the_colours_of_the_palette_in_turn():
-    colors = Scenario(robots=20).colors
-    assert colors == tuple(PALETTE[k % 8] for k in range(20))
 
 
 def test_a_crowd_is_coloured_by_name_law_drive_and_size():
@@ -129,14 +102,6 @@ def test_a_crowd_is_coloured_by_name_law_drive_and_size():
     assert len(set(colors)) == 12
 
 
-def test_colours_that_are_given_are_kept_in_a_crowd():
-    robots = [Robot(pose=(k, 0, 0), color="#123456") for k in range(30)]
-    assert set(Scenario(robots=robots, workspace=None).colors) == {"#123456"}
-    base = Animation(base_colors=("red", "blue"))
-    plain = [Robot(pose=(k, 0, 0)) for k in range(30)]
-    assert len(set(Scenario(robots=plain, workspace=None, animation=base).colors)) == 2
-
-
 # -- legends ---------------------------------------------------------------------------------------
 
 
@@ -154,18 +119,3 @@ def test_messages_theory_and_sensors_have_legends_where_they_are_drawn():
     assert found["sensors"] == [
         "a sonar's echo", "a laser's hit", "something is near", "range and bearing",
     ]  # fmt: skip
-
-
-def test_signs_lie_within_their_room_and_have_their_words_beside_them():
-    scenario = Scenario(robots=[Robot(sensors=Wander.needs)], addons=[Communication()])
-    shown = [each for each in legends(scenario) if each.layer in ("sensors", "messages")]
-    for sign in (sign for legend in shown for sign in legend.signs):
-        for shape in sign.scene.shapes:
-            if isinstance(shape, Line):
-                assert np.abs(shape.points).max() <= sign.room / 2
-    scene = sign_rows(shown, (1.0, 2.0), 0.01)
-    words = [shape for shape in scene.shapes if isinstance(shape, Text)]
-    assert [each.text for each in words] == ["something is near", "message", "message lost"]
-    assert {round(each.position[0], 6) for each in words} == {1.3}
-    rows = [each.position[1] for each in words]
-    assert rows == sorted(rows)

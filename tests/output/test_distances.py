@@ -6,15 +6,13 @@ import dataclasses
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 import mars2d
-from mars2d import InputError, Robot, Scenario, World
+from mars2d import Robot, Scenario
 from mars2d.addons import Map
 from mars2d.bodies.joints import Hinge
 from mars2d.bodies.props import Box, Puck
 from mars2d.geometry.shapes import rectangle
-from mars2d.output.figures import distances
 from mars2d.output.figures.distances import clearances, nearest_body
 from mars2d.record.interventions import Change
 
@@ -80,16 +78,6 @@ def test_the_clearance_to_obstacles_is_that_of_the_nearest_one():
     np.testing.assert_allclose(found.obstacle[0], [2 - 0.15, 1 - 0.15])
 
 
-def test_the_workspace_is_a_wall_only_where_it_is_one():
-    fields = {"robots": [Robot(pose=(4, 0, 0))], "workspace": rectangle_points(5)}
-    assert clearances(run(**fields)).obstacle is None
-    np.testing.assert_allclose(clearances(run(on_exit="wall", **fields)).obstacle, 1 - 0.15)
-
-
-def rectangle_points(half):
-    return [(-half, -half), (half, -half), (half, half), (-half, half)]
-
-
 def test_in_an_obstacle_the_clearance_is_negative():
     fields = {"robots": [Robot(pose=(0, 0, 0))], "physics": "ideal", "stop_time": 10}
     record = run(ahead, addons=[Map([[(1, -1), (3, -1), (3, 1), (1, 1)]])], **fields)
@@ -153,37 +141,3 @@ def test_of_many_there_is_a_band_from_the_least_to_the_most():
     np.testing.assert_allclose([least.get_ydata()[0], mean.get_ydata()[0]], [2.7, 5.1])
     (band,) = ax.collections
     assert band.get_paths()[0].vertices[:, 1].max() == pytest.approx(8.7)
-
-
-def test_one_alone_has_no_distances_and_the_figure_says_so():
-    ax = run(robots=[Robot()]).plot_distances()
-    assert any("no distances" in text.get_text() for text in ax.texts)
-
-
-def test_of_a_run_that_is_too_long_some_rows_are_left_out_and_it_is_said(monkeypatch):
-    monkeypatch.setattr(distances, "MAX_DISC_GAPS", 20)
-    robots = [Robot(pose=(-1, 0, 0)), Robot(pose=(1, 0, np.pi))]
-    record = run(ahead, robots=robots, stop_time=5)
-    assert clearances(record).rows.tolist() == [*range(0, 51, 3)][:17] + [50] * (50 % 3 > 0)
-    assert "every 3rd row" in record.plot_distances().get_title(loc="left")
-
-
-def test_axes_given_are_drawn_on():
-    figure = Figure()
-    ax, other = figure.subplots(1, 2)
-    record = run(robots=[Robot(pose=(0, 0, 0)), Robot(pose=(1, 0, 0))])
-    assert record.plot_distances(ax) is ax
-    assert not other.has_data()
-    with pytest.raises(InputError, match="expected plain axes"):
-        record.plot_distances("here")
-
-
-def test_a_record_without_rows_is_refused_and_one_of_one_row_drawn():
-    record = World(Scenario(robots=2), still).record
-    with pytest.raises(InputError, match="no rows"):
-        record.plot_distances()
-    whole = run(robots=2, workspace=rectangle_points(5))
-    one = dataclasses.replace(
-        whole, time=whole.time[:1], pose=whole.pose[:1], prop_pose=whole.prop_pose[:1]
-    )
-    one.plot_distances().figure.canvas.draw()

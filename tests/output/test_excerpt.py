@@ -1,13 +1,9 @@
 """An error is shown with the lines of code that it points at."""
 
-import functools
-import traceback
-
 import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.core.errors import InputError, LawError
-from mars2d.core.usercode import users_line
 from mars2d.output.excerpt import Excerpt, excerpt_of
 from mars2d.scenario.experiment import load_law, open_experiment
 from tests.cases import each_case
@@ -67,44 +63,6 @@ def test_a_line_that_is_no_python(folder):
         load_law(folder / "walk.py", "control")
     assert excerpt_of(caught.value).line == 1
     assert excerpt_of(caught.value).lines[0] == "def control(world:"
-
-
-def test_an_error_of_python_itself_has_the_users_innermost_line():
-    with pytest.raises(ZeroDivisionError) as caught:
-        functools.reduce(lambda a, b: a / b, [1, 0])
-    assert "reduce" in excerpt_of(caught.value).lines[2]
-
-
-def test_the_file_that_starts_the_command_line_is_no_code_of_the_user():
-    outer = traceback.FrameSummary("/usr/local/bin/mars2d", 6, "<module>", lookup_line=False)
-    law = traceback.FrameSummary("/home/ada/walk.py", 12, "control", lookup_line=False)
-    assert users_line(traceback.StackSummary.from_list([outer])) is None
-    assert users_line(traceback.StackSummary.from_list([outer, law])) == "walk.py, line 12"
-
-
-@each_case("name", ["<string>", "", "<stdin>"])
-def test_code_that_was_made_by_eval_has_no_place_in_a_file(name):
-    made = {}
-    exec(compile("def law(world):\n    return 1 / 0\n", name, "exec"), made)
-    error = error_of(made["law"])
-    assert str(error).startswith("law raised ZeroDivisionError")
-    assert error.where is None
-
-
-def test_without_a_place_there_is_no_excerpt():
-    assert excerpt_of(InputError("range = -1: expected > 0")) is None
-    gone = InputError("gone")
-    gone.where = "nowhere.py, line 3"
-    assert excerpt_of(gone) is None
-    endless = InputError("its own cause")
-    endless.__cause__ = endless
-    assert excerpt_of(endless) is None
-
-
-def test_a_line_beyond_the_end_of_a_file_that_has_changed(folder):
-    error = error_of(load_law(folder / "walk.py", "control"))
-    (folder / "walk.py").write_text("\n")
-    assert excerpt_of(error) is None
 
 
 @each_case("line, count, first", [(5, 1, 5), (5, 3, 4), (3, 3, 3), (7, 3, 5)])

@@ -26,7 +26,6 @@ from mars2d.output.figures.artists import paint
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_figure
 from mars2d.output.layers.forces import FORCE
 from mars2d.output.layers.table import Layers
-from mars2d.output.pages.replay import page
 from mars2d.sensors import Proximity
 from tests.cases import each_case
 from tests.processes import PATIENCE
@@ -144,17 +143,6 @@ def test_titles_and_names_are_shown_as_they_are_written():
     ax.figure.canvas.draw()  # raises where it is taken for mathematics
 
 
-def test_a_title_of_any_length_stays_on_the_page(record):
-    scenario = record.scenario.replace(title="A title without end, " * 30)
-    ax = dataclasses.replace(record, scenario=scenario).plot()
-    ax.figure.canvas.draw()
-    page, title = ax.figure.bbox, ax.title.get_window_extent()
-    assert ax.get_title().count("\n") == 2
-    assert page.x0 <= title.x0
-    assert title.x1 <= page.x1
-    assert title.y1 <= page.y1
-
-
 def test_the_legend_names_few_robots_beside_the_drawing(record):
     ax = record.plot()
     legend = ax.get_legend()
@@ -163,19 +151,6 @@ def test_the_legend_names_few_robots_beside_the_drawing(record):
     ax.figure.canvas.draw()
     assert legend.get_window_extent().x0 >= ax.get_window_extent().x1
     assert legend.get_window_extent().x1 <= ax.figure.bbox.x1
-
-
-def test_more_than_eight_robots_have_no_legend():
-    for count, named in ((8, True), (9, False)):
-        run = mars2d.run(Scenario(robots=count, stop_time=1), control=lambda w: 0 * w.command)
-        assert (run.plot().get_legend() is not None) is named
-
-
-def test_in_a_crowd_the_paths_are_paler_than_the_robots():
-    drive = Scenario(robots=9, stop_time=1)
-    ax = mars2d.run(drive, control=lambda w: [[0.1] * 9, [0.0] * 9]).plot()
-    assert {round(to_rgba(line.get_color())[3], 1) for line in trails(ax)} == {0.5}
-    assert to_rgba(discs(ax)[-1].get_facecolor())[3] == 1
 
 
 # -- what the animation's fields choose -------------------------------------------------------
@@ -198,43 +173,6 @@ def test_a_figure_of_paths_has_them_unless_they_are_switched_off(record):
     assert trails(plot_paths(still, layers=Layers(trails=False))) == []
 
 
-@each_case("robots", [9, 300])
-def test_paths_of_hundreds_are_thinner(robots):
-    pose = [(0.5 * (k % 20), 0.5 * (k // 20), 0) for k in range(robots)]
-    scenario = Scenario(robots=[Robot(pose=at) for at in pose], stop_time=0.3, workspace=None)
-    run = mars2d.run(scenario, control=lambda world: np.full((2, robots), 0.1))
-    width = trails(run.plot())[0].get_linewidth()
-    assert width == pytest.approx(0.64 if robots == 9 else 0.64 * np.sqrt(0.2), rel=0.01)
-
-
-def test_without_show_initial_pose_there_are_no_rings(record):
-    assert not any(hollow(disc) for disc in discs(styled(record, show_initial_pose=False)))
-
-
-def test_the_grid_is_drawn_if_it_is_wished(record):
-    on, off = styled(record), styled(record, grid=False)
-    assert all(line.get_visible() for line in on.get_xgridlines())
-    assert not any(line.get_visible() for line in off.get_xgridlines())
-
-
-def test_the_edge_of_the_workspace_is_drawn_once() -> None:
-    square = [(-1, -1), (-1, 1), (1, 1), (1, -1)]
-    record = mars2d.run(
-        Scenario(robots=[Robot()], workspace=square, stop_time=1),
-        control=lambda world: [[0], [0]],
-        show=False,
-    )
-    corners = {(float(x), float(y)) for x, y in square}
-    outlines = [
-        patch
-        for patch in plot_paths(record).patches
-        if isinstance(patch, Polygon) and set(map(tuple, patch.get_xy())) == corners
-    ]
-    assert (
-        sum(patch.get_linewidth() > 0 and patch.get_edgecolor()[3] > 0 for patch in outlines) == 1
-    )
-
-
 def test_what_sensors_read_is_faint_and_left_out_in_a_crowd() -> None:
     def areas(count: int) -> list[float]:
         near = [Robot(pose=(0.4 * k, 0, 0), sensors=[Proximity(range=0.9)]) for k in range(count)]
@@ -249,16 +187,6 @@ def test_what_sensors_read_is_faint_and_left_out_in_a_crowd() -> None:
 
     assert areas(2) == pytest.approx([0.1, 0.1], abs=0.01)  # 0.22 in the window
     assert areas(9) == []
-
-
-def test_the_grid_lies_on_the_workspace_and_below_the_obstacles(record):
-    ax = record.plot()
-    ax.figure.set_dpi(300)
-    at = next(tick for tick in ax.get_xticks() if -5 < tick < -1)
-    step = ax.get_yticks()[1] - ax.get_yticks()[0]
-    assert pixel(ax, (at, -4 + step / 3)) != "#ffffff"
-    order = [patch.get_zorder() for patch in ax.patches if isinstance(patch, Polygon)]
-    assert order[0] < 1.5 < min(order[1:])
 
 
 @each_case(
@@ -278,15 +206,6 @@ def test_wake_styles_are_matlabs(record, style, marker, line):
     np.testing.assert_array_equal(trail.get_xydata(), record.pose[:, :2, 0])
 
 
-def test_marks_on_a_path_are_thinned_out_and_keep_their_distance(record):
-    ax = styled(record, wake_style="o")
-    trail = trails(ax)[0]
-    marked = ax.transData.transform(trail.get_xydata()[trail.get_markevery()])
-    assert 5 < len(marked) < len(record) / 2
-    apart = np.hypot(*np.diff(marked, axis=0).T) * 72 / ax.figure.dpi
-    assert apart.min() > 0.5 * trail.get_markersize()
-
-
 def test_robots_as_points_have_the_same_size_at_any_diameter(record):
     ax = styled(record, show_real_shape=False)
     assert discs(ax) == []
@@ -303,10 +222,6 @@ def limits(ax):
     return xmin, xmax, ymin, ymax
 
 
-def test_the_workspace_fills_the_axes(record):
-    np.testing.assert_allclose(limits(record.plot()), (-5, 5, -5, 5), atol=0.3)
-
-
 def test_a_path_that_leaves_the_workspace_stays_in_view():
     scenario = Scenario(robots=[Robot()], on_exit="ignore", stop_time=100)
     run = mars2d.run(scenario, control=lambda world: [[0.2], [0.0]])
@@ -315,22 +230,6 @@ def test_a_path_that_leaves_the_workspace_stays_in_view():
     assert 20.15 < xmax < 22
     assert ymin < -5
     assert ymax > 5
-
-
-def test_without_a_workspace_the_view_holds_paths_and_obstacles(record):
-    scenario = record.scenario.replace(workspace=None)
-    xmin, xmax, ymin, ymax = limits(dataclasses.replace(record, scenario=scenario).plot())
-    assert xmin < -4
-    assert xmax > 4
-    assert ymin < -3.15
-    assert ymax > 4
-
-
-def test_a_long_straight_path_leaves_room_for_labels():
-    scenario = Scenario(robots=[Robot()], workspace=None, stop_time=4000)
-    run = mars2d.run(scenario, options={"sampling_time": 10.0}, control=lambda w: [[0.2], [0.0]])
-    xmin, xmax, ymin, ymax = limits(run.plot())
-    assert (xmax - xmin) / (ymax - ymin) < 10
 
 
 # -- axes and figures of one's own ------------------------------------------------------------
@@ -397,19 +296,6 @@ def test_snapshots_show_the_paths_until_each_time(record):
     assert [ax.get_legend() is not None for ax in figure.axes] == [False, False, True]
 
 
-def test_snapshots_are_labelled_at_the_outer_panels_only(record):
-    axes = plot_snapshots(record, [0, 1, 2, 3, 4]).axes
-    assert len(axes) == 5
-    assert [ax.get_ylabel() for ax in axes] == ["y [m]", "", "", "y [m]", ""]
-    assert [ax.get_xlabel() for ax in axes] == ["", "", "x [m]", "x [m]", "x [m]"]
-
-
-def test_one_time_is_enough_and_a_figure_may_be_given(record):
-    figure = Figure()
-    assert plot_snapshots(record, 4.0, figure) is figure
-    assert len(figure.axes) == 1
-
-
 @each_case("time, named", [(8.1, "8.1 s"), (-1, "-1 s"), (np.nan, "nan s")])
 def test_a_time_outside_of_the_record_is_refused(record, time, named):
     with pytest.raises(InputError, match=rf"{named} is outside of the record.* 0 to 8 s"):
@@ -433,12 +319,6 @@ def test_files_have_their_format_and_are_reproducible(record, tmp_path, suffix, 
         assert dated not in first.read_bytes()
 
 
-def test_paths_are_vectors_in_pdf_and_svg(record, tmp_path):
-    text = save_figure(record, tmp_path / "a.svg").read_text()
-    assert "<image" not in text
-    assert b"/Subtype /Image" not in save_figure(record, tmp_path / "a.pdf").read_bytes()
-
-
 @each_case("name", ["a.jpg", "a", "a.svgz"])
 def test_an_unknown_suffix_is_refused_with_the_known_ones(record, tmp_path, name):
     with pytest.raises(InputError, match=rf"{name}: .*\.png, \.pdf or \.svg"):
@@ -446,42 +326,7 @@ def test_an_unknown_suffix_is_refused_with_the_known_ones(record, tmp_path, name
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_record_without_rows_is_refused(record, tmp_path):
-    empty = dataclasses.replace(
-        record, time=record.time[:0], pose=record.pose[:0], command=record.command[:0]
-    )
-    for draw in (
-        empty.plot,
-        lambda: plot_snapshots(empty, [0]),
-        lambda: save_figure(empty, tmp_path / "a.png"),
-    ):
-        with pytest.raises(InputError, match="no rows"):
-            draw()
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_record_of_one_row_is_drawn(record):
-    one = dataclasses.replace(
-        record, time=record.time[:1], pose=record.pose[:1], command=record.command[:1]
-    )
-    assert one.plot().get_title().endswith("t = 0 s")
-
-
 # -- paint ------------------------------------------------------------------------------------
-
-
-def test_the_first_shape_lies_lowest_whatever_its_kind():
-    for top in ("line", "disc"):
-        scene = Scene()
-        if top == "disc":
-            scene.line([(0, 0), (2, 0)], stroke="#00ff00", width=20)
-        scene.circle((1, 0), 0.8, fill="#ff0000")
-        if top == "line":
-            scene.line([(0, 0), (2, 0)], stroke="#00ff00", width=20)
-        ax = Figure().add_subplot()
-        ax.axis([0, 2, -1, 1])
-        paint(scene, ax)
-        assert pixel(ax, (1, 0)) == ("#00ff00" if top == "line" else "#ff0000")
 
 
 def test_every_kind_of_shape_is_painted_with_its_opacity_and_anchor():
@@ -505,15 +350,6 @@ def test_every_kind_of_shape_is_painted_with_its_opacity_and_anchor():
     low, high = ax.get_xlim()
     assert low <= 0
     assert high >= 4
-
-
-def test_pixels_add_to_the_radius_on_the_page():
-    ax = Figure(figsize=(4, 4), dpi=72).add_axes((0, 0, 1, 1))
-    ax.axis([0, 144, 0, 144])  # a metre is two points
-    scene = Scene()
-    scene.circle((70, 70), 20, fill="#000000", pixels=5)
-    paint(scene, ax)
-    assert ax.patches[0].get_radius() == pytest.approx(22.5)
 
 
 def test_what_an_addon_draws_is_in_the_figure():
@@ -559,11 +395,6 @@ def test_props_are_drawn_hollow_at_the_start_and_filled_at_the_end():
     assert len(filled(ax, Circle, NEUTRAL)) == 1
 
 
-def test_the_view_holds_props_outside_of_the_workspace():
-    ax = pushed().plot()
-    assert ax.get_xlim()[1] > 6.1
-
-
 def test_a_rope_is_drawn_from_end_to_end():
     record = pushed()
     ropes = [line.get_xydata() for line in record.plot().lines if len(line.get_xdata()) == 49]
@@ -581,22 +412,3 @@ def test_forces_are_drawn_when_the_animation_says_so():
     assert texts[0] == "5.0 N"
     assert texts[1].endswith(" N")
     ax.figure.canvas.draw()
-
-
-def test_snapshots_show_forces_too(tmp_path):
-    figure = plot_snapshots(pushed(forces=True), [0.0, 4.0])
-    before, after = figure.axes
-    assert len(before.texts) == 1, "the legend"
-    assert len(after.texts) == 2
-    target = save_figure(pushed(forces=True), tmp_path / "forces.pdf", [4.0])
-    assert target.stat().st_size > 5000
-
-
-def test_what_is_too_far_away_to_be_drawn_is_refused():
-    record = mars2d.run(Scenario(robots=1, stop_time=0.2), control=lambda world: np.zeros((2, 1)))
-    pose = record.pose.copy()
-    pose[1:, 0, 0] = 1e308, -1e308
-    far = dataclasses.replace(record, pose=pose)
-    for draw in (far.plot, lambda: far.plot_snapshots([0.1]), lambda: page(far)):
-        with pytest.raises(InputError, match=r"1e\+308 m away: too far to be drawn"):
-            draw()

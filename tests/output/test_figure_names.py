@@ -8,11 +8,9 @@ import pytest
 import mars2d
 from mars2d import Animation, InputError, Robot, Scenario, Within
 from mars2d.addons import Communication
-from mars2d.bodies import Box
 from mars2d.cli.command_line import main
-from mars2d.core.scene import Circle, Line, Text
-from mars2d.output.figures.figure import LEGEND_LIMIT, plot_paths, plot_snapshots
-from mars2d.output.layers import bodies, placement
+from mars2d.core.scene import Circle
+from mars2d.output.figures.figure import plot_paths, plot_snapshots
 from mars2d.output.layers.ranges import range_of, ranges
 from mars2d.output.layers.table import Layers
 from tests.cases import each_case
@@ -39,7 +37,7 @@ def labels(figure):
     }
 
 
-@each_case("n", [1, 21, 60])
+@each_case("n", [1, 21])
 def test_no_name_lies_over_another(n):
     found = labels(plot_paths(crowd(n), layers=Layers(names=True)).figure)
     assert len(found) == n
@@ -47,24 +45,6 @@ def test_no_name_lies_over_another(n):
         wide = min(box.x1, its.x1) - max(box.x0, its.x0)
         high = min(box.y1, its.y1) - max(box.y0, its.y0)
         assert min(wide, high) <= 1, f"{one} lies over {other} by {wide:.0f} x {high:.0f} pixels"
-
-
-def test_a_name_that_finds_room_is_above_its_body_and_has_no_line():
-    frame = mars2d.run(Scenario(robots=[Robot(name="red")], stop_time=0.1)).frame(-1)
-    scene = placement.placed_names(bodies.names(frame), frame, 0.01, placement.Box(0, 0, 5, 5))
-    (label,) = scene.shapes
-    assert isinstance(label, Text)
-    assert (label.text, label.position[0]) == ("red", pytest.approx(0.0))
-    assert (label.position[1], label.anchor) == (pytest.approx(0.15), "above")
-
-
-def test_a_name_stays_in_the_figure():
-    frame = mars2d.run(Scenario(robots=[Robot(name="red")], stop_time=0.1)).frame(-1)
-    scene = placement.placed_names(
-        bodies.names(frame), frame, 0.01, placement.Box(0, -4.8, 5, 5)
-    )  # it ends just above
-    (label,) = (shape for shape in scene.shapes if isinstance(shape, Text))
-    assert label.position[1] < 0
 
 
 def test_names_keep_off_the_forces():
@@ -112,13 +92,6 @@ def test_an_animation_switches_them_on():
     assert sum(patch.get_gid() is None for patch in ax.patches) > 3
 
 
-def test_links_are_drawn_where_they_are_asked_for():
-    record = crowd(4, neighbours=Within(0.45))
-    with_links = plot_paths(record, layers=Layers.of(Animation(), neighbours=True))
-    without = plot_paths(record)
-    assert len(with_links.lines) == len(without.lines) + 4
-
-
 # -- the legend -----------------------------------------------------------------------------------
 
 
@@ -132,17 +105,6 @@ def test_robots_that_look_alike_have_one_entry():
     robots += [Robot(name=f"blue{k}", color="blue", pose=(k, 1, 0)) for k in range(2)]
     record = mars2d.run(Scenario(robots=[*robots, Robot(name="me", pose=(0, 3, 0))], stop_time=0.1))
     assert legend(record) == ["red0 and 2 alike", "blue0, blue1", "me"]
-
-
-def test_in_greys_dashes_tell_them_apart():
-    robots = [Robot(color="red", pose=(k, 0, 0)) for k in range(3)]
-    record = mars2d.run(Scenario(robots=robots, stop_time=0.1))
-    assert legend(record, style="print") == ["robot0", "robot1", "robot2"]
-
-
-def test_a_crowd_has_no_legend():
-    assert legend(crowd(LEGEND_LIMIT)) == [f"robot{k}" for k in range(LEGEND_LIMIT)]
-    assert legend(crowd(LEGEND_LIMIT + 1)) == []
 
 
 # -- times and files ------------------------------------------------------------------------------
@@ -189,18 +151,6 @@ def test_a_snapshot_after_an_early_end_is_of_the_end(here, capsys):
     assert "figure: a.svg" in out
 
 
-def test_a_last_time_that_rounding_brings_after_the_end_is_drawn(here, capsys):
-    (here / "long.py").write_text(
-        "from mars2d import Scenario\n"
-        "scenario = Scenario(sampling_time=0.1, stop_time=0.7)\n"  # 7 * 0.1 is more than 0.7
-        "def control(world): return 0, 0\n"
-    )
-    for end in ("0.7", "0.3"):
-        words = ["--stop-time", end, "--figure", "a.png", "--at", f"0,{end}"]
-        assert main(["run", "long.py", "--headless", *words]) == 0
-        assert "ended" not in capsys.readouterr().err
-
-
 @each_case("kind", ["paths", "snapshots"])
 def test_layers_of_a_plot_are_switched_by_name(here, capsys, kind):
     crowd(4, neighbours=Within(0.45)).save("a.npz")
@@ -209,23 +159,3 @@ def test_layers_of_a_plot_are_switched_by_name(here, capsys, kind):
     assert main([*words, "--figure", "a.png"]) == 0
     assert main(["plot", "a.npz", kind, *at, "--layers", "nams", "--figure", "a.png"]) == 2
     assert "--layers nams: there is no such layer; did you mean 'names'?" in capsys.readouterr().err
-
-
-def test_layers_are_for_drawings_of_the_plane(here, capsys):
-    crowd(2).save("a.npz")
-    assert main(["plot", "a.npz", "signals", "--layers", "names"]) == 2
-    assert "--layers is for paths and snapshots: mars2d plot a.npz paths" in capsys.readouterr().err
-
-
-def test_a_line_is_a_line():
-    frame = crowd(60).frame(-1)
-    scene = placement.placed_names(bodies.names(frame), frame, 0.02, placement.Box(1.5, 1.5, 4, 4))
-    kinds = {type(shape) for shape in scene.shapes}
-    assert kinds == {Line, Text}  # in a crowd some names have a line to their body
-
-
-def test_props_are_named_too():
-    made = Scenario(robots=[Robot(pose=(0, 2, 0))], props=[Box(name="crate")], stop_time=0.1)
-    frame = mars2d.run(made).frame(-1)
-    scene = placement.placed_names(bodies.names(frame), frame, 0.01, placement.Box(0, 0, 5, 5))
-    assert [shape.text for shape in scene.shapes] == ["robot0", "crate"]

@@ -1,7 +1,6 @@
 """Films: read back what was written."""
 
 import builtins
-import itertools
 
 import numpy as np
 import pygame
@@ -18,10 +17,8 @@ from mars2d.output.films.film import (
     film_rows,
     save_film,
     save_pictures,
-    size_of,
 )
-from mars2d.output.films.footage import Cut, Footage, shots
-from mars2d.record.rows import COLUMNS
+from mars2d.output.films.footage import Footage, shots
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
 from tests.cases import each_case
@@ -71,36 +68,12 @@ def test_a_gif_shows_what_the_picture_shows(tmp_path):
         assert (picture[white] == 255).all()
 
 
-def test_robots_move_in_a_gif(tmp_path):
-    save_film(frames(), tmp_path / "film.gif", size=SIZE)
-    pictures = read_gif(tmp_path / "film.gif")[0]
-    assert all((a != b).any() for a, b in itertools.pairwise(pictures))
-
-
 def test_frames_that_do_not_differ_prolong_the_one_before(tmp_path):
     still = [next(iter(frames()))] * 10
     save_film([*still, *frames()], tmp_path / "film.gif", size=SIZE, fps=20)
     durations = read_gif(tmp_path / "film.gif")[1]
     assert durations[0] == 11 * 50
     assert sum(durations) == 31 * 50
-
-
-def test_odd_rates_keep_the_length(tmp_path):
-    save_film(frames(), tmp_path / "film.gif", size=SIZE, fps=30)
-    assert sum(read_gif(tmp_path / "film.gif")[1]) == pytest.approx(1000 * 21 / 30, abs=5)
-
-
-def test_an_mp4_holds_every_frame_at_an_even_size(tmp_path):
-    av = pytest.importorskip("av")
-    save_film(frames(), tmp_path / "film.mp4", fps=25, size=(321, 239))
-    with av.open(str(tmp_path / "film.mp4")) as film:
-        stream = film.streams.video[0]
-        assert stream.codec_context.pix_fmt == "yuv420p"
-        assert float(stream.average_rate) == 25
-        pictures = [f.to_ndarray(format="rgb24").astype(int) for f in film.decode(stream)]
-    assert len(pictures) == 21
-    assert pictures[0].shape == (240, 322, 3)
-    assert np.abs(pictures[0] - pictures[-1]).max() > 100
 
 
 def test_the_frames_of_an_mp4_are_the_pictures_in_their_order(tmp_path):
@@ -119,32 +92,6 @@ def test_the_frames_of_an_mp4_are_the_pictures_in_their_order(tmp_path):
     assert apart.min(axis=1).max() < 2.0
 
 
-def test_colours_that_come_later_are_matched_with_the_nearest_of_the_palette(tmp_path):
-    def painted(color):
-        picture = pygame.Surface(SIZE, 0, 32)
-        picture.fill("white")
-        picture.fill("#0072b2", (20, 20, 60, 60))
-        picture.fill(color, (100, 20, 60, 60))
-        return picture
-
-    colors = ["#ffffff", "#13a877", "#7f0203", "#fefdfc", "#808181"]
-    save_pictures(map(painted, colors), tmp_path / "film.gif")
-    with Image.open(tmp_path / "film.gif") as film:
-        palette = np.array(film.getpalette()).reshape(-1, 3)[:-1].astype(int)
-    for picture, color in zip(read_gif(tmp_path / "film.gif")[0], colors, strict=True):
-        wanted = np.array(pygame.Color(color)[:3])
-        nearest = np.linalg.norm(palette - wanted, axis=1).min()
-        assert np.linalg.norm(picture[50, 130] - wanted) <= nearest + 6  # of 6 bits a channel
-        assert (picture[50, 50] == (0x00, 0x72, 0xB2)).all()
-        assert (picture[200, 200] == 255).all()
-
-
-def test_progress_is_told_frame_by_frame(tmp_path):
-    counts = []
-    save_film(frames(4), tmp_path / "film.gif", size=SIZE, progress=counts.append)
-    assert counts == [1, 2, 3, 4, 5]
-
-
 def test_mp4_without_pyav_says_what_to_install(tmp_path, monkeypatch):
     usual = builtins.__import__
 
@@ -157,20 +104,6 @@ def test_mp4_without_pyav_says_what_to_install(tmp_path, monkeypatch):
     with pytest.raises(MissingExtraError) as told:
         save_film(frames(), tmp_path / "film.mp4")
     assert pip_line("video") in str(told.value)
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_wrong_names_and_places_are_told(tmp_path):
-    with pytest.raises(InputError, match=r"film\.avi.*\.gif or \.mp4"):
-        save_film(frames(), tmp_path / "film.avi")
-    with pytest.raises(InputError, match=r"no/film\.gif.*can't be written"):
-        save_film(frames(), tmp_path / "no" / "film.gif")
-    with pytest.raises(InputError, match="at least one frame"):
-        save_film([], tmp_path / "film.gif")
-    with pytest.raises(InputError, match="fps = 0"):
-        save_film(frames(), tmp_path / "film.gif", fps=0)
-    with pytest.raises(InputError, match=r"fps = 100.*at most 50"):
-        save_film(frames(), tmp_path / "film.gif", fps=100)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -202,16 +135,6 @@ def test_a_film_lasts_its_time_over_its_speed(speed, sampling_time):
     assert (np.diff(rows) >= 0).all()
     shown = np.linspace(0, times[-1], len(rows)) if len(rows) > 1 else times[-1:]
     assert (np.abs(times[rows] - shown) < sampling_time * (1 + 1e-9)).all()
-
-
-def test_a_film_of_one_row_is_one_frame():
-    assert film_rows([0.0]).tolist() == [0]
-
-
-@each_case("speed, fps", [(0, 25), ("max", 25), (-1, 25), (1, 0)])
-def test_rates_must_be_positive_numbers(speed, fps):
-    with pytest.raises(InputError, match="expected a number > 0"):
-        film_rows([0, 1], speed, fps)
 
 
 # -- films of records -----------------------------------------------------------------------------
@@ -255,14 +178,6 @@ def test_a_film_shows_the_part_that_is_asked_for_and_the_last_frame_is_its_end(r
     assert seen(record, end=2.0)[-1].over_message == ""
 
 
-def test_at_a_sampling_time_a_frame_is_that_of_the_record(record):
-    frames = seen(record, speed=12.5, fps=25)
-    assert [frame.iteration for frame in frames] == [*range(9), 8]
-    for frame, row in zip(frames, range(9), strict=False):
-        assert np.array_equal(frame.pose, record.pose[row])
-        assert frame.sensed is None
-
-
 def test_a_live_run_and_its_record_make_the_same_film():
     for part in ({}, {"start": 0.7, "end": 2.9}, {"end": 1.0}):
         footage = Footage(SCENARIO, 0.4, 10, **part)
@@ -300,12 +215,6 @@ def av_open(path):
     return av.open(str(path))
 
 
-def test_progress_counts_up_to_the_frames_of_the_cut(record, tmp_path):
-    counts = []
-    film_record(record, tmp_path / "a.gif", size=(64, 64), end=1.0, progress=counts.append)
-    assert counts == list(range(1, cut_of(record, end=1.0).count + 1))
-
-
 @each_case(
     "name, options, told",
     [
@@ -337,35 +246,6 @@ def test_what_can_not_be_filmed_is_said_and_leaves_nothing(record, tmp_path, nam
         film_record(record, tmp_path / name, **options)
     assert told in str(error.value)
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_record_without_rows_is_no_film(record, tmp_path):
-    from dataclasses import replace
-
-    empty = replace(record, **{name: getattr(record, name)[:0] for name in COLUMNS})
-    with pytest.raises(InputError, match="no rows"):
-        film_record(empty, tmp_path / "a.gif")
-
-
-def test_a_record_of_one_row_is_a_film_that_stands_still(tmp_path):
-    cut = Cut.of(0.0, 1.0, 25)
-    assert cut.moments.tolist() == [0.0, 0.0]
-
-
-def test_sizes_are_read_from_text():
-    assert size_of("1280x720") == (1280, 720)
-    assert size_of(" 640 X 360 ") == (640, 360)
-    for text in ("1280", "x720", "1280x", "12.5x7", "-1x5", "axb", ""):
-        with pytest.raises(InputError, match="as 1280x720"):
-            size_of(text)
-
-
-def test_an_mp4_says_that_its_colours_are_those_of_hd(tmp_path):
-    pytest.importorskip("av")
-    save_film(frames(2), tmp_path / "film.mp4", size=SIZE)
-    with av_open(tmp_path / "film.mp4") as film:
-        context = film.streams.video[0].codec_context
-        assert (context.colorspace, context.color_primaries, context.color_range) == (1, 1, 1)
 
 
 def test_the_colours_of_an_mp4_are_those_of_the_picture(tmp_path):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
 
@@ -82,16 +80,6 @@ def test_the_bound_of_the_strongest_drive_is_a_robot_and_a_half_long():
     assert scale.strongest == 8
 
 
-def test_in_a_large_workspace_arrows_are_longer_and_in_a_crowd_shorter():
-    square = [(-50, -50), (50, -50), (50, 50), (-50, 50)]
-    assert force_scale(two(workspace=square)).newton > 2 * force_scale(two()).newton
-    crowd, few = (
-        Scenario(robots=[Robot(pose=(0.4 * i - 4.8, 0, 0)) for i in range(count)])
-        for count in (24, 6)
-    )
-    assert force_scale(crowd).newton == pytest.approx(force_scale(few).newton / 2)
-
-
 def test_an_impact_is_cut_short_and_says_how_hard_it_was():
     scenario = two()
     scene = forces(touching(scenario, [(0, 1, (1.0, 0.0), (1.0, 0.0), 50.0, 0.0)]))
@@ -110,10 +98,6 @@ def test_of_many_contacts_the_strongest_are_drawn_and_few_have_numbers():
     assert len(found) == 2 * MAX_CONTACTS
     assert found[:, 0, 0].min() == pytest.approx(0.01 * (100 - MAX_CONTACTS))
     assert len(of(Text, scene)) == MAX_LABELS
-
-
-def test_what_only_just_touches_has_no_arrow():
-    assert not forces(touching(two(), [(0, 1, (1, 0), (1, 0), 1e-4, 0.0)])).shapes
 
 
 def test_a_drive_at_its_bound_has_a_ring_round_its_robot():
@@ -137,21 +121,6 @@ def test_a_pushed_box_is_held_by_what_the_robot_can_push_with():
     assert len(of(Circle, forces(frame))) == 2  # its drive slips
 
 
-def test_the_point_of_contact_moves_with_the_bodies_between_two_control_steps():
-    box = Box(pose=(0.5, 0, 0), length=0.3, width=0.3, ground_friction=0.1, mass=0.5)
-    world = World(Scenario(robots=[Robot()], props=[box], workspace=None, sampling_time=0.5))
-    for _ in range(8):
-        world.step([[0.4], [0.0]])
-    from mars2d.window.player import between
-
-    first = world.frame
-    world.step([[0.4], [0.0]])
-    for time in np.linspace(first.time, world.time, 5)[1:]:
-        frame = between(first, world.frame, time)
-        tail = vectors(forces(frame))[0, 0]
-        np.testing.assert_allclose(tail, frame.pose[:2, 0] + (0.15, 0.0), atol=0.01)
-
-
 def test_where_nothing_acts_nothing_is_drawn():
     wall = Map([[(0.3, -1), (0.3, 1)]])
     for physics in ("stop", "ideal"):
@@ -160,11 +129,6 @@ def test_where_nothing_acts_nothing_is_drawn():
         for _ in range(20):
             world.step([[0.2], [0.0]])
         assert not of(Arrow, forces(world.frame))
-
-
-def test_a_frame_without_contacts_makes_an_empty_scene():
-    world = World(two())
-    assert not forces(dataclasses.replace(world.frame, effort=np.zeros(2))).shapes
 
 
 @each_case(

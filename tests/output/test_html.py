@@ -85,25 +85,6 @@ def crowded_page(crowded):
     return page(crowded)
 
 
-@pytest.mark.slow
-def test_ten_robots_with_scanners_fit_into_two_megabytes_after_2000_steps():
-    record = crowd(2000)
-    assert record.sensors["range_finder"].shape == (2000, 10, 180)
-    text = page(record)
-    assert len(text.encode()) < 2_000_000
-    content, columns = held(text)
-    assert content["stride"] == 1
-    assert len(columns["messages:rows"]) > 0
-    noise = np.random.default_rng(0).uniform(0, 5, (2000, 10, 180))
-    text = page(replace(record, sensors={"range_finder": noise}))
-    assert len(text.encode()) < 2_000_000
-    content, columns = held(text)
-    every = content["columns"]["fans"]["every"]
-    assert every > 1
-    assert f"distances of scanners: one row in {every} of this file" in content["notes"]
-    assert len(columns["fans"]) == -(-2000 // every)
-
-
 def test_positions_are_within_micrometres_and_headings_within_a_hundredth_of_a_degree(
     crowded, crowded_page
 ):
@@ -209,28 +190,6 @@ def test_a_sensor_of_ones_own_is_drawn_in_the_frame_in_which_it_draws():
     assert drawn == pytest.approx([0, 0, 1, 0], abs=1e-4)
 
 
-class Dial(Sensor):
-    """Reads something else at each control step, and draws one line of it."""
-
-    def read(self, robot, world, rng):
-        return world.time
-
-    def draw(self, scene: Scene, pose, reading, color):
-        scene.line([(0, 0), (np.cos(reading), np.sin(reading))], stroke=color)
-
-
-def test_readings_that_are_too_many_to_be_drawn_are_thinned_and_it_says_so():
-    robots = [Robot(pose=(k, 0, 0), sensors=[Dial()]) for k in range(4)]
-    record = mars2d.run(Scenario(robots=robots, stop_time=150, workspace=None), control=circles)
-    content, _ = held(page(record))
-    assert len(record) == 1501  # 6004 readings: more than sensors are asked to draw
-    assert content["drawn"]["sensors"]["drawings"][0]["scenes"] == 751
-    assert content["notes"] == [
-        "velocities: one row in 4 of this file",
-        "what sensors draw: one row in 2 of this file",
-    ]
-
-
 def test_beams_that_are_left_out_are_named():
     robots = [Robot(sensors=[RangeFinder(beams=500), RangeFinder(name="front", beams=300)])]
     record = mars2d.run(Scenario(robots=robots, stop_time=0.5), control=circles)
@@ -246,39 +205,9 @@ def test_a_sensor_whose_code_is_not_in_a_file_is_named(tmp_path):
     assert [drawing["body"] for drawing in content["drawn"]["sensors"]["drawings"]] == [0]
 
 
-def test_distances_of_another_shape_than_the_scanner_has_are_an_error_that_names_it():
-    record = run_with(RangeFinder())
-    for shape in ((21, 1, 0), (21, 1, 7), (21, 1, 180, 2)):
-        with pytest.raises(LawError, match=r"sensor 'range_finder' raised"):
-            page(replace(record, sensors={"range_finder": np.ones(shape)}))
-    single, _ = held(page(replace(record, sensors={"range_finder": np.ones((21, 1))})))
-    assert single["fans"] == []
-
-
 def test_an_error_in_a_sensors_drawing_says_which():
     with pytest.raises(LawError, match=r"broken.*no pencil"):
         page(run_with(Broken()))
-
-
-@pytest.mark.slow
-def test_a_thousand_robots_fit_too():
-    rows, n = 1501, 1000
-    time = np.arange(rows) * 0.1
-    grid = np.array([(x, y) for x in range(40) for y in range(25)], dtype=float)
-    robots = [Robot(pose=(*place, 0.0)) for place in grid.tolist()]
-    record = mars2d.run(Scenario(robots=robots, workspace=None, stop_time=0.1), control=circles)
-    pose = np.zeros((rows, 3, n))
-    pose[:, 0] = grid[:, 0] + 0.3 * np.sin(np.outer(time, 1 + np.arange(n) / n))
-    pose[:, 1] = grid[:, 1] + 0.3 * np.cos(np.outer(time, 2 - np.arange(n) / n))
-    record = replace(
-        record, time=time, pose=pose, command=np.zeros((rows, 2, n)), command_time=time,
-        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, n)), **NOT_GIVEN,
-    )  # fmt: skip
-    text = page(record)
-    assert len(text.encode()) < 2_000_000
-    content, columns = held(text)
-    assert content["stride"] > 1
-    assert columns["places"].shape[1:] == (2, n)
 
 
 def test_a_record_of_one_row_has_a_replay():

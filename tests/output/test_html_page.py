@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Animation, Robot, Scenario
+from mars2d import Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
 from mars2d.bodies.props import Box
 from mars2d.output.pages.replay import page
@@ -18,7 +18,6 @@ from mars2d.record.interventions import Steer
 from mars2d.record.marks import marks_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.browser import Tab, differing
-from tests.output.test_leaps import run as leaping_run
 
 REFERENCES = Path(__file__).parent / "references"
 SCRIPTS = Path(mars2d.__file__).parent / "output" / "pages" / "replay"
@@ -133,6 +132,7 @@ def test_it_plays_to_its_end_and_says_why_it_ended(tab, record):
     assert "Paused at " in tab.page.locator("#live").text_content()
 
 
+@pytest.mark.nightly
 def test_it_plays_at_the_speed_that_is_chosen(tab):
     rate = """() => new Promise(done => {
         const time = () => parseFloat(document.getElementById("time").textContent);
@@ -232,6 +232,7 @@ def test_a_legend_says_how_long_a_force_is_and_follows_the_zoom(tab):
     assert not tab.text("#legend").strip()
 
 
+@pytest.mark.nightly
 def test_the_time_bar_has_marks_where_bodies_met_and_where_hands_were(record, open_tab, tmp_path):
     marked = replace(record, interventions=tuple(Steer(k, 1, True) for k in (60, 80)))
     tab = open_tab(marked.save_html(tmp_path / "marked.html"))
@@ -278,29 +279,6 @@ CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
 };
 """
 """Notes what is written on the picture."""
-
-
-def test_the_panel_says_the_forces_of_the_arrows_where_rows_are_left_out(open_tab, tmp_path):
-    scenario = Scenario(
-        robots=[Robot(), Robot(pose=(0.4, 0, 0))], sampling_time=0.02, stop_time=60.0,
-        animation=Animation(grid=False, forces=True, names=False),
-    )  # fmt: skip
-
-    def law(world):
-        return np.array([[0.4 * np.sin(5 * world.time) + 0.1, -0.1], [0, 0]])
-
-    path = mars2d.run(scenario, control=law).save_html(tmp_path / "long.html")
-    tab = open_tab(path, script=SAID)
-    tab.page.select_option("#bodies", label="robot0")
-    told = set()
-    for row in range(700, 760):
-        tab.page.evaluate("said = []")
-        tab.go(row)
-        arrows = [text for text in tab.page.evaluate("said") if text.endswith(" N")]
-        panel = tab.page.locator("#panel dd").last.inner_text()
-        assert panel.split("\n") == ["none"] if not arrows else arrows[0] in panel
-        told.add(bool(arrows))
-    assert told == {True, False}
 
 
 def test_a_blow_has_its_impulse_for_a_second_and_x_switches_it_with_the_forces(open_tab, tmp_path):
@@ -403,23 +381,6 @@ def test_the_panel_says_what_sensors_read(tab, record):
     assert f"proximity\n{near}" in tab.text("#panel").replace("\n\n", "\n")
 
 
-def test_the_panel_does_not_hide_what_is_picked(tab):
-    show_only(tab)
-    tab.page.select_option("#bodies", label=EVIL)
-    tab.settle()
-    before = tab.page.locator("#panel").bounding_box()
-    x, y = tab.middle_of(ORANGE)
-    over = before["x"] + before["width"] / 2, before["y"] + before["height"] / 2
-    tab.page.mouse.move(300, 400)
-    tab.page.mouse.down()
-    tab.page.mouse.move(300 + over[0] - x, 400 + over[1] - y, steps=5)
-    tab.page.mouse.up()
-    tab.settle()
-    assert tab.middle_of(ORANGE) == pytest.approx(over, abs=8)
-    after = tab.page.locator("#panel").bounding_box()
-    assert after["x"] + after["width"] < over[0] - 20
-
-
 # -- looks ----------------------------------------------------------------------------------------
 
 
@@ -452,6 +413,7 @@ def test_dark_is_switched_by_button_and_key(tab):
     assert differing(tab.picture(), light) == 0
 
 
+@pytest.mark.nightly
 def test_colours_on_dark_paper_are_those_of_the_window(tab):
     rng = np.random.default_rng(3)
     colors = [f"#{value:06x}" for value in rng.integers(0, 2**24, 200).tolist()]
@@ -469,6 +431,7 @@ def test_colours_on_dark_paper_are_those_of_the_window(tab):
         )
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_words_can_be_read(open_tab, replay, scheme):
     tab = open_tab(replay, (1300, 640), color_scheme=scheme)
@@ -496,6 +459,7 @@ def test_words_can_be_read(open_tab, replay, scheme):
 # -- phones, frames -------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 def test_on_a_phone_all_is_in_reach_of_a_thumb(open_tab, replay):
     tab = open_tab(replay, (360, 640), has_touch=True, is_mobile=True, device_scale_factor=2)
     assert tab.page.evaluate("document.documentElement.scrollWidth") == 360
@@ -518,6 +482,7 @@ def test_on_a_phone_all_is_in_reach_of_a_thumb(open_tab, replay):
     assert tab.text("#panel h2") == EVIL
 
 
+@pytest.mark.nightly
 def test_two_fingers_zoom_about_their_middle(open_tab, replay):
     tab = open_tab(replay, (360, 640), has_touch=True, is_mobile=True)
     show_only(tab)
@@ -528,26 +493,6 @@ def test_two_fingers_zoom_about_their_middle(open_tab, replay):
     assert tab.middle_of(ORANGE) == pytest.approx((x, y), abs=4)
     assert after / before == pytest.approx(84 / 60, rel=0.05)
     assert tab.page.locator("#panel").is_hidden()  # a pinch picks nothing
-
-
-@pytest.mark.parametrize("width", [1500, 1100, 700, 360])
-def test_no_control_covers_another(open_tab, replay, width):
-    tab = open_tab(replay, (width, 560))
-    controls = tab.page.locator(
-        "header :is(button, select):visible, footer *:is(button, select, input, output):visible"
-    )
-    boxes = [control.bounding_box() for control in controls.all()]
-    for k, one in enumerate(boxes):
-        assert one["x"] >= 0
-        assert one["x"] + one["width"] <= width
-        for other in boxes[:k]:
-            beside = (
-                one["x"] >= other["x"] + other["width"] or other["x"] >= one["x"] + one["width"]
-            )
-            below = (
-                one["y"] >= other["y"] + other["height"] or other["y"] >= one["y"] + one["height"]
-            )
-            assert beside or below
 
 
 def test_in_a_frame_of_a_notebook_it_waits_and_all_of_it_is_seen(browser, record, tmp_path):
@@ -577,6 +522,7 @@ def test_it_begins_to_play_unless_motion_is_unwanted(open_tab, replay, motion, p
 # -- words ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 def test_a_screen_reader_finds_the_controls(tab):
     tab.page.select_option("#bodies", label="robot0")
     tab.settle()
@@ -590,6 +536,7 @@ def test_a_screen_reader_finds_the_controls(tab):
     assert "3 robots and 1 prop, seen from above at 0.0 s" in tree
 
 
+@pytest.mark.nightly
 def test_tab_goes_from_control_to_control_and_shows_where_it_is(tab):
     visited = []
     for _ in range(14):
@@ -603,14 +550,6 @@ def test_tab_goes_from_control_to_control_and_shows_where_it_is(tab):
     tab.press("Space")  # presses the button, and does not play
     assert tab.row() == 1
     assert tab.page.locator("body.playing").count() == 0
-
-
-def test_space_plays_after_a_click_on_another_button(tab):
-    tab.click("Zoom in")
-    tab.press("Space")
-    assert tab.page.get_by_role("button", name="Pause").is_visible()
-    tab.press("Space")
-    assert tab.page.get_by_role("button", name="Play").is_visible()
 
 
 def test_help_lists_the_keys_and_letters_can_be_switched_off(tab):
@@ -681,21 +620,3 @@ def test_a_damaged_file_or_an_old_browser_is_told_in_words(browser, replay, tmp_
         assert words in tab.text("#trouble")
         tab.close()
         assert tab.complaints == []
-
-
-def test_a_body_that_a_hand_puts_elsewhere_leaves_no_path_on_its_way(open_tab, tmp_path):
-    _, record = leaping_run()
-    tab = open_tab(record.save_html(tmp_path / "leap.html"), size=(900, 900))
-    for row in (9, 10, 15, 10, 9, 19):
-        tab.go(row)
-        for picked in (False, True):
-            tab.press("Escape")
-            if picked:
-                tab.page.select_option("#bodies", index=1)
-                tab.settle()
-            with_trails = tab.picture()
-            tab.press("t")
-            high = len(with_trails)
-            changed = np.flatnonzero((with_trails != tab.picture()).any(axis=(1, 2))) / high
-            assert not ((changed > 0.3) & (changed < 0.4)).any(), (row, picked)
-            tab.press("t")

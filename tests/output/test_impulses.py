@@ -101,21 +101,6 @@ def test_a_blow_is_shown_for_a_second_of_the_experiment():
     assert {shown for _, shown in seen} == {True, False}
 
 
-def test_between_two_control_steps_a_blow_is_shown_from_when_it_happened():
-    from mars2d.record.frame import between
-
-    ball = Ball(diameter=0.2, mass=1.0, restitution=1.0)
-    props = [ball.replace(velocity=(0.5, 0, 0)).at(-0.4, 0), ball.at(0, 0)]
-    world = World(Scenario(robots=[AWAY], props=props, workspace=None, sampling_time=0.25))
-    first = world.frame
-    while not len(world.frame.contact_log()):
-        first = world.frame
-        world.step(np.zeros((2, 1)))
-    assert float(world.frame.contact_log()["time"][0]) == pytest.approx(0.4, abs=0.005)
-    assert not impulses(between(first, world.frame, 0.39)).shapes
-    assert impulses(between(first, world.frame, 0.41)).shapes
-
-
 def test_on_an_obstacle_the_impulse_on_the_body_is_drawn():
     ball = Ball(diameter=0.2, mass=1.0, restitution=1.0, velocity=(0.5, 0, 0)).at(-0.4, 0)
     wall = Map([[(0.1, -1), (0.1, 1)]])
@@ -127,17 +112,6 @@ def test_on_an_obstacle_the_impulse_on_the_body_is_drawn():
     assert length(arrow) / impulse_scale(world.scenario).newton_second == pytest.approx(1.0), (
         "2 m v"
     )
-
-
-def test_where_an_obstacle_has_been_removed_since_there_is_no_cone():
-    import dataclasses
-
-    world = meeting(friction=0.4)
-    log = world.frame.contact_log().copy()
-    log["b"] = -7
-    scene = impulses(dataclasses.replace(world.frame, contact_log=lambda: log))
-    assert of(Arrow, scene)
-    assert not of(Polygon, scene)
 
 
 def test_steady_pushing_is_a_force_and_no_blow():
@@ -168,32 +142,12 @@ def sorted_by_time(contacts):
     return zip(rows["a"].tolist(), rows["b"].tolist(), rows["impulse"].tolist(), strict=True)
 
 
-def test_of_a_pair_that_meets_again_and_again_the_newest_blow_is_seen():
-    walls = Map([[(0.0, -1), (0.0, 1)], [(0.5, -1), (0.5, 1)]], restitution=1.0)
-    ball = Ball(diameter=0.2, pose=(0.3, 0, 0), velocity=(2, 0, 0), restitution=1.0, friction=0.0)
-    props = [ball.replace(ground_friction=0.0)]
-    record = mars2d.run(Scenario(robots=[AWAY], props=props, addons=[walls], stop_time=2))
-    frame = record.frame(-1)
-    log = frame.contact_log()
-    met = log[log["began"] & (log["time"] > frame.time - 1.0)]
-    assert len(met) > 3
-    blow = max(blows(frame), key=lambda each: each["time"])
-    felt = met[met["impulse"] >= 0.05 * impulse_scale(record.scenario).strongest]
-    assert blow["time"] == felt["time"].max()
-
-
 def test_a_recorded_frame_shows_what_the_live_one_did():
     world = meeting(offset=0.12, friction=0.4)
     row, live = world.iteration, impulses(world.frame)
     world.step(np.zeros((2, 1)))
     kept = impulses(world.record.frame(row))
     assert str(live.shapes) == str(kept.shapes)
-
-
-@each_case("physics", ["stop", "ideal"])
-def test_without_forces_there_are_no_blows(physics):
-    record = mars2d.run("head_on", stop_time=2, options={"physics": physics})
-    assert not impulses(record.frame(-1)).shapes
 
 
 def test_one_rule_shortens_all_long_arrows_and_the_legend_says_from_where_on():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import colorsys
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -12,14 +11,13 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import mars2d
-from mars2d import Animation, Robot, Scenario, World
+from mars2d import Animation, Robot, Scenario
 from mars2d.addons import Addon, Communication, Map
 from mars2d.bodies.joints import Rope, Spring
 from mars2d.bodies.props import Ball, Box, Puck
 from mars2d.core.scene import Circle, Scene
 from mars2d.output.figures.figure import plot_paths
 from mars2d.output.layers import rings
-from mars2d.output.layers.neighbours import neighbours
 from mars2d.output.layers.table import LAYERS, Layer, Layers
 from mars2d.output.pages.drawing import draw
 from mars2d.output.raster.camera import Camera
@@ -210,14 +208,6 @@ def test_pictures_have_all_layers_in_the_order_of_the_table(record, table, paint
     check_order(painter(record, len(record) - 1))
 
 
-def test_an_svg_has_all_layers_in_the_order_of_the_table(record, table):
-    text = draw(record.frame(-1), "all of it", everything())
-    places = [text.index(f'fill="{color(n)}"') for n in NAMES if n not in ("grid", "trails")]
-    assert places == sorted(places)
-    path = re.search(r'<path [^>]*stroke="#000000" stroke-opacity="0.85"', text).start()
-    assert places[NAMES.index("starts") - 1] < path < text.index(f'fill="{color("sensors")}"')
-
-
 def test_a_replay_has_all_layers_in_the_order_of_the_table(browser, record, table, tmp_path):
     tab = Tab(browser, (1700, 1000))
     tab.open(record.save_html(tmp_path / "layers.html"))
@@ -259,40 +249,3 @@ def test_each_layer_of_the_scene_is_seen_in_window_figure_svg_and_replay(record,
             assert len(columns[f"{layer.name}:rows"]) > 0, layer.name
     assert [layer["name"] for layer in content["layers"]] == [layer.name for layer in LAYERS]
     assert [fan["name"] for fan in content["fans"]] == ["range_finder", "sonar_ring"]
-
-
-def test_a_switch_that_does_not_exist_is_an_error():
-    assert Layers(names=True).names
-    assert replace(Layers(), grid=False).grid is False
-    with pytest.raises(TypeError, match="no layer to switch: nmaes"):
-        Layers(nmaes=True)
-    with pytest.raises(AttributeError):
-        _ = Layers().robots
-
-
-def test_distances_along_beams_look_like_the_shapes_that_the_sensors_draw(
-    browser, record, tmp_path, monkeypatch
-):
-    seen = []
-    for name in ("fans", "shapes"):
-        tab = Tab(browser, (1000, 800))
-        tab.open(record.save_html(tmp_path / f"{name}.html"))
-        tab.press("End", "t")
-        seen.append(tab.picture().astype(int))
-        tab.press("s")
-        without = tab.picture().astype(int)
-        tab.close()
-        monkeypatch.setattr("mars2d.output.pages.replay.sensors.Carried.is_fan", False)
-    off = (np.abs(seen[0] - seen[1]).max(axis=2) > 30).sum()
-    assert off < 0.02 * (np.abs(seen[1] - without).max(axis=2) > 5).sum()
-
-
-def test_links_of_two_runs_of_one_scenario_do_not_mix():
-    # Both are at the same control step, and their robots stand in different places.
-    scenario = Scenario(
-        robots=[Robot(pose=(0, 0, 0)), Robot(pose=(2, 0, 0))], neighbours=Within(1.0)
-    )
-    apart, near = World(scenario), World(scenario)
-    near.operator.place(1, (0.5, 0, 0))
-    counts = [len(neighbours(world.frame).shapes) for world in (apart, near, apart)]
-    assert counts == [0, 1, 0]

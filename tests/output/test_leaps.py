@@ -9,7 +9,6 @@ import pytest
 from mars2d import Animation, Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Line
-from mars2d.output.figures.figure import plot_paths
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails
 from mars2d.output.raster.camera import Camera
@@ -79,14 +78,6 @@ def test_the_picture_has_a_gap_live_and_replayed(style, memory):
                 assert (part == part[0, 0]).all(), frame.iteration
 
 
-@each_case("style", ["screen", "print"])
-def test_a_figure_has_a_gap(runs, style):
-    ax = plot_paths(runs[1], style=style)
-    ways = [line.get_xydata() for line in ax.get_lines() if len(line.get_xydata()) > 3]
-    assert ways
-    assert max(longest_step(points) for points in ways) < 0.3
-
-
 def test_a_body_is_not_seen_on_its_way_and_has_no_speed_from_it(runs):
     _, record = runs
     first, second = record.frame(BEFORE - 1), record.frame(BEFORE)
@@ -95,25 +86,3 @@ def test_a_body_is_not_seen_on_its_way_and_has_no_speed_from_it(runs):
         assert now.pose[1, 0] == now.prop_pose[1, 0] == 0
     assert (second.velocity[:, [0, 2]] == 0).all()
     assert second.velocity[0, 1] > 0.1
-
-
-def test_marks_of_the_start_stay_where_all_began_when_the_scenario_is_changed_on_the_way():
-    from mars2d.addons import Map
-    from mars2d.output.layers.bodies import initial_poses
-
-    box = Box(pose=(1, 2, 0))
-    world = World(Scenario(robots=[Robot(controller=ahead)], props=[box], stop_time=5.0))
-    first = str(initial_poses(world.frame).shapes)
-    for _ in range(10):
-        world.step()
-    drawn = world.scenario.replace(
-        addons=[Map([[(-3, -3), (-2, -3)]])],
-        robots=[world.scenario.robots[0].replace(pose=tuple(world.pose[:, 0]))],
-    )  # as the editor has it: a wall, and bodies where they are now
-    world.change(drawn, world.control)
-    world.step()
-    assert world.scenario.initial_pose[0, 0] > 0
-    assert str(initial_poses(world.frame).shapes) == first
-    world.step()
-    assert str(initial_poses(world.record.frame(5)).shapes) == first
-    assert str(initial_poses(world.record.frame(-1)).shapes) == first

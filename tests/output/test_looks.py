@@ -10,16 +10,14 @@ import pytest
 from mars2d import Robot, Scenario, World
 from mars2d.bodies.colors import MATERIAL_COLORS, prop_colors
 from mars2d.bodies.joints import Rod, Rope, Spring
-from mars2d.bodies.props import Ball, Box, Gate, Puck, Solid
+from mars2d.bodies.props import Ball, Box, Gate, Puck
 from mars2d.core.materials import MATERIALS
 from mars2d.core.scene import Circle, Line, Polygon, Scene
-from mars2d.geometry.shapes import Compound, Disc
 from mars2d.geometry.shapes import Polygon as Outline
-from mars2d.output.layers.bodies import draw_prop, draw_robot, initial_poses, joints, props, robots
+from mars2d.output.layers.bodies import draw_robot, initial_poses, joints, props
 from mars2d.output.layers.trails import trails
 
 ARROWHEAD = [(-0.2, -0.2), (0.3, 0.0), (-0.2, 0.2), (-0.1, 0.0)]
-ELL = Outline([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
 
 
 def of(kind, scene):
@@ -56,31 +54,6 @@ def test_a_polygon_keeps_its_concave_outline_and_its_place():
     assert of(Circle, scene)[0].center == (1.0, -2.0)  # where it turns about
 
 
-def test_the_parts_of_a_compound_have_no_edges_inside():
-    dumbbell = Compound(
-        [Disc(0.3).moved(-0.2, 0), Disc(0.3).moved(0.2, 0),
-         Outline([(-0.2, -0.05), (0.2, -0.05), (0.2, 0.05), (-0.2, 0.05)])]
-    )  # fmt: skip
-    filled = drawn(Robot(shape=dumbbell))
-    bodies = [shape for shape in filled.shapes if not isinstance(shape, Line)]
-    assert [bool(shape.fill) for shape in bodies] == [False] * 3 + [True] * 3
-    hollow = of(Polygon, drawn(Robot(shape=dumbbell), fill=None))
-    assert len(hollow) == 1, "the outline of their union"
-    apart = Compound([Disc(0.2).moved(-0.3, 0), Disc(0.2).moved(0.3, 0)])
-    assert len(of(Polygon, drawn(Robot(shape=apart), fill=None))) == 2
-
-
-def test_the_mark_of_a_concave_prop_stays_within_it():
-    scene = Scene()
-    prop = Solid(ELL)
-    draw_prop(scene, prop, np.array(prop.pose), "#d9b384")
-    start, end = of(Line, scene)[0].points
-    x, y = ELL.centroid
-    for point in (start, end):
-        assert -1e-9 <= point[0] + x <= 0.6 + 1e-9
-        assert -1e-9 <= point[1] + y <= 0.6 + 1e-9
-
-
 def test_props_show_their_colour_their_material_or_a_neutral_one():
     listed = [Box(color="#123456", material="wood"), Puck(material="ice"), Ball()]
     own, ice, neutral = prop_colors(listed)
@@ -88,15 +61,6 @@ def test_props_show_their_colour_their_material_or_a_neutral_one():
     assert ice == MATERIAL_COLORS["ice"]
     assert neutral not in (own, ice)
     assert set(MATERIAL_COLORS) == set(MATERIALS)
-
-
-def test_a_ball_that_turns_looks_different():
-    ends = []
-    for theta in (0.0, pi / 2):
-        scene = Scene()
-        draw_prop(scene, Ball(), np.array([0.0, 0.0, theta]), "#d9b384")
-        ends.append(of(Line, scene)[0].points[1])
-    np.testing.assert_allclose(ends, [(0.1, 0), (0, 0.1)], atol=1e-12)
 
 
 def test_initial_poses_of_props_are_hollow_and_props_filled():
@@ -107,16 +71,6 @@ def test_initial_poses_of_props_are_hollow_and_props_filled():
     assert puck.fill is None
     assert of(Polygon, props(frame))[0].fill
     np.testing.assert_allclose(of(Polygon, props(frame))[0].points, box.points)
-
-
-def test_points_in_place_of_robots_leave_props_to_scale():
-    from mars2d import Animation
-
-    animation = Animation(show_real_shape=False)
-    scenario = Scenario(robots=[Robot()], props=[Puck(pose=(1, 0, 0))], animation=animation)
-    frame = World(scenario).frame
-    assert of(Circle, robots(frame))[0].radius == 0.0
-    assert of(Circle, props(frame))[0].radius == pytest.approx(0.1)
 
 
 def tied(joint, x=1.0, **changes):
@@ -148,12 +102,6 @@ def test_rods_reach_their_anchors_and_hinges_are_pins():
     (pin,) = joints(World(scenario).frame).shapes
     np.testing.assert_allclose(pin.center, (2, -0.5))
     assert pin.radius == 0.0
-
-
-def test_joints_are_drawn_where_they_act():
-    rope = Rope(a="robot0", b="puck0")
-    assert tied(rope).shapes
-    assert not tied(rope, physics="ideal").shapes
 
 
 def test_a_prop_that_moved_leaves_a_thin_trail():

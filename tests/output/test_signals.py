@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
-from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 
 import mars2d
-from mars2d import Car, Holonomic, InputError, Record, Robot, Scenario, World
+from mars2d import Car, Holonomic, InputError, Record, Robot, Scenario
 from mars2d.bodies.props import Puck
 from mars2d.output.signals import as_csv, signals, signals_of_bodies
 from mars2d.sensors import Bumper, Ground, Imu, LineCamera, Proximity, RangeFinder
@@ -94,12 +93,6 @@ def test_commands_have_the_names_on_which_all_drives_agree(drives, names):
     assert [" ".join(ax.get_ylabel().split()) for ax in run.plot_signals("command")] == names
 
 
-def test_robots_are_chosen_by_name_or_index_in_the_order_given(record):
-    (ax,) = record.plot_signals("y", robots=["bob", 0, 1])
-    np.testing.assert_array_equal(data(ax)[0][:, 1], record.pose[:, 1, 1])
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["bob", "ann"]
-
-
 def test_energy_has_a_curve_for_all_that_did_work_and_momentum_its_two_parts(record):
     energy, kinetic = record.plot_signals("energy", "kinetic")
     total, *works = [points[:, 1] for points in data(energy)]
@@ -120,39 +113,6 @@ def test_energy_has_a_curve_for_all_that_did_work_and_momentum_its_two_parts(rec
     np.testing.assert_allclose(x, (mass * vx).sum(axis=1), atol=1e-12)
     np.testing.assert_allclose(y, (mass * vy).sum(axis=1), atol=1e-12)
     np.testing.assert_array_equal(data(angular)[0][:, 1], record.momentum.angular)
-
-
-def test_legends_beside_panels_lie_on_the_page(record):
-    for ax in record.plot_signals("energy", "kinetic"):
-        ax.figure.canvas.draw()
-        page = ax.figure.bbox
-        for legend in (child for child in ax.get_children() if isinstance(child, Legend)):
-            box = legend.get_window_extent()
-            assert page.x0 <= box.x0 < box.x1 <= page.x1 + 1
-
-
-def test_a_record_without_work_has_the_energy_of_mean_velocities(record):
-    nothing = np.empty(0)
-    old = dataclasses.replace(record, velocity=nothing, prop_velocity=nothing, work=nothing)
-    (ax,) = old.plot_signals("energy")
-    (line,) = data(ax)
-    vx, vy, omega = np.diff(old.pose, axis=0)[4] / old.scenario.sampling_time
-    puck = np.diff(old.prop_pose, axis=0)[4, :, 0] / old.scenario.sampling_time
-    moves = [*zip(vx, vy, omega, strict=True), puck]
-    energies = [
-        (body.inertia.mass * (x**2 + y**2) + body.inertia.moment * w**2) / 2
-        for body, (x, y, w) in zip(old.scenario.bodies, moves, strict=True)
-    ]
-    assert line[5, 1] == pytest.approx(sum(energies))
-    legend = next(child for child in ax.get_children() if isinstance(child, Legend))
-    assert [text.get_text() for text in legend.get_texts()] == ["kinetic, by mean velocities"]
-
-
-def test_props_have_columns_too(record):
-    x, speed = record.plot_signals("prop.x", "prop.speed")
-    np.testing.assert_array_equal(data(x)[0][:, 1], record.prop_pose[:, 0, 0])
-    assert [text.get_text() for text in x.get_legend().get_texts()] == ["puck"]
-    assert np.nanmax(data(speed)[0][:, 1]) > 0.1
 
 
 def test_quantities_of_a_sensor_have_a_panel_each_or_are_chosen_by_name(record):
@@ -188,13 +148,6 @@ def test_a_scan_is_an_image_over_time_and_bearing_with_a_scale(record):
     assert ax.child_axes[0].get_ylabel() == "[m]"
 
 
-def test_one_beam_of_a_scan_is_a_curve_with_its_bearing(record):
-    (ax,) = record.plot_signals("range_finder.18")
-    beam = record.sensors["range_finder"][:, 0, 18]
-    np.testing.assert_array_equal(data(ax)[0][:, 1], np.where(np.isfinite(beam), beam, np.nan))
-    assert " ".join(ax.get_ylabel().split()) == "range_finder .18 (0°) [m]"
-
-
 def test_a_camera_is_an_image_in_its_own_colours(record):
     (ax,) = record.plot_signals("line_camera")
     (image,) = ax.images
@@ -221,15 +174,6 @@ def with_effort(record, effort):
     )
 
 
-def test_gaps_stay_gaps_and_what_stands_alone_in_them_is_a_dot(record):
-    run = with_effort(record, [0.1, 0.2, np.nan, 0.3, np.inf, 0.4, 0.5])
-    (ax,) = run.plot_signals("effort")
-    line, dots = ax.lines
-    np.testing.assert_array_equal(line.get_ydata(), [0.1, 0.2, np.nan, 0.3, np.nan, 0.4, 0.5])
-    np.testing.assert_allclose(dots.get_xydata(), [[0.3, 0.3]])
-    assert dots.get_marker() == "o"
-
-
 def test_from_pi_to_minus_pi_there_is_no_line(record):
     angles = np.array([[3.1], [-3.1], [-3.0]])
     run = with_effort(record, [0, 0, 0])
@@ -253,35 +197,6 @@ def test_a_million_rows_are_drawn_small_and_without_losing_a_peak(record):
     points = data(ax)[0]
     assert len(points) < 6000
     np.testing.assert_allclose(points[points[:, 1].argmax()], [12345.7, 1.0])
-
-
-def test_where_somebody_interfered_there_is_a_line_and_no_speed():
-    world = World(Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=2), lambda w: [[0.1], [0]])
-    for _ in range(5):
-        world.step()
-    world.operator.place("robot0", (3.0, 1.0, 0.0))
-    for _ in range(5):
-        world.step()
-    run = world.record
-    jump = np.abs(np.diff(run.pose[:, 0, 0])).argmax() + 1
-    (ax,) = run.plot_signals("speed")
-    assert np.nanmax(data(ax)[0][:, 1]) == pytest.approx(0.1)
-    (mark,) = [line for line in ax.lines if line.get_linestyle() == ":"]
-    assert mark.get_xdata()[0] == pytest.approx(run.time[jump])
-    assert "by hand" in [text.get_text() for text in ax.get_legend().get_texts()]
-
-
-def test_axes_given_are_drawn_on_and_nothing_else(record):
-    figure = Figure()
-    left, right, other = figure.subplots(1, 3)
-    assert record.plot_signals("x", "effort", axes=[left, right]) == [left, right]
-    assert (left.get_xlabel(), right.get_xlabel()) == ("time [s]", "time [s]")
-    assert not other.has_data()
-    assert figure.axes == [left, right, other]
-    with pytest.raises(InputError, match=r"axes: 2 of them, for 1 panel \(x\)"):
-        record.plot_signals("x", axes=[left, right])
-    with pytest.raises(InputError, match="expected plain axes of matplotlib"):
-        record.plot_signals("x", axes=["here"])
 
 
 @each_case(
@@ -321,38 +236,6 @@ def test_a_part_of_the_run_is_drawn_to_its_own_limits(record):
     assert axes[3].images[0].get_extent()[0] == 0.5
     whole = record.plot_signals("speed", robots=["ann"])[0]
     np.testing.assert_array_equal(data(axes[4])[0], data(whole)[0][5:21])
-
-
-@each_case("start, end", [(9, None), (None, 8.2), (3, 2), (-1, 2), (0.01, 0.02)])
-def test_a_part_that_the_run_does_not_have_is_refused(record, start, end):
-    with pytest.raises(InputError, match="expected a part of the run, which goes from 0 to 8 s"):
-        record.plot_signals("x", start=start, end=end)
-
-
-def test_records_of_one_row_are_drawn_and_of_none_are_refused(record):
-    run = with_effort(record, [0.5])
-    for ax in run.plot_signals("x", "effort", "speed", "command"):
-        ax.figure.canvas.draw()
-    with pytest.raises(InputError, match="no rows"):
-        with_effort(record, []).plot_signals("x")
-
-
-def test_a_record_that_lacks_own_sensors_shows_their_readings(tmp_path):
-    run = mars2d.run("own_sensor_and_addon", stop_time=2)
-    again = mars2d.load(run.save(tmp_path / "own.npz"))
-    assert again.missing
-    (ax,) = again.plot_signals("eyes")
-    assert len(ax.lines) == 6
-    (one,) = again.plot_signals("eyes.1", robots=[2])
-    np.testing.assert_array_equal(data(one)[0][:, 1], run.sensors["eyes"][:, 2, 1])
-
-
-def test_names_are_shown_as_they_are_written():
-    scenario = Scenario(title=r"$\nor$", robots=[Robot(name=r"_$\a$")], stop_time=1)
-    run = mars2d.run(scenario, control=lambda world: [[0.1], [0.0]])
-    (ax,) = run.plot_signals("x")
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == [r"_$\a$"]
-    ax.figure.canvas.draw()  # raises where it is taken for mathematics
 
 
 # -- contacts and distances -----------------------------------------------------------------------

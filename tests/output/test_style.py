@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from io import BytesIO
 
 import matplotlib as mpl
@@ -13,8 +12,8 @@ from PIL import Image
 
 import mars2d
 from mars2d import InputError, Robot, Scenario
-from mars2d.output.figures.figure import plot_snapshots, save_figure
-from mars2d.output.figures.style import PRINT, PROJECTOR, STYLES, style_of
+from mars2d.output.figures.figure import save_figure
+from mars2d.output.figures.style import PROJECTOR, style_of
 from tests.cases import each_case
 
 KINDS = ("plot", "plot_signals", "plot_contacts", "plot_distances")
@@ -34,12 +33,6 @@ def record():
 def drawn(record, kind, style):
     made = getattr(record, kind)(style=style)
     return (made[0] if isinstance(made, list) else made).figure
-
-
-def contrast(color):
-    parts = [int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)]
-    linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
-    return 1.05 / (np.dot([0.2126, 0.7152, 0.0722], linear) + 0.05)
 
 
 def test_an_unknown_style_is_refused_with_the_nearest_one(record):
@@ -79,12 +72,6 @@ def test_in_print_no_two_of_eight_robots_look_alike_without_colours():
     assert len({(line.get_color()[:7], line.get_linestyle()) for line in paths}) == 8
 
 
-def test_in_print_there_is_no_title_for_the_caption_says_it(record):
-    assert record.plot(style="print").get_title() == ""
-    assert record.plot_signals("x", style="print")[0].get_title(loc="left") == ""
-    assert record.plot_signals("x")[0].get_title(loc="left") == "Five"
-
-
 @each_case("kind", KINDS)
 def test_for_a_projector_a_figure_is_a_slide_with_large_text(record, kind):
     figure = drawn(record, kind, "projector")
@@ -99,42 +86,3 @@ def test_for_a_projector_a_figure_is_a_slide_with_large_text(record, kind):
     assert drawn_in.y0 >= 0
     assert drawn_in.x1 <= figure.get_size_inches()[0]
     assert drawn_in.y1 <= figure.get_size_inches()[1]
-
-
-def test_for_a_projector_pale_colours_are_darkened(record):
-    assert contrast(record.scenario.colors[1]) < 2
-    assert all(contrast(color) >= 3 for color in PROJECTOR.colors(record.scenario))
-    assert PROJECTOR.colors(record.scenario)[0] == record.scenario.colors[0]
-    (ax,) = record.plot_signals("x", style="projector")
-    assert to_hex(ax.lines[1].get_color()) == PROJECTOR.colors(record.scenario)[1]
-
-
-def test_robots_of_one_colour_are_told_apart_by_dashes(record):
-    (ax,) = record.plot_signals("x")
-    assert [line.get_linestyle() for line in ax.lines] == ["-", "-", "-", "--", ":"]
-
-
-@each_case("style", STYLES)
-def test_the_users_settings_of_matplotlib_are_as_they_were(record, style):
-    with mpl.rc_context({"font.family": ["DejaVu Serif"], "lines.linewidth": 7}):
-        before = dict(mpl.rcParams)
-        drawn(record, "plot", style)
-        plot_snapshots(record, [0, 3], style=style)
-        assert dict(mpl.rcParams) == before
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("style", STYLES)
-def test_the_same_record_gives_the_same_bytes_in_each_style(record, tmp_path, style):
-    for suffix in ("pdf", "svg"):
-        one, two = (save_figure(record, tmp_path / f"{k}.{suffix}", style=style) for k in (1, 2))
-        assert one.read_bytes() == two.read_bytes()
-
-
-def test_a_restyled_record_keeps_all_but_the_colours(record):
-    grey = PRINT.restyled(record)
-    assert grey.digest == record.digest
-    assert grey.scenario.colors != record.scenario.colors
-    assert grey.scenario.replace(robots=record.scenario.robots) == record.scenario
-    assert dataclasses.replace(record) is not record
-    assert STYLES["screen"].restyled(record) is record

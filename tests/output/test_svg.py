@@ -9,12 +9,11 @@ from io import BytesIO
 
 import numpy as np
 import pytest
-import shapely
 from PIL import Image
 
-from mars2d.core.scene import WAKE_LINES, WAKE_MARKERS, Scene
+from mars2d.core.scene import WAKE_LINES, Scene
 from mars2d.output.figures.extent import View
-from mars2d.output.pages.svg import TOLERANCE, svg
+from mars2d.output.pages.svg import svg
 from tests.cases import each_case
 
 VIEW, SIZE = View(0.0, 4.0, 0.0, 2.0), (400.0, 200.0)  # 100 pixels a metre
@@ -103,13 +102,6 @@ def test_a_text_lies_on_the_side_that_its_anchor_says(anchor, x, above):
     assert (text.get("stroke"), text.get("paint-order")) == ("#ffffff", "stroke")
 
 
-def test_lines_of_a_text_stand_below_each_other_about_its_point():
-    scene = Scene()
-    scene.text((1, 1), "one\ntwo\nthree", size=10)
-    heights = [float(element.get("y")) - 3.6 for _, element in drawn(scene)]
-    assert heights == pytest.approx([87.5, 100, 112.5])
-
-
 def test_texts_that_look_like_markup_or_that_xml_cant_hold_are_shown_as_text():
     scene = Scene()
     nasty = "</text><script>alert('a' & \"b\")</script>"
@@ -129,43 +121,6 @@ def test_each_line_style_goes_through_its_points(line):
     assert (path.get("stroke-dasharray") is None) == (line == "-")
 
 
-@each_case("mark", WAKE_MARKERS)
-def test_marks_stand_along_a_line_and_not_nearer_than_nine_points(mark):
-    scene = Scene()
-    x = np.linspace(0, 2, 1001)
-    scene.line(np.column_stack([x, np.ones_like(x)]), stroke="black", style=mark)
-    scene.line([(0, 0), (1, 0)], stroke="black", style=f"{mark}--")
-    (_, dense), (_, dashed), (_, marks) = drawn(scene)
-    spots = re.findall(rf"M({NUMBER}) ({NUMBER})", dense.get("d"))
-    apart = np.diff(np.array(spots, dtype=float)[:, 0])
-    assert len(spots) == 23  # one each nine of two hundred pixels
-    assert apart.min() > 8.5
-    assert dashed.get("stroke-dasharray") == "9 6"
-    assert len(re.findall("M", marks.get("d"))) == 2
-
-
-def test_a_long_path_loses_corners_but_lies_within_the_tolerance():
-    t = np.linspace(0, 12 * np.pi, 5_000)
-    points = np.column_stack([2 + 1.9 * np.cos(t) * t / 40, 1 + 0.9 * np.sin(1.3 * t)])
-    scene = Scene()
-    scene.line(points, stroke="black")
-    _, path = only(scene)
-    [found] = corners(path.get("d"))
-    assert len(found) < 1500
-    pixels = shapely.points((points - (0, 2)) * (100, -100))
-    off = shapely.distance(pixels, shapely.LineString(found))
-    assert off.max() < TOLERANCE
-    assert found[0] == pytest.approx([200, 100], abs=0.01)
-    assert found[-1] == pytest.approx((points[-1] - (0, 2)) * (100, -100), abs=0.01)
-
-
-def test_a_body_that_stands_still_for_long_takes_no_room():
-    scene = Scene()
-    scene.line(np.ones((100_000, 2)), stroke="black")
-    _, path = only(scene)
-    assert len(path.get("d")) < 20
-
-
 def test_what_is_not_a_number_is_left_out_and_lines_have_gaps_there():
     nan = float("nan")
     scene = Scene()
@@ -183,20 +138,6 @@ def test_what_is_not_a_number_is_left_out_and_lines_have_gaps_there():
     assert found == [[[0, 200], [100, 200]], [[200, 200], [300, 200]]]
 
 
-def test_what_lies_far_out_is_drawn_far_out():
-    scene = Scene()
-    scene.line([(0, 1), (1e300, 1)], stroke="red")
-    _, path = only(scene)
-    assert corners(path.get("d"))[0].tolist() == [[0, 100], [1e6, 100]]
-
-
-def test_what_has_neither_fill_nor_edge_takes_no_room():
-    scene = Scene()
-    scene.circle((1, 1), 1)
-    scene.polygon([(0, 0), (1, 0), (1, 1)])
-    assert drawn(scene) == []
-
-
 def picture_in(element):
     data = element.get("href").removeprefix("data:image/png;base64,")
     return np.asarray(Image.open(BytesIO(base64.b64decode(data))))
@@ -212,16 +153,6 @@ def test_an_image_holds_its_pixels_and_large_ones_stay_sharp():
     assert place == ["100", "100", "100", "100"]
     assert image.get("image-rendering") == "pixelated"
     assert np.array_equal(picture_in(image), pixels)
-
-
-def test_an_image_with_more_pixels_than_are_seen_is_averaged():
-    pixels = np.zeros((2000, 4000, 3), dtype=np.uint8)
-    pixels[:, ::2] = 200
-    scene = Scene()
-    scene.image(pixels, (0, 1, 0, 1))
-    found = picture_in(only(scene)[1])
-    assert found.shape == (200, 200, 3)  # two for each pixel of the screen
-    assert (found == 100).all()
 
 
 def test_the_same_scenes_make_the_same_text_without_ids():

@@ -16,7 +16,6 @@ from pathlib import Path
 import pytest
 
 import mars2d
-from mars2d.scenario.examples import examples
 from tests.processes import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -79,33 +78,7 @@ def commands(words: list[list[str]], folder: Path) -> list[tuple[int, str]]:
     return [tuple(each) for each in json.loads(done.stdout)]
 
 
-def test_the_child_has_neither_pygame_nor_threads(browser):
-    assert "No module named 'pygame'" in browser("import pygame").stderr
-    assert "neither threads" in browser("threading.Thread(target=print).start()").stderr
-    assert "neither threads" in browser("subprocess.run(['true'])").stderr
-
-
-def test_every_example_runs_and_can_be_seen(browser):
-    code = (
-        "import mars2d, json\n"
-        "from mars2d.scenario.examples import examples\n"
-        "found = {}\n"
-        "for name in examples():\n"
-        "    record = mars2d.run(name, stop_time=1.0)\n"
-        "    assert record._repr_svg_().startswith('<svg')\n"
-        "    assert record.scenario._repr_svg_().startswith('<svg')\n"
-        "    found[name] = record.digest\n"
-        "assert 'pygame' not in sys.modules\n"
-        "print(json.dumps(found))"
-    )
-    done = browser(code)
-    assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)
-    assert set(found) == set(examples())
-    for name in ("random_walk", "billiards"):  # the same to the last bit
-        assert mars2d.run(name, stop_time=1.0).digest == found[name]
-
-
+@pytest.mark.nightly
 def test_a_record_is_saved_loaded_drawn_and_played(browser, tmp_path):
     code = (
         "import mars2d\n"
@@ -126,18 +99,6 @@ def test_a_record_is_saved_loaded_drawn_and_played(browser, tmp_path):
     figures = ("paths", "snapshots", "signals", "contacts", "distances")
     wanted = {"run.npz", "run.html", *(f"{name}.png" for name in figures)}
     assert {path.name for path in tmp_path.iterdir()} == wanted
-
-
-def test_a_world_is_stepped_by_hand_and_shows_itself(browser):
-    code = (
-        "from mars2d import Robot, Scenario, World\n"
-        "from mars2d.sensors import RangeFinder\n"
-        "world = World(Scenario(robots=[Robot(pose=(0, 0, 0), sensors=[RangeFinder()])]))\n"
-        "for _ in range(10): world.step([[0.3], [0.1]])\n"
-        "assert world._repr_svg_().startswith('<svg')\n"
-    )
-    done = browser(code)
-    assert done.returncode == 0, done.stderr
 
 
 def test_the_command_line_runs_saves_draws_and_checks(tmp_path):
@@ -173,22 +134,3 @@ def test_a_command_that_needs_pygame_says_so_in_one_line(tmp_path):
         assert code == 2, (words, errors)
         assert errors.strip().splitlines()[-1] == f"mars2d: {what} needs pygame, {PIP}", words
         assert "Traceback" not in errors
-
-
-CALLS = [
-    "mars2d.run('random_walk', show=True)",
-    "mars2d.run('random_walk', speed=0)",
-    "mars2d.run('random_walk', human=0)",
-    "mars2d.run('random_walk', stop_time=1).film('a.gif')",
-    "mars2d.run('random_walk', stop_time=1).film('a.mp4')",
-]
-
-
-def test_a_call_that_needs_pygame_raises_what_is_missing(browser):
-    missing = "mars2d.core.errors.MissingExtraError"
-    tried = "".join(f"try: {call}\nexcept {missing} as error: print(error)\n" for call in CALLS)
-    done = browser("import mars2d\n" + tried)
-    assert done.stderr == ""
-    lines = done.stdout.splitlines()
-    assert len(lines) == len(CALLS)
-    assert [line for line in lines if not line.endswith(PIP)] == []

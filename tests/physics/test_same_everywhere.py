@@ -111,7 +111,7 @@ def test_its_commands_given_again(record):
 
 
 def test_a_timeline_in_which_somebody_goes_back_and_on(digest):
-    timeline = Timeline(open_experiment(BUSTLE, seed=SEED), SEED)
+    timeline = Timeline(open_experiment(BUSTLE, seed=SEED))
     while timeline.newest < 10:
         timeline.advance()
     for row in (2, 9, 0):

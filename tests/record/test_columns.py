@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mars2d import Robot, Scenario, World
-from mars2d.record.columns import BLOCK, STEP, Column, DiskError, Scratch, Texts, blocks
+from mars2d.record.columns import BLOCK, Column, Scratch, Texts, blocks
 from mars2d.record.message import MESSAGE
 from tests.cases import each_case
 
@@ -31,37 +30,6 @@ def test_a_column_holds_what_was_written(storage, shape) -> None:
     np.testing.assert_array_equal(early, values[:500])
     with pytest.raises(ValueError, match="read-only"):
         early[:] = 0
-
-
-def test_rows_larger_than_what_a_file_grows_by_fit(tmp_path) -> None:
-    column = Scratch(tmp_path)((STEP // 4,), float, 1)
-    for k in range(3):
-        column.write(k, float(k))
-    assert column.upto(3)[:, -1].tolist() == [0, 1, 2]
-
-
-def test_files_of_columns_have_no_name(tmp_path) -> None:
-    column = Scratch(tmp_path)((), MESSAGE, 10)
-    column.write_block(0, np.zeros(1000, MESSAGE))
-    assert list(tmp_path.iterdir()) == []
-    assert len(column.upto(1000)) == 1000
-
-
-def test_a_column_without_room_says_where(tmp_path) -> None:
-    column = Scratch(tmp_path / "nowhere")((), float, 10)
-    with pytest.raises(DiskError, match="nowhere: no room for the columns of the run"):
-        column.write_block(0, np.zeros(10_000))
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="descriptors of Linux")
-def test_short_columns_are_no_open_files(tmp_path) -> None:
-    there = len([*Path("/proc/self/fd").iterdir()])
-    kept = [Scratch(tmp_path)((3, 2), float, 10) for _ in range(300)]
-    for column in kept:
-        for k in range(100):
-            column.write(k, k)
-    assert len([*Path("/proc/self/fd").iterdir()]) <= there + 1
-    assert all(column.upto(100)[99, 0, 0] == 99 for column in kept)
 
 
 def test_blocks_of_a_file_leave_the_memory_again(tmp_path, monkeypatch) -> None:

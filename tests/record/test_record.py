@@ -14,7 +14,6 @@ from mars2d.addons import Map
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.bodies.rigid import Inertia
-from mars2d.cli.command_line import main
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.record.contact import CONTACT
 from mars2d.record.rows import COLUMNS
@@ -105,12 +104,6 @@ def test_a_record_has_a_row_for_every_sampling_time_up_to_the_stop_time(stop_tim
     assert len(mars2d.run(Scenario(stop_time=stop_time))) == rows
 
 
-def test_a_long_run_keeps_all_its_rows():
-    record = mars2d.run(Scenario(stop_time=10_000, sampling_time=1.0, robots=2))
-    assert len(record) == 10_001
-    assert np.array_equal(record.time, np.arange(10_001))
-
-
 def test_why_it_ended_is_kept(record):
     assert record.over_message == "Time is over: 2 s"
     assert record.finished
@@ -168,21 +161,6 @@ def test_a_frame_is_what_was_seen_at_a_row(record, row, same):
     assert robot == 2
     assert np.array_equal(values, record.sensors["beams"][same, 1])
     assert bool(frame.over_message) is (same == 20)
-
-
-@each_case("row", [21, -22, 10**6])
-def test_there_is_no_frame_beyond_the_end(record, row):
-    with pytest.raises(IndexError):
-        record.frame(row)
-
-
-def test_a_frame_has_the_props_and_the_efforts_of_its_row(record):
-    moved = [k for k in range(21) if not np.array_equal(record.prop_pose[k], record.prop_pose[0])]
-    assert moved  # the last robot has pushed the box
-    for row in (0, moved[0], 20):
-        frame = record.frame(row)
-        assert np.array_equal(frame.prop_pose, record.prop_pose[row])
-        assert np.array_equal(frame.effort, record.effort[row])
 
 
 def test_a_frame_has_the_contacts_of_the_control_step_that_led_to_its_row():
@@ -251,28 +229,6 @@ def test_the_obstacles_of_an_own_addon_come_back(tmp_path):
     assert again.scenario.obstacles == run.scenario.obstacles
 
 
-def test_the_record_so_far_of_a_world_can_be_saved(tmp_path):
-    world = World(scenario())
-    empty = mars2d.load(world.record.save(tmp_path / "empty.npz"))
-    assert len(empty) == 0
-    world.step()
-    assert len(mars2d.load(world.record.save(tmp_path / "one.npz"))) == 1
-
-
-@each_case("name", ["run", "run.npy", "run.mat.txt", "run.pkl"])
-def test_a_records_name_says_its_format(record, tmp_path, name):
-    with pytest.raises(InputError, match=r"a name that ends in .npz, .csv, .mcap, .mat or .nc"):
-        record.save(tmp_path / name)
-    assert not (tmp_path / name).exists()
-
-
-def test_a_missing_file_and_a_folder_are_refused(tmp_path):
-    with pytest.raises(InputError, match=r"none.npz: there is no such file"):
-        mars2d.load(tmp_path / "none.npz")
-    with pytest.raises(InputError, match="a folder; expected a record"):
-        mars2d.load(tmp_path)
-
-
 # -- props, joints and shapes as plain data, and run again ----------------------------------------
 
 ARROW = Polygon([(-0.15, -0.1), (0.2, 0), (-0.15, 0.1), (-0.1, 0)])
@@ -333,12 +289,6 @@ def test_a_record_with_props_and_joints_runs_again_to_the_last_bit(physics, tmp_
     again = mars2d.load(record.save(tmp_path / "run.npz"))
     assert again.digest == record.digest
     assert rerun(again) is None
-
-
-def test_check_says_that_a_record_with_props_and_joints_is_bit_identical(tmp_path, capsys):
-    path = mars2d.run(workshop()).save(tmp_path / "run.npz")
-    assert main(["check", str(path)]) == 0
-    assert "run again   from its recorded commands: bit-identical" in capsys.readouterr().out
 
 
 @each_case("column", ["prop_pose", "effort"])
@@ -447,16 +397,3 @@ def test_a_robot_or_scenario_of_a_derived_class_comes_back_as_one_of_ours():
     assert missing == ()
     assert (type(again), again.title) == (Scenario, "on stage")
     assert [(type(r), r.diameter) for r in again.robots] == [(Robot, 0.2)]
-
-
-def test_a_run_that_ends_with_half_a_character_is_kept(tmp_path):
-    def law(world):
-        if world.iteration == 3:
-            raise OSError("caf\udce9.txt")  # a name of a file that is not in UTF-8
-        return np.zeros((2, 1))
-
-    with pytest.raises(InputError, match="law raised OSError") as raised:
-        mars2d.run(Scenario(stop_time=1), control=law)
-    record = raised.value.record
-    assert record.over_message.endswith("law raised OSError: caf?.txt (at 0.3 s)")
-    assert len(mars2d.load(record.save(tmp_path / "run.npz"))) == 3

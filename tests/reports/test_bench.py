@@ -8,21 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from shapely import MultiPoint, Point
 
-from mars2d import Robot, Scenario, World
 from mars2d.cli import command_line as cli
-from mars2d.reports.bench import suite
 from mars2d.reports.bench.gaps import Gaps
 from mars2d.reports.bench.report import ALIKE, Change, Figures, Report, Row, load_report
-from mars2d.reports.bench.scenes import FORCE, LEVER, SCENES, TORQUE, Scene, Turns, team
+from mars2d.reports.bench.scenes import FORCE, LEVER, SCENES, TORQUE, Scene
 from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 from mars2d.reports.bench.yardstick import Bare
 from tests.cases import each_case
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
-
-TINY = suite.Effort(rounds=2, time=0.0, yardstick=5)
 
 STEADY = tuple(1e-4 * (1 + 0.01 * np.sin(range(9))))
 """What a step of the bare loop takes on a quiet machine, in each of some rounds."""
@@ -63,14 +58,6 @@ def test_a_scene_is_the_same_each_time_and_nothing_touches_in_it(name):
     assert np.abs(starts[:, :2]).max() < scene.side / 2 - scene.radius
 
 
-def test_teams_of_all_sizes_cover_as_much_of_the_arena():
-    for n in (10, 100, 1000):
-        scene = team(n, 0.1)
-        assert scene.poses.shape == (n, 3)
-        assert n * np.pi * scene.radius**2 / scene.side**2 == pytest.approx(0.05)
-        assert len(scene.boxes) == n // 50
-
-
 def test_a_world_of_a_scene_has_its_robots_sensors_obstacles_and_settings():
     world = world_of(SCENES["S3"](), SETTINGS["loose"])
     assert world.scenario.max_overlap == 0.02
@@ -101,23 +88,6 @@ def test_a_world_of_contacts_has_its_robots_crates_and_ropes(name, robots, crate
         rope = world.scenario.joints[i]
         assert (rope.a, rope.b, rope.length) == (f"robot{i}", f"box{k}", length)
     assert len(scene.ropes) == len(world.scenario.joints)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["P1", "P3"])
-def test_crates_are_pushed_and_towed(name):
-    world = world_of(SCENES[name](), SETTINGS["loose"])
-    for _ in range(200):
-        world.step()
-    pose = world.record.prop_pose
-    assert np.hypot(*(pose[-1] - pose[0])[:2]).mean() > 0.05
-
-
-def test_the_law_of_a_team_turns_anew_once_a_second():
-    law = Turns(3, 0.25)
-    omega = [law(k)[1].tolist() for k in range(9)]
-    assert omega[0] == omega[3] != omega[4] == omega[7] != omega[8]
-    assert law(9)[0].tolist() == [0.3] * 3
 
 
 # -- the yardstick --------------------------------------------------------------------------------
@@ -168,12 +138,6 @@ def test_the_deepest_overlap_is_that_which_one_works_out(places, expected):
     assert deepest(scene, np.array([apart, pose, apart])) == pytest.approx(expected, abs=1e-12)
 
 
-def test_robots_that_were_at_the_same_place_at_different_times_do_not_overlap():
-    scene = Scene("", "", 0.1, 6.0, np.zeros((2, 3)), [])
-    first, second = np.array([(0, 0, 0), (1, 0, 0)]).T, np.array([(1, 0, 0), (0, 0, 0)]).T
-    assert deepest(scene, np.array([first, second] * 50)) == 0
-
-
 SQUARES = Scene("", "", 0.1, 6.0, np.zeros((1, 3)), [BOX], square=True, crates=np.zeros((1, 3)))
 """A robot of 0.3 m and a crate of 0.4 m, both squares."""
 
@@ -196,109 +160,27 @@ def test_gaps_of_squares_are_those_which_one_works_out(robot, crate, expected):
     assert fixed[0] == pytest.approx(expected[1])
 
 
-@each_case("square", [False, True])
-def test_overlaps_of_turned_bodies_are_those_of_minkowskis_difference(square):
-    rng = np.random.default_rng(0)
-    scene = Scene("", "", 0.1, 6.0, np.zeros((1, 3)), [], square=square, crates=np.zeros((1, 3)))
-    gaps, found = Gaps(scene), []
-    for _ in range(200):
-        (x, y), a, b = rng.uniform(-0.3, 0.3, 2), *rng.uniform(-np.pi, np.pi, 2)
-        robot, crate = np.zeros((1, 2)), _corners(0.2, b)
-        if square:
-            robot = _corners(0.15, a)
-        hull = MultiPoint((crate[:, None] - robot).reshape(-1, 2)).convex_hull
-        there = Point(x, y)
-        depth = hull.exterior.distance(there) * (1 if hull.contains(there) else -1)
-        gap = float(gaps(np.array([(x, y, a), (0, 0, b)]), 1.0)[0][0])
-        if depth > 0 or not square:
-            found.append(gap)
-            assert gap == pytest.approx(-depth - (0 if square else 0.15))
-    assert min(found) < -0.1
-
-
-def _corners(half, angle):
-    """The corners of a turned square round the origin."""
-    turns = angle + np.pi / 4 + np.pi / 2 * np.arange(4)
-    return half * 2**0.5 * np.column_stack([np.cos(turns), np.sin(turns)])
-
-
-# -- the suite ------------------------------------------------------------------------------------
-
-
-def test_the_suite_has_each_scene_at_both_settings_and_the_starts():
-    names = [f"{scene} {setting}" for scene in SCENES for setting in ("default", "loose")]
-    starts = ["import mars2d", "mars2d run random_walk --headless"]
-    assert list(suite.jobs(suite.NAMES)) == names + starts
-
-
-def test_a_scene_is_timed_and_looked_at():
-    rows = {name: job(TINY) for name, job in suite.jobs(["S2"]).items()}
-    tight, loose = rows["S2 default"], rows["S2 loose"]
-    assert tight.name == "S2 default"
-    assert len(tight.rounds) == 2
-    assert 0 < tight.seconds < 1
-    assert tight.figures.sampling_time == 0.05
-    assert 1e-4 < tight.figures.deepest < 1e-3
-    assert 1e-3 < loose.figures.deepest < 0.02
-    # Pose, command and effort are 48 bytes, two times for all robots, and contacts.
-    assert 48.16 < tight.figures.bytes < 150
-
-
-def test_the_size_of_a_record_is_that_of_its_columns():
-    world = World(Scenario(robots=[Robot(pose=(0, 0, 0)), Robot(pose=(2, 0, 0))]))
-    for _ in range(10):
-        world.step([[0.1, 0.1], [0, 0]])
-    assert suite._size(world.record) == 10 * (2 * 48 + 16)
-
-
 # -- one run against another ----------------------------------------------------------------------
 
-
-def test_what_takes_half_as_long_is_twice_as_fast():
-    change = Change.between(row(2e-3), row(1e-3))
-    assert change.times_as_fast == pytest.approx(2, rel=0.03)
-    assert not change.noise
+RESTLESS = tuple(1e-4 * (1 + 0.5 * np.array([0, 1, 0, 1, 0, 1, 0, 1, 0])))
+WORK = 1e-3 * np.array([1, 40, 3, 60, 2, 70, 5, 50, 4])
 
 
-def test_on_a_machine_half_as_fast_the_same_program_is_as_fast_as_before():
-    change = Change.between(row(1e-3), row(2e-3, bare=tuple(2 * np.array(STEADY))))
-    assert change == (pytest.approx(1), True)
-
-
-def test_a_small_difference_is_noise():
-    assert Change.between(row(1e-3), row(1e-3 * (1 + 0.8 * ALIKE))).noise
-    assert not Change.between(row(1e-3), row(1.2e-3)).noise
-
-
-def test_a_difference_is_noise_where_the_yardstick_varied_by_as_much():
-    restless = tuple(1e-4 * (1 + 0.5 * np.array([0, 1, 0, 1, 0, 1, 0, 1, 0])))
-    shares = 13 * np.array(restless)
-    assert Change.between(row(1e-3), row(shares, restless)).times_as_fast == pytest.approx(
-        0.77, 0.02
-    )
-    assert Change.between(row(1e-3), row(shares, restless)).noise
-    assert not Change.between(row(1e-3), row(13 * np.array(STEADY))).noise
-
-
-def test_between_a_quick_and_a_slow_machine_smaller_differences_are_noise():
-    slow = tuple(1.6 * np.array(STEADY))
-    assert Change.between(row(1e-3), row(1.6 * 1.12e-3, bare=slow)).noise
-    assert not Change.between(row(1e-3), row(1.6 * 1.5e-3, bare=slow)).noise
-
-
-def test_a_difference_is_noise_where_the_rounds_disagree():
-    scattered = 1e-3 * np.array([0.3, 2.0, 0.4, 1.5, 2.1, 0.5, 1.8, 0.6, 1.7])
-    assert Change.between(row(1e-3), row(scattered)).noise
-
-
-def test_rounds_are_compared_one_by_one_as_they_do_different_work():
-    work = 1e-3 * np.array([1, 40, 3, 60, 2, 70, 5, 50, 4])
-    change = Change.between(row(work), row(work / 1.5))
-    assert change == (pytest.approx(1.5), False)
-
-
-def test_the_time_of_a_row_is_the_mean_of_its_rounds():
-    assert row([1e-3, 3e-3], bare=(1e-4, 1e-4)).seconds == pytest.approx(2e-3)
+@each_case(
+    "old, new, times_as_fast, noise",
+    [
+        (row(2e-3), row(1e-3), 2, False),
+        (row(1e-3), row(2e-3, bare=tuple(2 * np.array(STEADY))), 1, True),  # a slower machine
+        (row(1e-3), row(1e-3 * (1 + 0.8 * ALIKE)), 1 / (1 + 0.8 * ALIKE), True),
+        (row(1e-3), row(1.2e-3), 1 / 1.2, False),
+        (row(1e-3), row(13 * np.array(RESTLESS), RESTLESS), 0.77, True),
+        (row(WORK), row(WORK / 1.5), 1.5, False),  # round by round: each does other work
+    ],
+)
+def test_how_many_times_as_fast_and_whether_it_is_noise(old, new, times_as_fast, noise):
+    change = Change.between(old, new)
+    assert change.times_as_fast == pytest.approx(times_as_fast, rel=0.03)
+    assert change.noise == noise
 
 
 # -- files ----------------------------------------------------------------------------------------
@@ -312,23 +194,6 @@ def test_a_saved_report_is_the_same_when_it_is_read(tmp_path):
     assert load_report(tmp_path / "a.json") == report
 
 
-@pytest.mark.slow
-def test_the_command_saves_and_compares(tmp_path, capsys):
-    old = tmp_path / "old.json"
-    code, out, err = bench(capsys, "S1", "--quick", "--save", old)
-    assert (code, err) == (0, "")
-    assert [line.split()[:2] for line in out.splitlines()[2:4]] == [
-        ["S1", "default"],
-        ["S1", "loose"],
-    ]
-    assert max(map(len, out.splitlines())) <= 100
-    code, out, err = bench(capsys, "S1", "--quick", "--compare", old, "--save", old)
-    assert (code, err) == (0, "")
-    for line in out.splitlines()[2:4]:
-        assert " x" in line
-    assert f"times as fast as in {old}" in out
-
-
 def test_the_command_prints_one_line_of_json(tmp_path, capsys):
     saved = tmp_path / "old.json"
     Report((row(1e-3, name="S1 default"), row(1e-3, name="S4 default"))).save(saved)
@@ -340,13 +205,6 @@ def test_the_command_prints_one_line_of_json(tmp_path, capsys):
     assert data["rows"][0]["seconds"] > 0
     assert list(data["compared"]) == ["S1 default"]  # what both runs have
     assert set(data["compared"]["S1 default"]) == {"times_as_fast", "noise"}
-
-
-@pytest.mark.slow
-def test_a_run_with_the_engine_in_python_says_so(capsys, monkeypatch):
-    monkeypatch.setenv("MARS2D_PLAIN", "1")
-    _, out, _ = bench(capsys, "S1", "--quick")
-    assert "with the engine in Python: the environment variable MARS2D_PLAIN is 1" in out
 
 
 # -- what it can't do -----------------------------------------------------------------------------
@@ -364,12 +222,6 @@ def test_what_can_not_be_written_is_refused_before_the_suite_is_run(tmp_path, ca
     assert "this is a folder" in refused(capsys, "--save", tmp_path / "b.json")
 
 
-def test_a_file_that_is_not_there_is_named(tmp_path, capsys):
-    assert "gone.json: can't be read: No such file" in refused(
-        capsys, "--compare", tmp_path / "gone.json"
-    )
-
-
 # -- the scripts in benchmarks/ -------------------------------------------------------------------
 
 
@@ -381,7 +233,7 @@ def script(name, *arguments, cwd):
     return done.stdout
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_growth_is_measured_fitted_and_drawn(tmp_path):
     arguments = ("--sizes", 4, 16, "--time", 0, "--json", "a.json", "--figure", "a.png")
     printed = script("growth.py", *arguments, cwd=tmp_path)
@@ -401,14 +253,3 @@ def test_the_growth_is_measured_fitted_and_drawn(tmp_path):
     with Image.open(tmp_path / "a.png") as picture:
         assert picture.size == (1210, 462)
         assert len(picture.getcolors()) <= 128
-
-
-def test_the_stages_of_a_control_step_are_all_of_it(tmp_path):
-    script("stages.py", "S1", "--seconds", 0.2, "--json", "a.json", cwd=tmp_path)
-    rows = json.loads((tmp_path / "a.json").read_text())
-    assert list(rows) == ["S1 default", "S1 loose"]
-    for stages in rows.values():
-        parts = {name: part for name, part in stages.items() if name != "us"}
-        assert list(parts) == ["sense", "law", "limits", "record", "motion", "rest"]
-        assert sum(parts.values()) == pytest.approx(1)
-        assert min(parts.values()) > 0

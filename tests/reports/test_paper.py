@@ -4,14 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import re
 import shlex
 import shutil
-import signal
-import subprocess
-import sys
-import time
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -22,16 +17,13 @@ from PIL import Image
 import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli.verbs import paper as verb
-from mars2d.reports.paper.figure import Figure, Picture, Result, Run
+from mars2d.reports.paper.figure import Figure, Run
 from mars2d.reports.paper.figures import FIGURES
-from mars2d.reports.paper.folder import prepare
-from mars2d.reports.paper.make import _setting, make, make_all
-from mars2d.reports.paper.page import MARK, page, typeset
-from mars2d.reports.paper.studies.base import Study
+from mars2d.reports.paper.make import _setting
+from mars2d.reports.paper.page import MARK, typeset
 from mars2d.scenario.experiment import open_module
-from mars2d.scenario.prediction import Prediction
 from tests.cases import each_case
-from tests.processes import PATIENCE, mars, wait_until
+from tests.processes import mars
 
 FAILS = """
 from mars2d import Prediction, Scenario
@@ -197,7 +189,7 @@ def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap):
     }  # fmt: skip
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_the_command_under_a_picture_makes_the_same_file_alone(cheap, tmp_path, monkeypatch):
     (made,) = check_numbers(cheap).values()
     words = shlex.split(made["pictures"][0]["command"])
@@ -253,42 +245,7 @@ def test_figures_are_those_of_the_paper_and_each_experiment_states_its_setting()
         assert all(text.endswith(".") for text in (each.paper, each.theory))
 
 
-def test_the_index_of_the_experiments_states_each_ones_setting_and_figure():
-    index = Path(__file__).parents[2] / "docs" / "experiments" / "index.md"
-    rows = re.findall(
-        r"^\| \[`(\w+)`\]\(\w+\.md\) \| (\d?) ?\| ([^|]+) \|",
-        index.read_text(encoding="utf-8"), flags=re.M,
-    )  # fmt: skip
-    assert len(rows) == 12
-    figures = {run.experiment: f"{f.number}" for f in FIGURES for run in f.runs}
-    for name, number, setting in rows:
-        assert number == figures.get(name, ""), name
-        stated = _setting(name).replace(" with", ",").lower()
-        assert stated.startswith(setting), f"{name}: {stated}"
-
-
 # -- the folder -------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-def test_the_seed_is_that_of_the_runs(paper):
-    code, _, _ = paper("out", "--only", "2", "--seed", "7")
-    assert code == 0
-    (made,) = check_numbers(Path("out"), seed=7).values()
-    assert made["pictures"][0]["digest"] == mars2d.run("random_walk", seed=7).digest
-    assert "--seed 7" in made["pictures"][0]["command"]
-
-
-@pytest.mark.slow
-def test_its_own_folder_is_replaced_with_all_that_was_in_it(paper, cheap):
-    shutil.copytree(cheap, "out")
-    Path("out/fig7_radius.png").write_bytes(b"of an earlier run")
-    Path("out/.hidden").write_text("somebody's")
-    assert paper("out", "--only", "2")[0] == 0
-    assert not Path("out/fig7_radius.png").exists()
-    assert Path("out/.hidden").read_text() == "somebody's"
-    for name in ("index.html", "numbers.json", "fig2_random_walk.png", "fig2_random_walk.pdf"):
-        assert Path("out", name).read_bytes() == (cheap / name).read_bytes()
 
 
 @pytest.mark.slow
@@ -334,13 +291,6 @@ def test_what_can_not_be_done_is_said_in_one_line(paper, arguments, words):
     assert Path("file.txt").read_text() == "a file"
 
 
-def test_a_folder_of_which_nothing_is_left_but_the_pictures_is_still_its_own(tmp_path):
-    for name in FIGURES[0].files:
-        (tmp_path / name).write_bytes(b"")
-    prepare(tmp_path, FIGURES[0].files)
-    assert list(tmp_path.iterdir()) == []
-
-
 # -- what fails -------------------------------------------------------------------------------
 
 
@@ -381,43 +331,6 @@ def test_a_figure_that_can_not_be_made_is_named_and_the_others_are_made(
     assert [image["src"] for image in found.all("img")] == ["fig3_random_walk.png"]
 
 
-def test_an_experiment_that_is_not_there_is_a_problem_in_words(tmp_path):
-    result = make(figure(Run("rendom_walk", "None", "Nothing.")), tmp_path)
-    assert not result.pictures
-    assert "did you mean 'random_walk'?" in result.problems[0]
-
-
-def test_a_number_that_is_not_finite_is_null_in_the_json_and_said_on_the_page():
-    lost = Prediction("lost", 1.0, math.nan, 0.1)
-    picture = Picture(
-        "fig2_x", "X", "An x.", "x", (1, 1), predictions=(lost,), columns={"x": [math.inf]}
-    )
-    result = Result(2, pictures=(picture,))
-    assert result.as_dict()["pictures"][0]["checks"][0]["measured"] is None
-    assert result.as_dict()["pictures"][0]["columns"] == {"x": [None]}
-    assert not result.ok
-    assert "not a number" in page([figure()], {2: result}, 0)
-
-
-@pytest.mark.slow
-def test_studies_get_the_records_in_order_and_the_seed_with_them(tmp_path):
-    seen = []
-
-    def study(records):
-        seen.extend(records)
-        from mars2d.reports.paper.studies.base import charts
-
-        return Study("A study", "Shows.", "Two axes.", lambda: charts(2)[0], columns={"a": [1.0]})
-
-    runs = [Run("random_walk", "W", "S.", options={"stop_time": t}, name=f"{t}") for t in (2, 3)]
-    result = make(figure(*runs, studies={"study": study}), tmp_path, seed=4)
-    assert result.problems == ()
-    assert [(r.seed, r.time[-1]) for r in seen] == [(4, 2), (4, 3)]
-    assert [p.stem for p in result.pictures] == [
-        "fig2_random_walk_2", "fig2_random_walk_3", "fig2_study",
-    ]  # fmt: skip
-
-
 def test_times_after_the_end_of_a_run_show_its_end():
     run = Run("pursuit_voronoi", "P", "S.", times=(0, 50, 70, 98))
     assert run.times_until(60.0) == [0, 50, 60]
@@ -427,63 +340,6 @@ def test_times_after_the_end_of_a_run_show_its_end():
     moved = Run("path_planning", "P", "S.", options={"detour": (22, 9.8)})
     assert cli.parser().parse_args(shlex.split(moved.command("stem", 3, 1.0))[1:]).seed == 3
     assert "--set 'detour=(22, 9.8)'" in moved.command("stem", 3, 1.0)
-
-
-# -- processes --------------------------------------------------------------------------------
-
-
-@pytest.mark.nightly
-def test_what_comes_out_does_not_depend_on_the_number_of_processes(tmp_path):
-    every = [
-        figure(Run("random_walk", "W", "S.", options={"stop_time": 20}), number=number)
-        for number in (2, 3, 4)
-    ]
-    made = []
-    for count in (1, 3):
-        folder = tmp_path / f"{count}"
-        folder.mkdir()
-        done: dict[int, Result] = {}
-        seen = []
-        make_all(every, folder, 5, done, lambda n, active: seen.append((n, *active)), count)  # noqa: B023
-        files = {path.name: path.read_bytes() for path in folder.iterdir()}
-        made.append((files, page(every, done, 5)))
-        assert seen[0][0] == 0
-        assert {number for _, *active in seen for number in active} == {2, 3, 4}
-    assert made[0] == made[1]
-    assert len(made[0][0]) == 6
-
-
-def is_group(number):
-    """Return whether a group of processes has members."""
-    try:
-        os.killpg(number, 0)
-    except ProcessLookupError:
-        return False
-    return True
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for a child there")
-def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path):
-    folder = tmp_path / "out"
-    child = subprocess.Popen(
-        [sys.executable, "-m", "mars2d", "paper", str(folder), "--only", "7"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
-    )  # fmt: skip
-    while not list(folder.glob("*.pdf")):
-        assert child.poll() is None
-        time.sleep(0.002)  # not wait_until: it may end soon after
-    os.killpg(child.pid, signal.SIGINT)  # as a terminal does: to all of them
-    out, err = child.communicate(timeout=PATIENCE)
-    assert child.returncode == 130
-    assert err == "mars2d: interrupted\n"
-    assert re.search(r"figure 7 .* not made\n", out)
-    assert f"page: {folder / 'index.html'}" in out
-    found = Page((folder / "index.html").read_text(encoding="utf-8"))
-    assert re.search(r"Broken off: figures? .*7 (was|were) not made\.", found.words())
-    check_numbers(folder)
-    assert not list(folder.glob("fig7*"))  # nor half a picture
-    wait_until(lambda: not is_group(child.pid))  # no worker is left behind
 
 
 # -- formulas, and the browser ----------------------------------------------------------------
@@ -501,29 +357,3 @@ def test_ctrl_c_ends_it_soon_and_says_what_is_there(tmp_path):
 )
 def test_formulas_are_set_with_greek_letters_subscripts_and_a_minus(text, html):
     assert typeset(text) == html
-
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(CHROMIUM is None, reason="needs chromium")
-@pytest.mark.parametrize("width", [1280, 400])
-def test_a_browser_shows_the_page_with_its_pictures(cheap, tmp_path, width):
-    """The pictures are there, and nothing is wider than the window."""
-    probe = """<script>addEventListener("load", () => {
-      const broken = [...document.images].filter(i => !i.complete || !i.naturalWidth);
-      const wide = document.documentElement.scrollWidth > document.documentElement.clientWidth;
-      document.title = `images ${document.images.length} broken ${broken.length} wide ${wide}`;
-    })</script></body>"""
-    folder = tmp_path / "shown"
-    shutil.copytree(cheap, folder)
-    text = (folder / "index.html").read_text(encoding="utf-8")
-    (folder / "probe.html").write_text(text.replace("</body>", probe), encoding="utf-8")
-    options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'me'}"]
-    done = subprocess.run(
-        [CHROMIUM, *options, f"--window-size={width},900", "--virtual-time-budget=5000",
-         "--dump-dom", (folder / "probe.html").as_uri()],
-        capture_output=True, text=True, timeout=120, check=True,
-    )  # fmt: skip
-    assert "<title>images 1 broken 0 wide false</title>" in done.stdout

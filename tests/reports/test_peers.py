@@ -47,13 +47,6 @@ def peer():
     del sys.modules["peer"]
 
 
-@pytest.fixture
-def bare(tmp_path):
-    """An interpreter that has nothing but what comes with Python."""
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "bare"], check=True)
-    return tmp_path / "bare" / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
-
-
 def test_without_peers_both_settings_of_mars2d_are_compared(tmp_path):
     (tmp_path / "page.md").write_text(
         "before\n<!-- robots: start -->\nold\n<!-- robots: end -->\nafter\n"
@@ -81,36 +74,6 @@ def test_without_peers_both_settings_of_mars2d_are_compared(tmp_path):
     assert page.endswith("after\n")
     assert "| S2 | MARS2D, loose |" in page
     assert "old" not in page
-
-
-def test_scenes_of_contacts_have_a_table_of_their_own(tmp_path):
-    page = tmp_path / "page.md"
-    page.write_text(
-        "<!-- robots: start -->\nmine\n<!-- robots: end -->\n"
-        "<!-- contacts: start -->\nold\n<!-- contacts: end -->\n"
-    )
-    done = run(
-        *("--scenes", "P3", "--steps", 20, "--rounds", 1, "--peer", f"pymunk={sys.executable}"),
-        *("--markdown", "page.md", "--json", "out.json"),
-        cwd=tmp_path,
-    )
-    assert done.returncode == 0, done.stderr
-    text = page.read_text()
-    assert "start -->\nmine\n<!-- robots" in text
-    assert "old" not in text
-    rows = json.loads((tmp_path / "out.json").read_text())["scenes"]["P3"]
-    labels = ["MARS2D, default", "MARS2D, loose", "pymunk, 1 mm", "pymunk, 15 substeps"]
-    assert list(rows) == labels
-    for label in labels:
-        assert f"| P3 | {label} |" in text
-        assert 0.2 < rows[label]["warm_up"]["robots"] < 0.31  # of 0.3 m in 20 steps
-
-
-@each_case("script", [*SCRIPTS.values(), "mars2d_peer.py"])
-def test_each_script_says_what_its_peer_does_not_do_and_what_was_set(script):
-    text = (FOLDER / script).read_text()
-    assert "What was set, and how: " in text
-    assert ("What it does not do in these scenes:" in text) == (script != "mars2d_peer.py")
 
 
 def drawn(peer, **wrong):
@@ -168,41 +131,6 @@ def test_a_run_that_is_not_what_it_seems_is_not_timed(scene, wrong, says, peer):
         run.looked_at(200, 60.0)
 
 
-def test_who_is_held_by_a_rope_need_not_go_as_told(peer):
-    run = peer.Run(drawn(peer), peer.SCENES["P3"](), "")
-    seen = run.looked_at(100, 60.0)
-    assert seen["steps"] == 100
-    ends = [
-        np.hypot(*(run.peer.poses()[i] - run.peer.scene.crates[k])[:2]) / length
-        for i, k, length in run.peer.scene.ropes
-    ]
-    assert max(ends) == pytest.approx(1)
-
-
-def test_squares_that_pass_through_each_other_are_seen(peer):
-    run = peer.Run(drawn(peer), peer.SCENES["P2"](), "")
-    seen = run.looked_at(60, 60.0)
-    assert 0.02 < seen["bodies"] < 0.37
-
-
-def test_an_engines_substeps_are_the_fewest_that_keep_the_bound(peer):
-    spec = importlib.util.spec_from_file_location("pymunk_peer", FOLDER / "pymunk_peer.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    command = [sys.executable, str(FOLDER / "substeps.py"), "pymunk_peer", "--scenes", "P3"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    name, substeps, _, overlap, *_ = done.stdout.split()
-    assert name == "P3:"
-    assert float(overlap) <= 1
-    assert int(substeps) == pytest.approx(module.Pymunk.SUBSTEPS["P3"], rel=0.3)
-
-
-def test_robots_that_leave_the_walls_are_missed(peer):
-    run = peer.Run(drawn(peer), peer.SCENES["S2"](), "")
-    with pytest.raises(ValueError, match="bodies are outside the walls or deep in boxes"):
-        run.timed(1000, 60.0)
-
-
 def test_distances_and_ranges_are_those_worked_out_by_hand(peer):
     scene = SimpleNamespace(
         walls=[(-2, -2), (-2, 2), (2, 2), (2, -2)],
@@ -220,15 +148,6 @@ def test_distances_and_ranges_are_those_worked_out_by_hand(peer):
     ranges, robot = geometry.ranges(np.array([(0.0, 0.0, 0.0), (0.0, 1.0, np.pi / 2)]))
     assert ranges == pytest.approx(np.array([(1.5, 1.5, 1.0, 0.75), (0.75, 1.5, 1.0, 1.5)]))
     assert robot.tolist() == [[False, False, False, True], [True, False, False, False]]
-
-
-def test_the_law_draws_the_numbers_that_it_draws_in_mars2d(peer):
-    from mars2d import Robot, Scenario, World
-
-    world = World(Scenario(robots=[Robot(pose=(0, 0, 0)), Robot(pose=(2, 0, 0))]))
-    twin = drawn(peer)(peer.SCENES["S1"](), "")
-    for mine, robot in zip(twin._streams, world.robots, strict=True):
-        assert mine.random() == robot.rng.random()
 
 
 @pytest.mark.parametrize("name", SCRIPTS)

@@ -73,19 +73,6 @@ def test_it_installs_again_from_where_it_was_installed(told, line, monkeypatch):
     assert remedy() == line
 
 
-@pytest.mark.usefixtures("tools")
-def test_what_another_installation_came_from_does_not_count(monkeypatch):
-    told = {"url": "file:///a", "dir_info": {}}
-    monkeypatch.setattr(remedies, "distribution", lambda _: Installed(told, Path("/other")))
-    assert remedy() == f"{AGAIN} FOLDER, that of its sources"
-
-
-@pytest.mark.skipif(not (PACKAGE.parent / "pyproject.toml").exists(), reason="no sources here")
-def test_what_is_run_from_its_sources_is_installed_so(monkeypatch):
-    monkeypatch.delenv("MARS2D_PLAIN", raising=False)
-    assert remedy().endswith(f"pip install --no-deps -e {PACKAGE.parent}")
-
-
 @pytest.mark.skipif(remedies.sys.platform != "linux", reason="it is another line elsewhere")
 def test_what_compiles_is_installed_first_where_it_is_missing(tools):
     version = ".".join(map(str, remedies.sys.version_info[:2]))
@@ -99,11 +86,6 @@ def test_what_compiles_is_installed_first_where_it_is_missing(tools):
     assert remedy().startswith("dnf install gcc python3-devel && pip install ")
     tools("gcc", "apt-get")
     assert remedy().startswith("pip install ")
-
-
-def test_a_pymunk_that_does_not_fit_is_replaced(tools, monkeypatch):
-    monkeypatch.setattr(islands, "CONTACT_SIZE", 1)
-    assert remedy() == "pip install pymunk==7.3.1"
 
 
 def test_doctor_and_long_runs_say_it(capsys, monkeypatch, tmp_path):

@@ -13,12 +13,12 @@ from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 import mars2d.rl
-from mars2d import Holonomic, InputError, RandomStarts, Robot, Scenario
+from mars2d import Holonomic, InputError, Robot, Scenario
 from mars2d.addons import Game
 from mars2d.rl import Environment, ParallelEnvironment
 from mars2d.rl.registration import IDS
 from mars2d.scenario.observation import Observation
-from mars2d.sensors import Bumper, Imu, LineCamera, RangeBearing, RangeFinder
+from mars2d.sensors import Bumper, Imu, RangeBearing, RangeFinder
 from mars2d.world.verify import rerun
 from mars2d.world.world import World
 from tests.cases import each_case
@@ -106,15 +106,6 @@ def test_what_is_registered_starts_at_random_and_again_from_the_same_seed(name):
     assert environment.unwrapped.world.scenario.random_starts == ()  # these are drawn
 
 
-def test_random_starts_of_an_experiment_are_drawn_at_each_reset():
-    starts = [RandomStarts(least_distance=1)]
-    environment = Environment(chase(random_starts=starts), "pursuer")
-    seen = [environment.reset(seed=seed)[0] for seed in (1, 2)]
-    assert not np.array_equal(*seen)
-    run = mars2d.run(chase(random_starts=starts), 0, seed=2)
-    assert seen[1][:2] == pytest.approx(run.pose[0, :2, 0])
-
-
 def test_who_is_out_of_a_game_ends_alone_while_the_others_go_on():
     environment = ParallelEnvironment(herd(), record=True)
     environment.reset(seed=1)
@@ -135,15 +126,6 @@ def test_who_is_out_of_a_game_ends_alone_while_the_others_go_on():
     assert set(seen) == set(rewards) == set(terminated) == {"red", "green"}
     assert rewards == {"red": 1, "green": -1}
     assert terminated == {"red": True, "green": True}
-    assert rerun(environment.record) is None
-
-
-def test_the_episode_ends_with_the_last_learner_that_is_out():
-    environment = Environment(herd(), "blue", laws={"red": lambda robot: (0.5, 0)}, record=True)
-    *_, last = steps(environment, [0, 0])
-    assert last[1:4] == (-1.0, True, False)
-    assert last[4]["over"].startswith("blue: out of the game after")
-    assert environment.record.finished
     assert rerun(environment.record) is None
 
 
@@ -325,14 +307,6 @@ def test_what_is_wrong_is_said_in_one_line(words):
         WRONG[words]()
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
-
-
-def test_a_camera_and_missing_pixels_stay_within_their_space():
-    scenario = Scenario(robots=[Robot(sensors=[LineCamera(pixels=3)], sees="sensors")])
-    environment = Environment(scenario, reward=lambda world, robot: 0.0)
-    seen, _ = environment.reset(seed=1)
-    assert seen.shape == (9,)
-    assert seen in environment.observation_space
 
 
 @pytest.mark.slow

@@ -73,14 +73,6 @@ def test_a_world_with_a_policy_forks(policy):
     assert np.allclose(fork.pose, world.pose)
 
 
-def test_it_is_checked_where_it_was_learned_and_in_a_game(policy, capsys):
-    assert main(["check", str(policy)]) == 0
-    assert "law hunter of red: sound\n" in capsys.readouterr().out
-    command = ["check", str(policy), "--for", "corner_game", "--role", "pursuer"]
-    assert main([*command, "--set", "stop_time=2"]) == 0
-    assert "forfeited none" in capsys.readouterr().out
-
-
 def test_the_trained_pursuer_catches_and_forfeits_nothing_in_the_default_game(capsys):
     from mars2d.scenario.examples import examples
 
@@ -97,14 +89,6 @@ def test_the_trained_wrestler_wins_bouts_of_the_example():
     options = {"red": "learning/sumo.onnx"}
     ends = [mars2d.run("sumo", seed=seed, options=options).over_message for seed in range(4)]
     assert any("red wins" in end for end in ends)
-
-
-def test_a_folder_of_laws_in_a_tournament_has_policies_too(policy):
-    from mars2d.study.tournament.schedule import law_files
-
-    (policy.parent / "notes.txt").write_text("")
-    (policy.parent / "straight.py").write_text("def control(robot): return 0, 0\n")
-    assert [file.name for file in law_files(policy.parent)] == ["hunter.onnx", "straight.py"]
 
 
 def changed(metadata, **values):
@@ -143,14 +127,6 @@ def test_a_broken_file_is_one_line_that_names_it(words, spaces, tmp_path):
     assert "\n" not in str(caught.value)
 
 
-def test_a_name_that_is_not_there_has_the_nearest_one(policy, monkeypatch):
-    monkeypatch.chdir(policy.parent)
-    with pytest.raises(InputError, match=r"did you mean 'hunter\.onnx'"):
-        load_law("huntr.onnx")
-    with pytest.raises(InputError, match="no other names and no arguments"):
-        load_law(policy, speed=2)
-
-
 HOLONOMIC = Robot(drive=Holonomic(), sees="positions")
 
 MISFITS = {
@@ -176,21 +152,6 @@ def test_a_robot_that_does_not_fit_is_said_to_in_what(words, tmp_path):
         world.step()
     assert words in str(caught.value)
     assert "hunter.onnx" in str(caught.value)
-
-
-def test_a_sensor_that_a_robot_lacks_is_named(tmp_path):
-    robot = Robot(sees="sensors", sensors=[RangeFinder(beams=3, name="lidar")])
-    spaces = Environment(Scenario(robots=[robot]), reward=lambda world, robot: 0.0).policy_metadata
-    law = load_law(save(tmp_path / "hunter.onnx", {"mars2d": spaces}, size=3))
-    other = robot.replace(sensors=[RangeFinder(beams=3, name="lidr")], controller=law)
-    with pytest.raises(LawError, match="no sensor 'lidar'; did you mean 'lidr'"):
-        World(Scenario(robots=[other])).step()
-
-
-def test_numbers_that_are_none_are_refused(spaces, tmp_path):
-    path = save(tmp_path / "hunter.onnx", {"mars2d": spaces}, action=(np.nan, 0.0))
-    with pytest.raises(LawError, match=r"hunter\.onnx returned \(nan, 0\.0\)"):
-        mars2d.run("corner_game", stop_time=1, options={"pursuer": str(path)})
 
 
 @pytest.mark.slow

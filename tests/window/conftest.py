@@ -1,6 +1,15 @@
-"""What the tests of the window share: a screen, windows on it, an experiment."""
+"""What the tests of the window share: windows and editors, an X server, experiments."""
 
-from tests.window.drawing import open_editor
-from tests.window.person import open_window, pushing, repeating_screen, room, screen
+import pytest
 
-__all__ = ["open_editor", "open_window", "pushing", "repeating_screen", "room", "screen"]
+from tests.processes import x_server
+from tests.window.person import display, open_editor, open_window, pushing, room
+
+__all__ = ["display", "open_editor", "open_window", "pushing", "room", "screen"]
+
+
+@pytest.fixture(scope="session")
+def screen():
+    """Start an X server on a free display and return its name."""
+    with x_server() as (name, _):
+        yield name

@@ -1,35 +1,44 @@
-"""Who sits before a window in a process of its own: hands, eyes, and a screen to look at."""
+"""Who sits before a window that nobody sees: hands that make events, eyes on what is drawn."""
 
-import contextlib
-import ctypes
-import ctypes.util
-import functools
 import json
 import os
-import queue
-import shutil
-import signal
-import subprocess
-import threading
-import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
+import pygame
 import pytest
-from PIL import Image, ImageGrab, features
+from PIL import Image
 
-from tests.forking import Nursery
-from tests.processes import PATIENCE, bare_environment, x_server
+from mars2d.window import compare_window, controls, viewpoint, window
+from mars2d.window.editor_window import EditorWindow
+from tests.processes import HIDDEN
+from tests.window import states
 
-missing = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
-missing += [] if features.check("xcb") else ["Pillow with xcb"]
-needs_screen = pytest.mark.skipif(bool(missing), reason=f"{', '.join(missing)} not installed")
-
-ROOT = Path(__file__).parents[2]
 REFERENCES = Path(__file__).parent / "references"
 
 PLOT = np.s_[60:500]  # the rows of the screen between the bars
 HEADER = np.s_[0:44]
+
+PICTURE = 1 / 60
+"""The time from picture to picture, seconds; none is waited for."""
+MOST = 3000
+"""How many pictures may pass until something is so."""
+REPEAT_DELAY, REPEAT_INTERVAL = 0.4, 0.06
+"""When a key that is held repeats, seconds."""
+
+MODIFIERS = {"shift": pygame.KMOD_LSHIFT, "ctrl": pygame.KMOD_LCTRL}
+KEYS = {
+    "Return": "\r", "Escape": "\x1b", "BackSpace": "\b", "Tab": "\t", "Delete": "\x7f",
+    "space": " ", "plus": "+", "minus": "-", "equal": "=", "period": ".", "KP_2": "2",
+    "KP_Add": "+",
+}  # fmt: skip
+"""What keys with a name write."""
+NAMES = {
+    "Next": "page down", "Prior": "page up", "plus": "=", "minus": "-", "equal": "=", "period": ".",
+    "KP_2": "[2]", "KP_Add": "[+]",
+}  # fmt: skip
+"""What pygame calls keys whose names differ by more than the case."""
 
 
 ROOM = """
@@ -86,88 +95,72 @@ def scenario():
 """
 
 
-@pytest.fixture(scope="session")
-def screen():
-    """Start an X server on a free display and return its name."""
-    with x_server() as (name, _):
-        yield name
+class Person:
+    """A window, and the hands and eyes of the person before it; time passes by pictures.
 
-
-@pytest.fixture(scope="session")
-def repeating_screen():
-    """Start an X server that repeats keys that are held, and return its name."""
-    with x_server(repeats=True) as (name, _):
-        yield name
-
-
-class ClientMessage(ctypes.Structure):
-    """An event that one program on a screen sends another."""
-
-    _fields_ = (
-        ("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
-        ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message", ctypes.c_ulong),
-        ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("rest", ctypes.c_byte * 96),
-    )  # fmt: skip
-
-
-@functools.cache
-def nursery():
-    """Start the process that windows are forked from, once in a session."""
-    windows = ("observed_window", "observed_editor", "observed_hands", "observed_compare")
-    return Nursery(bare_environment(), *(f"tests.window.{name}" for name in windows))
-
-
-class Driver:
-    """A window in a process of its own, and the hands and eyes of the person before it.
-
-    speed, options: see observed_window.py. folder: where the window saves files.
+    What it shows is told by `states` as `state`, as JSON has it. Keys have the names of X servers.
     """
 
-    def __init__(self, screen, speed, folder=None, **options):
-        self._sit(screen, "observed_window", speed, json.dumps(options), folder=folder)
+    def __init__(self, shown, display):
+        self.shown, self.display, self.state = shown, display, {}
+        self._held, self._buttons, self._events = {}, set(), []
+        self.picture()
 
-    def _sit(self, screen, module, *arguments, folder=None, shows="time"):
-        """Sit down before the window of a module, and wait until it tells what `shows` names."""
-        self.environment = bare_environment(
-            DISPLAY=screen, SDL_VIDEO_WINDOW_POS="0,0", PYTHONPATH=str(ROOT)
-        )
-        words = [str(argument) for argument in arguments]
-        self.process = nursery().fork(f"tests.window.{module}", words, self.environment, folder)
-        self.lines = queue.Queue()
-        self.state = {}
-        threading.Thread(target=self._read, daemon=True).start()
-        self.until(lambda s: shows in s)
-        self.settle()
-        time.sleep(0.1)  # until the server has mapped it and given it the keyboard
+    # -- pictures ---------------------------------------------------------------------------------
 
-    def _read(self):
-        with contextlib.suppress(ValueError):  # it was closed meanwhile
-            for line in self.process.stdout:
-                if line.startswith("{"):
-                    self.lines.put(json.loads(line))
-        self.lines.put(None)  # the window has ended
-
-    # -- what it tells ----------------------------------------------------------------------------
-
-    def until(self, holds):
-        """Wait until what the window tells of itself satisfies `holds`."""
-        end = time.monotonic() + PATIENCE
-        while not (self.state and holds(self.state)):
-            left = end - time.monotonic()
-            told = None
-            with contextlib.suppress(queue.Empty):
-                told = self.lines.get(timeout=max(left, 0.001))
-            if told is None:
-                errors = "" if self.process.poll() is None else self.process.stderr.read()
-                pytest.fail(f"no more is told; the last state: {self.state} {errors}")
-            self.state = told
+    def picture(self):
+        """Handle all events, let time pass, and draw a picture; return the state."""
+        if "left" in self.state:
+            return self.state
+        self._repeat()
+        events, self._events = self._events, []
+        self.state = self._edited(events) if self.is_editor else self._played(events)
+        self.state = json.loads(json.dumps(self.state))
+        self.display.clock += PICTURE
         return self.state
 
+    @property
+    def is_editor(self):
+        return isinstance(self.shown, EditorWindow)
+
+    def _edited(self, events):
+        editor = self.shown.editor
+        for event in events:
+            if not editor.dialogs.done:
+                editor.handle(event)
+        if editor.dialogs.to_run is not None:
+            self.shown._play()
+        if editor.dialogs.done:
+            return states.left_editor(editor)
+        self.shown.draw(pygame.display.get_surface())
+        return states.of_editor(editor)
+
+    def _played(self, events):
+        for event in events:
+            if self.shown._open:
+                self.shown._handle(event)
+        if self.shown._open:
+            self.shown._pass_time(PICTURE)
+        if not self.shown._open:
+            self.shown.saver.close()
+            error = self.shown.player.error
+            return {"left": True} | ({} if error is None else {"raised": str(error)})
+        self.shown._paint(pygame.display.get_surface())
+        return states.of_window(self.shown)
+
+    def until(self, holds):
+        """Let pictures pass until the state satisfies `holds`."""
+        for _ in range(MOST):
+            if holds(self.state):
+                return self.state
+            self.picture()
+        pytest.fail(f"it was not so; the last state: {self.state}")
+
     def settle(self):
-        """Wait until all that was done so far has been handled and drawn; return the state."""
-        answers = self.state.get("answers", 0)
-        self.process.send_signal(signal.SIGUSR1)
-        return self.until(lambda s: s.get("answers", 0) > answers)
+        """Let three pictures pass; return the state."""
+        for _ in range(3):
+            self.picture()
+        return self.state
 
     def says(self, words):
         """Wait until a note says something."""
@@ -175,11 +168,36 @@ class Driver:
 
     # -- hands ------------------------------------------------------------------------------------
 
-    def do(self, *arguments):
-        subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True)
+    def do(self, *words):
+        """Do what words say as those of xdotool: mousemove X Y, click B, keydown K, sleep S, ..."""
+        words = list(words)
+        while words:
+            word = words.pop(0)
+            if word == "mousemove":
+                self._move(round(words.pop(0)), round(words.pop(0)))
+            elif word == "click":
+                self._click(int(words.pop(0)))
+            elif word == "sleep":
+                for _ in range(round(float(words.pop(0)) / PICTURE)):
+                    self.picture()
+            else:
+                getattr(self, f"_{word}")(words.pop(0))
 
     def press(self, *keys):
-        self.do("key", "--delay", "30", *keys)
+        """Press keys, one after the other, some with modifiers: ctrl+z."""
+        for key in keys:
+            *modifiers, name = key.split("+")
+            for each in modifiers:
+                self._keydown(each)
+            self._keydown(name)
+            self._keyup(name)
+            for each in modifiers:
+                self._keyup(each)
+
+    def type(self, text):
+        """Write a text."""
+        named = {" ": "space", ".": "period", "-": "minus"}
+        self.press(*(named.get(character, character) for character in text))
 
     def pixel(self, x, y):
         """Return the pixel of a point in metres."""
@@ -198,44 +216,116 @@ class Driver:
 
     def slide(self, first, *others, button=1, drop=True):
         """Drag through pixels."""
-        moves = [word for place in others for word in ("mousemove", *place, "sleep", 0.04)]
-        self.do("mousemove", *first, "sleep", 0.04, "mousedown", button, "sleep", 0.04, *moves)
+        moves = [word for place in others for word in ("mousemove", *place)]
+        self.do("mousemove", *first, "mousedown", button, *moves)
         if drop:
             self.do("mouseup", button)
 
-    def window(self):
-        """Return the number of the window under the pointer."""
-        self.do("mousemove", 300, 300)
-        command = ["xdotool", "getmouselocation", "--shell"]
-        told = subprocess.check_output(command, env=self.environment, text=True)
-        return next(line for line in told.split() if line.startswith("WINDOW=")).split("=")[1]
+    def resize(self, width, height):
+        """Pull the window to another size."""
+        pygame.display.set_mode((width, height))
+        self.settle()
 
     def ask_to_close(self):
-        """Do what a window manager does when its close button is pressed."""
-        x = ctypes.CDLL(ctypes.util.find_library("X11"))
-        x.XOpenDisplay.restype = x.XInternAtom.restype = ctypes.c_void_p
-        x.XInternAtom.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int]
-        display = x.XOpenDisplay(self.environment["DISPLAY"].encode())
-        window = int(self.window())
-        names = (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW")
-        protocols, delete = (x.XInternAtom(display, name, 0) for name in names)
-        event = ClientMessage(33, 0, 1, display, window, protocols, 32, (delete, 0, 0, 0, 0))
-        x.XSendEvent.argtypes = [
-            ctypes.c_void_p, ctypes.c_ulong, ctypes.c_int, ctypes.c_long, ctypes.c_void_p,
-        ]  # fmt: skip
-        x.XSendEvent(display, window, 0, 0, ctypes.byref(event))
-        x.XCloseDisplay.argtypes = [ctypes.c_void_p]
-        x.XCloseDisplay(display)
+        """Press the close button of the window."""
+        self._send(pygame.QUIT)
+
+    # -- hands in an editor -----------------------------------------------------------------------
+
+    def tool(self, letter, name):
+        self.press(letter)
+        self.until(lambda s: s["tool"] == name)
+
+    def row(self, title):
+        """Click a row of the panel."""
+        self.until(lambda s: title in s["panel"])
+        self.do("mousemove", *self.state["panel"][title], "click", 1)
+
+    def sign(self, sign, title):
+        """Click + or - in a row of the panel."""
+        self.do("mousemove", *self.state["signs"][f"{sign} {title}"], "click", 1)
+
+    def entry(self, title):
+        """Click an entry of the open menu."""
+        self.until(lambda s: title in s["menu"])
+        self.do("mousemove", *self.state["menu"][title], "click", 1)
+
+    def fill(self, text):
+        """Type over the field of the open prompt, and press Enter."""
+        self.until(lambda s: s["prompt"] is not None)
+        for _ in self.state["typed"]:
+            self.press("BackSpace")
+        self.type(text)
+        self.press("Return")
+        self.until(lambda s: s["prompt"] is None or s["error"])
+
+    # -- events -----------------------------------------------------------------------------------
+
+    def _send(self, kind, **told):
+        self._events.append(pygame.Event(kind, **told))
+        self.picture()
+
+    def _move(self, x, y):
+        (left, top), self.display.pointer = self.display.pointer, (x, y)
+        buttons = tuple(int(k in self._buttons) for k in (1, 2, 3))
+        self._send(pygame.MOUSEMOTION, pos=(x, y), rel=(x - left, y - top), buttons=buttons)
+
+    def _click(self, button):
+        if button > 3:
+            notches = 1 if button == 4 else -1
+            self._send(pygame.MOUSEWHEEL, x=0, y=notches, precise_y=float(notches), flipped=False)
+        else:
+            self._mousedown(button)
+            self._mouseup(button)
+
+    def _mousedown(self, button):
+        self._buttons.add(button)
+        self._send(pygame.MOUSEBUTTONDOWN, pos=self.display.pointer, button=button)
+
+    def _mouseup(self, button):
+        self._buttons.discard(button)
+        self._send(pygame.MOUSEBUTTONUP, pos=self.display.pointer, button=button)
+
+    def _keydown(self, key):
+        if key in MODIFIERS:
+            pygame.key.set_mods(pygame.key.get_mods() | MODIFIERS[key])
+        told = self._told(key)
+        self._held[key] = told, self.display.clock + REPEAT_DELAY
+        self._send(pygame.KEYDOWN, **told)
+
+    def _keyup(self, key):
+        self._held.pop(key)
+        if key in MODIFIERS:
+            pygame.key.set_mods(pygame.key.get_mods() & ~MODIFIERS[key])
+        self._send(pygame.KEYUP, **self._told(key))
+
+    def _told(self, key):
+        """Return what an event of a key tells."""
+        mods = pygame.key.get_mods() | (MODIFIERS["shift"] if key == "plus" else 0)
+        name = f"left {key}" if key in MODIFIERS else NAMES.get(key, key.lower())
+        text = KEYS.get(key, key if len(key) == 1 else "")
+        if mods & MODIFIERS["ctrl"] and text.isalpha():
+            text = chr(ord(text.lower()) - 96)
+        scancode = getattr(pygame, f"KSCAN_{key.upper()}", 0)
+        code = pygame.key.key_code(name)
+        return {"key": code, "unicode": text, "mod": mods, "scancode": scancode}
+
+    def _repeat(self):
+        """Press the key again that is held the last, if it is held long enough."""
+        for key, (told, when) in [*self._held.items()][-1:]:
+            if self.display.clock > when and key not in MODIFIERS:
+                self._held[key] = told, when + REPEAT_INTERVAL
+                self._events.append(pygame.Event(pygame.KEYDOWN, **told))
 
     # -- eyes -------------------------------------------------------------------------------------
 
     def look(self):
-        """Return the screen, (height, width, 3)."""
-        shot = ImageGrab.grab((0, 0, 800, 600), xdisplay=self.environment["DISPLAY"])
-        return np.asarray(shot.convert("RGB")).astype(np.int16)
+        """Return what is drawn, (height, width, 3)."""
+        pixels = pygame.surfarray.array3d(pygame.display.get_surface())
+        return pixels.swapaxes(0, 1).astype(np.int16)
 
     def still(self):
-        """Return the screen once it has stopped changing, or after many pictures."""
+        """Return what is drawn once it has stopped changing."""
         seen = self.look()
         for _ in range(50):
             self.settle()
@@ -245,37 +335,54 @@ class Driver:
         return seen
 
     def shows(self, condition):
-        """Wait until the screen meets a condition; return whether it did."""
-        end = time.monotonic() + PATIENCE / 4
-        while not (met := condition(self.look())) and time.monotonic() < end:
-            time.sleep(0.05)
-        return bool(met)
-
-    def close(self):
-        if self.process.poll() is None:
-            # One that is killed can't tell what of the program it has run; an editor that is asked
-            # to end asks whether to save.
-            measured = "COVERAGE_PROCESS_CONFIG" in os.environ
-            self.process.send_signal(signal.SIGTERM if measured else signal.SIGKILL)
-        self.process.wait(PATIENCE)
-        self.process.stdout.close()
-        self.process.stderr.close()
+        """Let pictures pass until one meets a condition; return whether one did."""
+        for _ in range(100):
+            if condition(self.look()):
+                return True
+            self.settle()
+        return False
 
 
 @pytest.fixture
-def open_window(screen):
-    """Return a function that opens a window; all are closed at the end."""
-    opened = []
+def display(monkeypatch):
+    """Start a display that nobody sees; its pointer and its clock are moved by hand."""
+    for name in HIDDEN:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    pygame.display.init()
+    pygame.display.set_mode((800, 600))
+    made = SimpleNamespace(pointer=(0, 0), clock=1000.0)
+    monkeypatch.setattr(pygame.mouse, "get_pos", lambda: made.pointer)
+    monkeypatch.setattr(pygame.mouse, "get_focused", lambda: True)
+    time = SimpleNamespace(monotonic=lambda: made.clock, perf_counter=lambda: made.clock)
+    for module in (window, controls, compare_window, viewpoint):
+        monkeypatch.setattr(module, "time", time)
+    yield made
+    pygame.key.set_mods(0)
+    pygame.display.quit()
 
-    def start(speed, on=screen, **options):
-        opened.append(Driver(on, speed, **options))
-        return opened[-1]
 
-    yield start
-    for window in opened:
-        if window.process.poll() is None:
-            window.do("mouseup", 1, "mouseup", 3, "keyup", "shift")
-        window.close()
+@pytest.fixture
+def open_window(display, monkeypatch):
+    """Return a function that opens a window; options: see `states.made_window`."""
+
+    def start(speed, folder=None, **options):
+        if folder is not None:
+            monkeypatch.chdir(folder)
+        made = states.made_window(speed, **options)
+        made._open = True
+        return Person(made, display)
+
+    return start
+
+
+@pytest.fixture
+def open_editor(display, monkeypatch, tmp_path):
+    """Return a function that opens an editor on a scenario or a file."""
+    monkeypatch.chdir(tmp_path)
+    return lambda source="-", **options: Person(
+        states.made_editor(source, tmp_path, **options), display
+    )
 
 
 @pytest.fixture
@@ -299,11 +406,6 @@ def room(tmp_path):
 def differing(before, after, rows=PLOT, by=0):
     """Return how many pixels differ by more than `by` of 255."""
     return int((np.abs(before[rows] - after[rows]) > by).any(axis=2).sum())
-
-
-def share(pixels, color):
-    """Return which part of the pixels (k, 3) has a colour."""
-    return (pixels == color).all(axis=1).mean()
 
 
 def has(seen, color):

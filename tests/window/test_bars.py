@@ -3,19 +3,17 @@
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from mars2d.output.excerpt import Excerpt
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
-from mars2d.output.raster.layout import FOOTER, TEXT_SIZES, Layout
+from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window import keys
 from mars2d.window.help import draw_help
-from mars2d.window.keys import Key
 from tests.cases import each_case
 from tests.window.circling import Circling
-from tests.window.written import THEMES, Written, painter, pixels
+from tests.window.written import Written, painter
 
 SIZES = each_case("size", [(640, 480), (1280, 720), (2560, 1440)])
 TEXTS = each_case("text", [1.0, max(TEXT_SIZES)])
@@ -74,34 +72,7 @@ def test_its_words_do_not_touch_and_the_time_is_always_there(frame, size, text, 
     assert any(found.endswith(" s") for found in surface.texts)
 
 
-def test_where_there_is_no_room_the_step_goes_first(frame):
-    status = Status("past · 12.3 s ago", "past")
-    wide, narrow = (
-        header(titled(frame, TITLE), status, size) for size in [(1280, 720), (480, 600)]
-    )
-    assert "step" in wide.texts
-    assert "step" not in narrow.texts
-    assert any(text.endswith("…") for text in narrow.texts)
-
-
-@THEMES
-@each_case("kind", ["running", "waiting", "past", "hand", "error"])
-def test_the_chip_is_in_the_colours_of_its_kind(frame, theme, kind):
-    seen = pixels(header(frame, Status("some words", kind), theme=theme))
-    for color in getattr(theme, kind):
-        assert (seen == list(bytes.fromhex(color[1:]))).all(axis=2).sum() > 20
-
-
 # -- the footer -----------------------------------------------------------------------------------
-
-
-@SIZES
-@TEXTS
-def test_the_quiet_line_keeps_the_key_for_help(size, text):
-    _, surface = footer(None, size, text)
-    assert "F1" in surface.texts
-    assert not surface.crowded()
-    assert not surface.cut()
 
 
 @SIZES
@@ -116,40 +87,6 @@ def test_a_banner_has_all_it_can_say(size, text, code, words):
     assert all(layout.footer.contains(place) for _, place in surface.words)
     assert "R restarts   Esc leaves" in surface.texts
     assert layout.plot.height > 40
-
-
-@SIZES
-@each_case("text", [1.0, 1.7])
-def test_an_error_shows_the_line_and_as_many_round_it_as_there_is_room_for(size, text):
-    _, surface = footer(Banner(WRONG, "R restarts", True, EXCERPT), size, text)
-    numbers = [found for found in surface.texts if found.isdigit()]
-    assert "12" in numbers
-    assert numbers == [str(k) for k in range(int(numbers[0]), int(numbers[-1]) + 1)]
-    assert any("sqrt" in found for found in surface.texts)
-    assert surface.texts.count("▸") == 1
-    assert abs(surface.place("▸").centery - surface.place("12").centery) <= 2
-
-
-def test_all_lines_of_an_excerpt_are_shown_where_there_is_room():
-    _, surface = footer(Banner(WRONG, "R restarts", True, EXCERPT))
-    assert set(surface.texts) >= {line for line in EXCERPT.lines if line}
-    assert surface.place("    far = world.range").top < surface.place("    return v, 0").top
-
-
-def test_a_banner_is_no_higher_than_its_code():
-    pens = painter(Layout.of((1280, 720)), LIGHT)
-    short = Excerpt(EXCERPT.file, 12, 12, EXCERPT.lines[2:3])
-    heights = [
-        footer_height(Banner(WRONG, "R restarts", True, excerpt), (1280, 720), pens)
-        for excerpt in (None, short, EXCERPT)
-    ]
-    assert heights == [FOOTER, FOOTER + 40, FOOTER + 120]
-
-
-def test_without_a_banner_the_footer_has_its_height():
-    pens = painter(Layout.of((1280, 720)), LIGHT)
-    assert footer_height(None, (1280, 720), pens) == FOOTER
-    assert footer_height(Banner("It is over."), (1280, 720), pens) == FOOTER
 
 
 # -- help -----------------------------------------------------------------------------------------
@@ -178,45 +115,3 @@ def test_all_keys_stand_on_the_pages_of_help(size, text):
         for key in group:
             assert all(label in found for label in key.labels)
             assert all(word in everything for word in key.help.split())
-
-
-@each_case(
-    "size, text, most",
-    [((1280, 720), 1.0, 1), ((800, 600), 1.0, 2), ((1280, 720), 1.7, 2), ((1920, 1080), 1.7, 2)],
-)
-def test_help_is_legible_and_of_few_pages(size, text, most):
-    layout, surface, pages = helped(size, text)
-    assert pages <= most
-    lowest = min(place.height for found, place in surface.words)
-    assert lowest >= 13
-    assert lowest >= 10 * layout.ui
-
-
-def test_a_page_beyond_the_last_is_the_last():
-    pages = helped((640, 480), 1.7)[2]
-    assert pages > 1
-    last = helped((640, 480), 1.7, page=pages - 1)[1]
-    beyond = helped((640, 480), 1.7, page=99)[1]
-    assert np.array_equal(pixels(last), pixels(beyond))
-    assert "F1 closes this" in last.texts
-    assert "F1 goes on" in helped((640, 480), 1.7)[1].texts
-
-
-@each_case("size", [(40, 30), (120, 90), (300, 60)])
-def test_where_nothing_could_be_read_there_is_no_help(size):
-    assert helped(size)[2] >= 1
-
-
-@pytest.mark.slow
-def test_groups_of_one_key_and_of_very_many():
-    one = [("Group", [Key("go", ("g",), ("G",), "go")])]
-    assert helped((1280, 720), groups=one)[1].texts == [
-        "Keys",
-        "F1 closes this",
-        "Group",
-        "G",
-        "go",
-    ]
-    many = [("Group", [Key(str(k), (), (str(k),), "do " * 9) for k in range(300)])]
-    pages = helped((1280, 720), groups=many)[2]
-    assert "299" in helped((1280, 720), groups=many, page=pages)[1].texts

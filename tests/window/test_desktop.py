@@ -1,27 +1,10 @@
 """How many pixels a point has is found out, or said by a variable; a window fits on the screen."""
 
-import os
-import shutil
-import subprocess
-import sys
-
 import pytest
 
-from mars2d.core.errors import InputError
 from mars2d.window import desktop
-from mars2d.window.desktop import be_sharp, desktop_scale, opening_size
-from tests.cases import each_case
-from tests.processes import x_server
-
-TOOLS = ("Xvfb", "xprop")
-missing = [tool for tool in TOOLS if shutil.which(tool) is None]
-ASK = """
-import pygame
 from mars2d.window.desktop import desktop_scale, opening_size
-from mars2d.window.display import open_display
-open_display()
-print(desktop_scale(), *opening_size((1280, 720), desktop_scale()))
-"""
+from tests.cases import each_case
 
 
 @pytest.fixture
@@ -43,13 +26,6 @@ def test_the_variable_decides(on, monkeypatch, chosen, scale):
     on("x11", "Xft.dpi:\t288\n")
     monkeypatch.setenv("MARS2D_SCALE", chosen)
     assert desktop_scale() == scale
-
-
-@each_case("chosen", ["large", "0", "-2", "nan", "inf", "1e9"])
-def test_a_variable_that_is_no_scale_is_refused(monkeypatch, chosen):
-    monkeypatch.setenv("MARS2D_SCALE", chosen)
-    with pytest.raises(InputError, match=r"MARS2D_SCALE=.*expected the pixels of a point"):
-        desktop_scale()
 
 
 @each_case(
@@ -76,21 +52,6 @@ def test_gdk_scale_goes_before_them(on, monkeypatch, chosen, scale):
     assert desktop_scale() == scale
 
 
-@each_case("driver", ["cocoa", "wayland", "dummy", None])
-def test_where_the_system_enlarges_windows_a_point_is_a_pixel(on, driver):
-    on(driver, "Xft.dpi: 192")
-    assert desktop_scale() == 1.0
-
-
-def test_windows_is_asked_not_to_enlarge_unless_somebody_has_said_otherwise(monkeypatch):
-    monkeypatch.delenv("SDL_WINDOWS_DPI_AWARENESS", raising=False)
-    be_sharp()
-    assert os.environ["SDL_WINDOWS_DPI_AWARENESS"] == "permonitorv2"
-    monkeypatch.setenv("SDL_WINDOWS_DPI_AWARENESS", "unaware")
-    be_sharp()
-    assert os.environ["SDL_WINDOWS_DPI_AWARENESS"] == "unaware"
-
-
 @each_case(
     "screen, scale, size",
     [
@@ -106,25 +67,3 @@ def test_windows_is_asked_not_to_enlarge_unless_somebody_has_said_otherwise(monk
 def test_a_window_is_as_large_as_its_points_but_fits(monkeypatch, screen, scale, size):
     monkeypatch.setattr(desktop.pygame.display, "get_desktop_sizes", lambda: [screen])
     assert opening_size((1280, 720), scale) == size
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(bool(missing), reason=f"{', '.join(missing)} not installed")
-def test_a_real_x_server_tells_its_scale():
-    with x_server(3000, 2000) as (screen, _):
-        hidden = ("WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "GDK_SCALE", "MARS2D_SCALE")
-        environment = {k: v for k, v in os.environ.items() if k not in hidden} | {"DISPLAY": screen}
-
-        def asked():
-            command = [sys.executable, "-c", ASK]
-            done = subprocess.run(
-                command, env=environment, capture_output=True, text=True, check=False
-            )
-            assert done.returncode == 0, done.stderr
-            return done.stdout.split()
-
-        assert asked() == ["1.0", "1280", "720"]
-        command = ["xprop", "-root", "-f", "RESOURCE_MANAGER", "8s"]
-        command += ["-set", "RESOURCE_MANAGER", "Xft.dpi:\t192\n"]
-        subprocess.run(command, env=environment, check=True)
-        assert asked() == ["2.0", "2560", "1440"]

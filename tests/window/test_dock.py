@@ -95,11 +95,6 @@ def test_beside_a_square_arena_they_stand_at_the_right_and_below_a_wide_one_belo
     assert all(plate.top > seen.arena.bottom for plate in seen.dock.plates.values())
 
 
-def test_an_arena_with_room_beside_it_stays_as_large_as_without_panels():
-    assert Seen(some(1)).arena.size == Seen([]).arena.size
-    assert Seen(some(2), workspace=WIDE).arena.size == Seen([], workspace=WIDE).arena.size
-
-
 def test_where_there_is_little_room_the_one_opened_last_is_seen_whole():
     panels = [Plain(f"panel{k}", least=180.0) for k in range(3)]
     seen = Seen(panels, (640, 480))
@@ -112,18 +107,6 @@ def test_where_there_is_little_room_the_one_opened_last_is_seen_whole():
     assert seen.click(seen.dock.plates["panel0"].center)
     seen.draw()
     assert seen.dock.plates["panel0"].height > 100 > seen.dock.plates["panel2"].height
-
-
-def test_a_panel_that_covers_the_arena_stays_off_what_is_selected():
-    seen = Seen(some(1), (470, 470))
-    assert not seen.view.makes_room
-    (right,) = seen.dock.plates.values()
-    seen.draw(right.center)
-    (left,) = seen.dock.plates.values()
-    assert right != left
-    assert not left.collidepoint(right.center)
-    seen.draw(seen.layout.plot.midtop)
-    assert [left] == [*seen.dock.plates.values()], "it stays while nothing is hidden"
 
 
 def test_a_panel_is_closed_by_its_button_and_opened_by_name():

@@ -3,12 +3,10 @@
 import pygame
 import pytest
 
-import mars2d
-from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scenario, Unicycle
+from mars2d import Car, Holonomic, InputError, Robot, Scenario, Unicycle
 from mars2d.addons import Game
 from mars2d.cli import arguments as shared
 from mars2d.cli.command_line import BAD_INPUT, main
-from mars2d.cli.runs import speed_by_hand
 from mars2d.cli.verbs import play, run
 from mars2d.scenario.roles import robots_named
 from mars2d.window import driver as driver_module
@@ -70,36 +68,9 @@ def test_full_speed_leaves_the_wheels_what_they_need_to_turn(drive, stick):
     assert omega == pytest.approx(-1.5 * stick.across)
 
 
-def test_wheels_that_are_too_slow_turn_as_quickly_as_they_can():
-    drive = Unicycle(max_linear_speed=0.1, wheel_semiaxis=0.2)
-    assert command_of(drive, Stick(-1, 1)) == pytest.approx((0.0, 0.5))
-
-
-def test_wheels_are_given_their_speeds_where_a_command_is_that():
-    drive = Differential(wheel_radius=0.05)
-    assert command_of(drive, Stick(0, 1)) == pytest.approx((10.0, 10.0))
-    left, right = command_of(drive, Stick(-1, 0))
-    assert left == pytest.approx(-right)
-    assert right > 0
-    assert command_of(Differential(command="twist"), Stick(0, 1)) == pytest.approx((0.5, 0.0))
-
-
 def test_a_car_steers():
     car = Car(max_steering=0.4, max_linear_speed=2.0)
     assert command_of(car, Stick(-0.5, 1)) == (2.0, 0.2)
-
-
-def test_a_drive_of_ones_own_is_taken_for_one_that_drives_and_turns():
-    class Own(Drive):
-        def twist(self, command):
-            return command
-
-    assert command_of(Own(), Stick(1, 1)) == (0.5, -1.5)
-
-
-def test_a_stick_is_never_farther_out_than_it_can_be():
-    assert Stick(1, 1).within() == pytest.approx((0.5**0.5, 0.5**0.5))
-    assert Stick(0.3, 0.4).within() == (0.3, 0.4)
 
 
 def test_a_tap_is_a_nudge_and_a_stick_comes_back_sooner_than_it_goes_out():
@@ -138,35 +109,12 @@ def test_keys_drive(monkeypatch, keys, command):
     assert settled(driver, Holonomic()) == pytest.approx(command)
 
 
-def test_a_key_that_is_let_go_stops_it(driver):
-    driver.handle(key(UP))
-    settled(driver, Holonomic())
-    assert driver.handle(key(UP, down=False))
-    assert settled(driver, Holonomic()) == (0.0, 0.0)
-
-
 def test_shift_halves_the_speed_as_soon_as_it_is_held(driver):
     driver.handle(key(UP))
     assert not driver.handle(key(pygame.KSCAN_LSHIFT, mod=pygame.KMOD_LSHIFT))
     assert settled(driver, Holonomic()) == (0.0, 0.25)
     driver.handle(key(pygame.KSCAN_LSHIFT, down=False))
     assert settled(driver, Holonomic()) == (0.0, 0.5)
-
-
-def test_other_keys_are_left_to_others(driver):
-    assert not driver.handle(key(pygame.KSCAN_SPACE))
-    assert not driver.handle(key(pygame.KSCAN_UP, down=False))  # it was not pressed here
-
-
-def test_without_a_robot_all_keys_are_left_to_others(driver):
-    driver.handle(key(UP))
-    driver.release()
-    assert driver.robot is None
-    assert driver.status == ""
-    assert not driver.handle(key(UP))
-    driver.take(1)
-    assert driver.status == "driving robot 1"
-    assert settled(driver, Holonomic()) == (0.0, 0.0)  # what was held before does not count
 
 
 def test_a_window_that_loses_the_keyboard_stops_the_robot(driver):
@@ -223,26 +171,6 @@ def test_a_controllers_stick_drives(driver, controller):
     assert settled(driver, Holonomic()) == pytest.approx((0.5, 0.0))
 
 
-def test_a_stick_that_does_not_quite_come_back_is_at_rest(driver, controller):
-    tilt(driver, controller, 0.1, -0.1)
-    assert settled(driver, Holonomic()) == (0.0, 0.0)
-    tilt(driver, controller, 0.16, 0.0)  # from there on it begins softly
-    assert 0 < settled(driver, Holonomic())[0] < 0.01
-
-
-def test_a_d_pad_drives(driver, controller):
-    hat = pygame.event.Event(pygame.JOYHATMOTION, instance_id=10, hat=0, value=(-1, 0))
-    assert driver.handle(hat)
-    assert settled(driver, Holonomic()) == pytest.approx((-0.5, 0.0))
-
-
-def test_keys_come_first(driver, controller):
-    tilt(driver, controller, 0.0, -1.0)
-    driver.handle(key(DOWN))
-    assert settled(driver, Holonomic()) == (0.0, -0.5)
-    assert driver.status == "driving red"
-
-
 def test_unplugged_it_stops_and_plugged_in_again_it_drives(driver, controller):
     tilt(driver, controller, 0.0, -1.0)
     assert driver.handle(pygame.event.Event(pygame.JOYDEVICEREMOVED, instance_id=10))
@@ -286,14 +214,6 @@ def test_two_people_have_keys_and_controllers_of_their_own(monkeypatch):
     assert commands() == [(0.0, 0.5), (0.0, -0.5)]
 
 
-def test_nobody_is_driven_by_a_controller_alone(driver, controller):
-    driver.release()
-    tilt(driver, controller, 0.0, -1.0)
-    assert not driver.handle(
-        pygame.event.Event(pygame.JOYAXISMOTION, instance_id=10, axis=0, value=1.0)
-    )
-
-
 # -- who --------------------------------------------------------------------------------------
 
 ROBOTS = [Robot(name=name, pose=(k, 0, 0)) for k, name in enumerate(["red", "blue", "green"])]
@@ -321,11 +241,6 @@ def test_who_names_a_role_gets_its_next_robot():
     assert robots_named(scenario, None, "--role") == ()
 
 
-def test_a_robots_own_name_comes_before_a_role():
-    robots = [*ROBOTS, Robot(name="evader", pose=(0, 3, 0))]
-    assert robots_named(Scenario(robots=robots, addons=[GAME]), "evader", "human =") == (3,)
-
-
 @each_case(
     "who, words",
     [
@@ -348,7 +263,7 @@ def shown(monkeypatch):
     """What the window was opened with, in place of the window."""
     found = []
 
-    def show_experiment(experiment, speed, seed, *_, humans=(), **__):
+    def show_experiment(experiment, speed, *_, humans=(), **__):
         found.append((speed, humans))
         raise InputError("that is all")
 
@@ -388,19 +303,6 @@ def test_play_seats_people_in_their_order(shown, roles, humans):
     assert shown.pop() == (4.0, humans)
 
 
-def test_the_quickest_robot_of_a_person_crosses_the_arena_in_five_seconds():
-    slow, quick = (
-        Robot(name=n, drive=Holonomic(max_linear_speed=v), pose=(x, 0, 0))
-        for n, v, x in [("a", 0.5, 0), ("b", 2.0, 2)]
-    )
-    scenario = Scenario(robots=[slow, quick])  # 10 m
-    assert speed_by_hand(scenario, [0]) == 4.0
-    assert speed_by_hand(scenario, [0, 1]) == speed_by_hand(scenario) == 1.0
-    creeping = slow.replace(drive=Holonomic(max_linear_speed=0.01))
-    assert speed_by_hand(Scenario(robots=[creeping], stop_time=500)) == 10.0
-    assert speed_by_hand(Scenario(robots=[creeping], stop_time=30)) == 2.0
-
-
 @each_case(
     "arguments, words",
     [
@@ -413,11 +315,3 @@ def test_where_nobody_can_drive_this_is_said_at_once(monkeypatch, capsys, argume
     monkeypatch.setattr(shared, "has_display", lambda: False)
     assert main(["run", "pursuit_corners", *arguments]) == BAD_INPUT
     assert words in capsys.readouterr().err
-
-
-def test_from_python_a_robot_is_driven_in_a_window(shown):
-    with pytest.raises(InputError, match="that is all"):
-        mars2d.run("pursuit_corners", speed=3, human="pursuer")
-    assert shown == [(3.0, (0,))]
-    with pytest.raises(InputError, match="human = nobody: there is no such robot or role"):
-        mars2d.run("pursuit_corners", human="nobody")

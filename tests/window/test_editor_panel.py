@@ -1,4 +1,4 @@
-"""The panel of the editor: laws, drives, masses, colours, sensors and joints, by a real mouse."""
+"""The panel of the editor: laws, drives, masses, colours, sensors and joints, by the mouse."""
 
 import pytest
 
@@ -11,7 +11,6 @@ from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from tests.window.drawing import team
-from tests.window.person import needs_screen
 
 
 def chosen(open_editor, scenario, x=0, y=0, **options):
@@ -25,7 +24,6 @@ def chosen(open_editor, scenario, x=0, y=0, **options):
 # -- laws ------------------------------------------------------------------------------------------
 
 
-@needs_screen
 @pytest.mark.parametrize("name", ["ByHand", "Wander", "FollowWall"])
 def test_a_law_is_chosen_from_the_list_with_the_sensors_that_it_needs(open_editor, name):
     hands, kind = chosen(open_editor, team((0, 0))), members("controllers")[name]
@@ -38,7 +36,6 @@ def test_a_law_is_chosen_from_the_list_with_the_sensors_that_it_needs(open_edito
     hands.until(lambda s: s["laws"] == [None] and s["sensors"] == [[]])
 
 
-@needs_screen
 def test_a_robot_along_its_waypoints_gets_them_by_the_next_clicks_and_then_it_runs(
     open_editor, tmp_path
 ):
@@ -55,7 +52,6 @@ def test_a_robot_along_its_waypoints_gets_them_by_the_next_clicks_and_then_it_ru
     assert record.scenario.addons[0].passed(record.pose[:, :2].swapaxes(1, 2)) == (2,)
 
 
-@needs_screen
 def test_the_robot_to_follow_is_chosen_by_its_name(open_editor):
     hands = chosen(open_editor, team((0, 0), (3, 0), (-3, 0)))
     hands.row("Law")
@@ -65,7 +61,6 @@ def test_the_robot_to_follow_is_chosen_by_its_name(open_editor):
     hands.until(lambda s: s["laws"][0] == "FollowRobot(leader='robot2')")
 
 
-@needs_screen
 def test_a_law_comes_from_a_file_and_is_saved_by_its_name(open_editor, tmp_path):
     (tmp_path / "walk.py").write_text("def walk(robot):\n    return 0.1, 0.0\n")
     hands = chosen(open_editor, team((0, 0)))
@@ -80,7 +75,6 @@ def test_a_law_comes_from_a_file_and_is_saved_by_its_name(open_editor, tmp_path)
     assert 'controller = "walk.py:walk"' in (tmp_path / "given.toml").read_text()
 
 
-@needs_screen
 def test_a_law_is_taken_away_again(open_editor):
     robot = Robot(diameter=0.6, controller=ByHand())
     hands = chosen(open_editor, Scenario(robots=[robot]))
@@ -89,7 +83,6 @@ def test_a_law_is_taken_away_again(open_editor):
     hands.until(lambda s: s["laws"] == [None] and s["idle"] == {"0": "a law"})
 
 
-@needs_screen
 def test_the_fields_of_a_law_are_stepped_typed_and_chosen(open_editor):
     robot = Robot(diameter=0.6, controller=Wander(), sensors=Wander.needs)
     hands = chosen(open_editor, Scenario(robots=[robot]))
@@ -111,7 +104,6 @@ def test_the_fields_of_a_law_are_stepped_typed_and_chosen(open_editor):
 # -- bodies ----------------------------------------------------------------------------------------
 
 
-@needs_screen
 def test_mass_friction_and_colour_of_several_bodies_are_set_at_once(open_editor):
     scenario = team((-1, 0), (1, 0)).replace(props=[Box(pose=(0, 3))])
     hands = open_editor(scenario)
@@ -137,7 +129,6 @@ def test_mass_friction_and_colour_of_several_bodies_are_set_at_once(open_editor)
     hands.until(lambda s: [c for _, _, c in s["members"]] == [None] * 3)
 
 
-@needs_screen
 def test_a_drive_is_chosen_and_keeps_what_both_have(open_editor):
     hands = chosen(open_editor, team((0, 0)))
     hands.row("max linear speed")
@@ -154,7 +145,6 @@ def test_a_drive_is_chosen_and_keeps_what_both_have(open_editor):
     hands.until(lambda s: "force_limited=True" in s["drives"][0])
 
 
-@needs_screen
 def test_sensors_are_added_changed_and_removed(open_editor):
     hands = chosen(open_editor, team((0, 0)))
     hands.row("Sensors")
@@ -174,7 +164,6 @@ def test_sensors_are_added_changed_and_removed(open_editor):
     hands.until(lambda s: len(s["sensors"][0]) == 2)
 
 
-@needs_screen
 @pytest.mark.parametrize("name", list(members("joints")))
 def test_joints_tie_a_body_to_another_or_to_the_floor(open_editor, name):
     hands = chosen(open_editor, team((0, 0), (2, 0)))
@@ -191,7 +180,6 @@ def test_joints_tie_a_body_to_another_or_to_the_floor(open_editor, name):
     hands.until(lambda s: s["joints"] == tied[:1])
 
 
-@needs_screen
 def test_escape_lets_the_tie_go_and_a_joint_is_changed_in_its_menu(open_editor):
     scenario = team((0, 0), (2, 0)).replace(joints=[Rope(a="robot0", b="robot1")])
     hands = chosen(open_editor, scenario)
@@ -211,7 +199,6 @@ def test_escape_lets_the_tie_go_and_a_joint_is_changed_in_its_menu(open_editor):
 # -- the scenario, and what stands still -----------------------------------------------------------
 
 
-@needs_screen
 def test_without_a_selection_the_panel_shows_the_scenario_and_who_stands_still(open_editor):
     hands = open_editor(team((0, 0), (2, 0)))
     hands.row("Stop time")
@@ -225,7 +212,6 @@ def test_without_a_selection_the_panel_shows_the_scenario_and_who_stands_still(o
     hands.until(lambda s: s["selection"] == [["robot", 1, 0]])
 
 
-@needs_screen
 def test_a_value_that_is_refused_is_said_and_changes_nothing(open_editor):
     hands = chosen(open_editor, team((0, 0)))
     hands.row("Mass")
@@ -235,7 +221,6 @@ def test_a_value_that_is_refused_is_said_and_changes_nothing(open_editor):
     hands.until(lambda s: s["prompt"] is None and s["members"][0][0] == 1.0)
 
 
-@needs_screen
 def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):
     hands = chosen(open_editor, team((0, 0)))
     for close in (lambda: hands.press("Escape"), lambda: hands.click(-3, -3)):
@@ -247,18 +232,16 @@ def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):
         hands.until(lambda s: len(s["selection"]) == 1)
 
 
-@needs_screen
 def test_the_wheel_scrolls_the_panel_where_it_is_too_long(open_editor):
     robot = Robot(diameter=0.6, sensors=[mars2d.sensors.Imu(name=f"imu{k}") for k in range(20)])
     hands = chosen(open_editor, Scenario(robots=[robot]))
     assert "Joints" not in hands.state["panel"]
-    hands.do("mousemove", *hands.state["panel"]["Law"], "click", "--repeat", 30, 5)
+    hands.do("mousemove", *hands.state["panel"]["Law"], *["click", 5] * 30)
     hands.until(lambda s: "Joints" in s["panel"] and "Law" not in s["panel"])
-    hands.do("click", "--repeat", 30, 4)
+    hands.do(*["click", 4] * 30)
     hands.until(lambda s: "Law" in s["panel"])
 
 
-@needs_screen
 def test_a_law_given_in_a_paused_run_is_in_the_outcome(open_editor):
     scenario = team((0, 0)).replace(addons=[Map([[(3, 3), (4, 4)]])])
     hands = chosen(open_editor, scenario, live=True)

@@ -8,7 +8,6 @@ from mars2d.scenario.experiment import Experiment, Source
 from mars2d.scenario.hot_reload import carried
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.show import _to_be_driven
 from mars2d.window.viewpoint import Viewpoint
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
@@ -63,11 +62,6 @@ def test_the_run_of_a_drawing_says_what_stands_still(robots, said, tmp_path):
     window = window_of(Scenario(robots=robots), tmp_path / "room.toml")
     window.say_who_stands_still()
     assert [note.text for note in window.notes._notes] == ([] if said is None else [said])
-
-
-def test_a_robot_with_the_law_by_hand_is_the_one_that_is_driven():
-    robots = [Robot(), Robot(pose=(1, 0, 0), controller=ByHand())]
-    assert _to_be_driven(Experiment(Scenario(robots=robots))) == [1]
 
 
 def test_a_law_given_by_hand_holds_and_others_stay_those_of_the_file():

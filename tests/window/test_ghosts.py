@@ -1,7 +1,5 @@
 """The other branches are seen where they were at the same time, and their rows are marked."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,7 @@ from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
 from mars2d.window.controls import Controls, Marks
 from mars2d.window.ghosts import ghosts
-from mars2d.window.player import Player, between
+from mars2d.window.player import Player
 from mars2d.window.source import Playback
 from mars2d.world.timeline import Timeline
 from tests.worlds import ahead
@@ -61,11 +59,6 @@ def test_a_body_is_seen_where_it_was_and_how_it_got_there():
     assert [shape.text for shape in scene.shapes if isinstance(shape, Text)] == ["branch from 10 s"]
 
 
-def test_the_robot_that_is_where_it_was_is_left_out():
-    timeline = branched()
-    assert len(centers(ghosts(timeline, timeline.frame))) == 1
-
-
 def test_before_the_branches_part_there_are_none():
     timeline = branched()
     timeline.go(19)
@@ -81,15 +74,6 @@ def test_from_the_other_branch_this_one_is_seen():
     assert y == -2.0
 
 
-def test_between_two_steps_a_body_is_between_them():
-    timeline = branched()
-    timeline.go(30)
-    first = timeline.frame
-    timeline.go(31)
-    ((x, _),) = centers(ghosts(timeline, between(first, timeline.frame, 15.2)))
-    assert x == pytest.approx(0.2 * 15.2)
-
-
 def test_after_its_end_a_branch_stays_there_and_says_so():
     timeline = branched(newest=25)
     timeline.branches[0].stop("enough")
@@ -98,25 +82,6 @@ def test_after_its_end_a_branch_stays_there_and_says_so():
     assert [x for x, _ in centers(scene)] == pytest.approx([2.5, 2.5])
     (text,) = [shape.text for shape in scene.shapes if isinstance(shape, Text)]
     assert text == "branch from 10 s, over at 12.5 s"
-
-
-@pytest.mark.slow
-def test_many_robots_and_branches_cost_little():
-    timeline = timeline_of(20)
-    run_to(timeline, 900)
-    for row in (100, 300, 500, 700, 800):
-        timeline.go(row)
-        timeline.change(lambda w: w.operator.place(0, (0.0, w.pose[1, 0] - 2.0, 0.0)))
-        run_to(timeline, 900)
-    frame = timeline.frame
-    costs = []
-    for _ in range(10):
-        start = time.thread_time()
-        scene = ghosts(timeline, frame)
-        costs.append(time.thread_time() - start)
-    assert min(costs) < 0.005
-    assert len(scene.shapes) < 400
-    assert sum(isinstance(shape, Text) for shape in scene.shapes) == 3
 
 
 def test_marks_of_hands_branches_and_collisions():
@@ -151,18 +116,6 @@ def test_a_recording_has_the_marks_that_its_run_had():
     assert shown.marks["hand"] == [30]
     assert (shown.last, shown.past) == (len(timeline.record) - 1, False)
     assert player.status() == ("paused", "waiting"), "a recording has no present to be behind"
-
-
-def test_collisions_are_looked_for_now_and_then(monkeypatch):
-    timeline = timeline_of(addons=[Map([[(1.0, -1.0), (1.0, 1.0)]])])
-    marks, now = Marks(timeline), time.monotonic()
-    monkeypatch.setattr("mars2d.window.controls.time.monotonic", lambda: now)
-    marks.rows()
-    run_to(timeline, 40)
-    assert marks.rows()["collision"] == []
-    monkeypatch.setattr("mars2d.window.controls.time.monotonic", lambda: now + 1.0)
-    assert len(marks.rows()["collision"]) == 1
-    assert len(marks.rows()["collision"]) == 1
 
 
 def test_the_row_at_which_a_law_failed_is_marked():

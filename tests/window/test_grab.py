@@ -6,7 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
-from mars2d import InputError, Robot, Scenario, World
+from mars2d import Robot, Scenario, World
 from mars2d.addons import Addon, Beacon, Map, Waypoints
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
@@ -102,32 +102,6 @@ def test_it_shows_what_it_is_over_and_its_name(place, over, words):
     assert bool(person.marks(Circle)) == (over is not None)
 
 
-def test_beside_all_there_is_nothing_to_show():
-    person = Person()
-    person.move(0.5, 0.5)
-    assert person.grab.over is None
-    assert person.grab.marks(person.world.frame, CAMERA) == []
-    assert not person.press(0.5, 0.5)
-
-
-def test_what_moves_away_under_a_pointer_at_rest_is_no_longer_shown():
-    red = Robot(name="red", controller=lambda robot: (0.5, 0.0))
-    person = Person(Scenario(robots=[red]), running=True)
-    person.move(0, 0)
-    assert person.grab.over == 0
-    person.wait(6)
-    assert person.grab.over is None
-
-
-def test_nothing_is_shown_once_the_pointer_has_left_the_picture():
-    person = Person()
-    person.move(0, 0)
-    person.grab.leave()
-    for running in (False, True):
-        person.grab.tick(person.world.frame, CAMERA, running)
-        assert person.grab.over is None
-
-
 # -- clicks ----------------------------------------------------------------------------------
 
 
@@ -140,13 +114,6 @@ def test_a_click_is_left_to_others_and_changes_nothing(running):
     assert not person.release(0.02, 0.0)  # no more than a click
     assert not person.grab.busy
     assert person.world.operator.log == []
-
-
-def test_other_buttons_are_not_its_business():
-    person = Person()
-    assert not person.press(0, 0, pygame.BUTTON_MIDDLE)
-    running = Person(running=True)
-    assert not running.press(0, 0, RIGHT)  # what moves can't be turned
 
 
 # -- while time passes: pulling ----------------------------------------------------------------
@@ -166,49 +133,6 @@ def test_a_drag_pulls_a_robot_to_the_pointer_and_a_line_shows_how_strongly():
     assert person.world.operator.pulls == ()
     person.wait(3)
     assert person.grab.marks(person.world.frame, CAMERA) != []  # it is over the robot
-
-
-def test_it_pulls_to_where_the_pointer_is_though_the_camera_moves():
-    person = Person(running=True)
-    person.press(0, 0)
-    person.move(0.0, -0.5)
-    person.wait(1, CAMERA.panned(0.0, 50.0))
-    (pull,) = person.world.operator.pulls
-    assert pull.target == pytest.approx((0.0, 0.0))
-    person.wait(1)
-    (pull,) = person.world.operator.pulls
-    assert pull.target == pytest.approx((0.0, -0.5))
-
-
-def test_a_small_robot_that_is_gripped_beside_its_edge_is_held_at_the_edge():
-    person = Person(Scenario(robots=[Robot(diameter=0.02)]), running=True)
-    person.press(0.04, 0.0)
-    person.move(0.5, 0.0)
-    (pull,) = person.world.operator.pulls
-    assert pull.grip == pytest.approx((0.01, 0.0))
-
-
-def test_a_button_that_is_held_long_holds_what_moves():
-    red = Robot(name="red", controller=lambda robot: (0.2, 0.0))
-    person = Person(Scenario(robots=[red]), running=True)
-    person.press(0, 0)
-    person.wait(5)
-    assert len(person.world.operator.pulls) == 1
-    person.wait(10)
-    there = person.world.pose[0, 0]
-    person.wait(5)
-    assert person.world.pose[0, 0] == pytest.approx(there, abs=1e-3)
-    assert person.release(0, 0)
-
-
-def test_what_is_pulled_is_held_where_it_was_pressed_though_it_has_moved_since():
-    red = Robot(name="red", controller=lambda robot: (0.5, 0.0))
-    person = Person(Scenario(robots=[red]), running=True)
-    person.press(0.1, 0.0)
-    person.wait(2)
-    person.move(0.1, 0.5)
-    (pull,) = person.world.operator.pulls
-    assert pull.grip == pytest.approx((0.1, 0.0))
 
 
 def test_once_time_stands_still_it_lets_go():
@@ -284,44 +208,12 @@ def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
 
 
-def test_whether_a_place_is_free_is_not_asked_more_often_than_needed(monkeypatch):
-    asked = []
-    monkeypatch.setattr(drags, "obstruction", lambda *a: asked.append(a) or "")
-    person = Person()
-    person.press(0, 0)
-    for k in range(20):
-        person.now = 1.0 + 0.01 * k
-        person.move(0.0, -0.1 - 0.01 * k)
-        person.words()
-    assert len(asked) == 4
-
-
-def test_once_time_passes_again_what_was_carried_is_back():
-    person = Person()
-    person.press(0, 0)
-    person.move(0, -1)
-    person.running = True
-    person.grab.tick(person.world.frame, CAMERA, running=True)
-    assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
-    person.release(0, -1)
-    assert person.world.operator.log == []
-
-
 def test_what_a_joint_holds_is_not_carried_and_this_is_said():
     rope = Rope(a="red", b="blue", length=2.0)
     person = Person(Scenario(robots=SCENARIO.robots, joints=[rope]))
     person.press(0, 0)
     person.move(0, -1)
     assert person.said == ["red can't be put elsewhere: a joint holds it; it can be pulled"]
-    assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
-
-
-def test_in_a_recording_it_is_said_and_it_springs_back():
-    person = Person(recording=True)
-    person.press(0, 0)
-    person.move(0, -1)
-    person.release(0, -1)
-    assert person.said == ["a recording"]
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
 
 
@@ -348,28 +240,7 @@ def test_with_ctrl_it_is_turned_by_fifteen_degrees(monkeypatch):
     assert person.world.pose[2, 0] == pytest.approx(pi / 6)
 
 
-def test_it_is_turned_the_shorter_way_whatever_its_angle_was():
-    person = Person(Scenario(robots=[Robot(pose=(0, 0, 10 * pi + 0.1))]))
-    person.press(0, 0, RIGHT)
-    person.move(0.5, 0.0)
-    person.release(0.5, 0.0)
-    assert person.world.pose[2, 0] == pytest.approx(10 * pi)
-
-
 # -- faults --------------------------------------------------------------------------------------
-
-
-def test_what_a_change_refuses_is_said():
-    said = []
-
-    def refuse(act):
-        raise InputError("not now")
-
-    mouse, frame = Grab(refuse, said.append), World(SCENARIO).frame
-    mouse.press(frame, CAMERA, (300, 200), LEFT, 0, running=True)
-    mouse.move(frame, CAMERA, (300, 250), running=True)
-    assert said == ["not now"]
-    assert not mouse.busy
 
 
 def test_points_that_an_addon_names_are_shown_under_the_pointer():

@@ -1,26 +1,16 @@
 """The home: every entry opens by a click, and what windows remember."""
 
-import json
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pygame
 import pytest
 
 from mars2d.cli.command_line import main, parser
 from mars2d.output.raster.layout import TEXT_SIZES
-from mars2d.reports.paper.figures import FIGURES
-from mars2d.scenario.examples import courses, examples, examples_folder, games
-from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import contests_of
+from mars2d.scenario.examples import examples, examples_folder, games
 from mars2d.window.display import Preferences
 from mars2d.window.home import Home
-from mars2d.window.memory import SIZE, Memory
+from mars2d.window.memory import Memory
 from tests.cases import each_case
-from tests.processes import PATIENCE, bare_environment, started, wait_until
-from tests.window.person import needs_screen
 
 SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
 
@@ -67,15 +57,6 @@ def test_each_example_has_its_pictures():
     for name in examples():
         for looks in ("light", "dark"):
             assert (examples_folder() / "thumbnails" / f"{name}_{looks}.png").is_file(), name
-
-
-def test_the_first_course_is_that_of_the_paper():
-    paper = {run.experiment for figure in FIGURES for run in figure.runs}
-    assert set(courses()["Experiments"]) >= paper & set(examples())
-
-
-def test_games_have_roles_to_choose_from():
-    assert all(contests_of(open_experiment(game).scenario) for game in games())
 
 
 # -- clicks ---------------------------------------------------------------------------------------
@@ -190,27 +171,6 @@ def test_looks_are_remembered_and_what_is_asked_for_counts_more(memory):
     assert Memory().panels == ["scopes"]
 
 
-@each_case("text", ["", "[]", "{", '{"dark": 3, "text": "big", "size": 8, "recent": [1]}', "\0"])
-def test_a_memory_that_was_spoilt_is_empty(monkeypatch, tmp_path, text):
-    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
-    memory = Memory()
-    (tmp_path / "memory").mkdir()
-    (tmp_path / "memory" / "windows.json").write_text(text)
-    assert (Memory().preferences(), Memory().size, Memory().recent) == (Preferences(), SIZE, [])
-    memory.keep(dark=True)
-    assert Memory().preferences().dark or text.startswith('{"dark"')
-
-
-def test_a_folder_that_can_not_be_written_stops_nothing(tmp_path, monkeypatch):
-    (tmp_path / "file").touch()
-    for folder in (str(tmp_path / "file"), "/proc/none", ""):
-        monkeypatch.setenv("MARS2D_MEMORY", folder)
-        memory = Memory()
-        memory.keep(dark=True)
-        memory.opened(tmp_path / "file", pygame.Surface((10, 10)))
-        assert memory.preferences() == Preferences()
-
-
 # -- the command ----------------------------------------------------------------------------------
 
 
@@ -224,57 +184,3 @@ def test_without_a_display_the_command_alone_prints_its_help(capsys, monkeypatch
     assert alone == capsys.readouterr().out
     assert main(["--bogus"]) == 2
     assert "--bogus" in capsys.readouterr().err
-
-
-@needs_screen
-@pytest.mark.slow
-def test_from_the_home_to_an_own_file_and_back(screen, tmp_path):
-    """The home shows the mistake of a file; mended, it opens; its window closes to the home."""
-    file = tmp_path / "walk.py"
-    file.write_text("import mars2d\nscenario = mars2d.Scenario(title='Mine', sampling_time=-5)\n")
-    folder = tmp_path / "memory"
-    folder.mkdir()
-    (folder / "windows.json").write_text(json.dumps({"recent": [str(file)], "size": [900, 600]}))
-    environment = bare_environment(DISPLAY=screen, MARS2D_MEMORY=str(folder))
-    command = [sys.executable, "-m", "mars2d"]
-    with started(command, env=environment, stderr=subprocess.PIPE) as home:
-        do = Hands(screen, home)
-        do.xdotool("mousemove", "0", "0")  # a pointer that a window opens under chooses a card
-        do.wait_for("MARS2D")
-        do.key("Right", "Return")
-        assert "sampling_time" in home.stderr.readline()
-        file.write_text("import mars2d\nscenario = mars2d.Scenario(title='Mine')\n")
-        do.wait_for("MARS2D")
-        do.key("Right", "Return")
-        do.wait_for("Mine - MARS2D")
-        do.key("d")
-        do.key("Escape")
-        do.wait_for("MARS2D")
-        do.key("Escape")
-        assert home.wait(PATIENCE) == 0
-    kept = json.loads((folder / "windows.json").read_text())
-    assert kept["dark"]
-    assert kept["recent"] == [str(file)]
-    assert len(list(folder.glob("*.png"))) == 1
-
-
-class Hands:
-    """Presses keys in the windows of a process, once they are there."""
-
-    def __init__(self, screen, process):
-        self.environment, self.process = dict(os.environ, DISPLAY=screen), process
-
-    def xdotool(self, *words):
-        done = subprocess.run(
-            ["xdotool", *words], env=self.environment, capture_output=True, text=True, check=False
-        )
-        return done.stdout.split()
-
-    def wait_for(self, title):
-        """Wait until the window of this title has the keyboard."""
-        focused = ["getwindowfocus", "getwindowname"]
-        wait_until(lambda: self.xdotool(*focused) == title.split(), self.process)
-
-    def key(self, *names):
-        for name in names:
-            self.xdotool("key", "--delay", "60", name)

@@ -165,12 +165,6 @@ def test_the_inbox_has_the_last_messages_that_have_arrived(world):
     assert dt == 0.1
 
 
-def test_an_inbox_of_long_ago_is_found(world, monkeypatch):
-    monkeypatch.setattr("mars2d.window.readout.BLOCK", 7)
-    assert len(inbox(world.frame, 0, most=100)) == world.iteration - 1
-    assert [name for name, _, _ in inbox(world.frame, 2, most=2)] == ["blue", "red"]
-
-
 def test_a_sensors_history_is_what_the_record_has(world):
     frame = world.frame
     sensor = world.scenario.robots[0].sensors[0]
@@ -199,21 +193,6 @@ def test_every_sensor_has_a_plot(world):
             before = pygame.surfarray.array3d(surface)
             plot.draw(surface, pygame.Rect(0, 0, 300, round(plot.height)), Painter())
             assert (pygame.surfarray.array3d(surface) != before).any(), plot.sensor.key
-
-
-@each_case("reading", [0.0, True, np.inf, np.nan, np.full(5, np.nan), np.ones(50)])
-def test_readings_of_ones_own_have_a_plot(reading):
-    class Own(Sensor):
-        def read(self, robot, world, rng):
-            return reading
-
-    world = World(Scenario(robots=[Robot(sensors=[Own()])]))
-    for _ in range(5):
-        world.step()
-    world.observe()
-    seen_of(world.frame, 0)
-    (plot,) = sensor_plots(world.frame, 0)
-    assert plot.height > 0
 
 
 def test_a_scan_is_seen_from_left_to_right():
@@ -261,18 +240,6 @@ def test_the_curve_lies_at_the_force_on_the_scale():
     assert np.mean(line) == pytest.approx(wanted, abs=1.5)
 
 
-def test_an_impact_does_not_flatten_the_curve():
-    source = Circling(pressed=True)
-    source.row = 99
-    frame = source.frame
-    rows = frame.contact_log().copy()
-    rows["normal_impulse"][20] *= 1000
-    seen = force_plot(replace(frame, contact_log=lambda: rows))
-    assert (seen != force_plot(frame)).any()
-    band = np.abs(seen[30:140, 60:310] - FORCE).max(axis=2) < 12
-    assert np.flatnonzero(band.sum(axis=1) > 60).min() < 90, "5 N is still a third of the height"
-
-
 # -- the column -----------------------------------------------------------------------------------
 
 
@@ -288,98 +255,6 @@ def test_it_fits_into_what_there_is(world, size, theme):
         assert all(top + inspector._pixels(part) <= size[1] + 1 for _, top, part in chosen)
         inspector.draw(surface, surface.get_rect(), world.frame)
         assert (pixels(surface)[0, 0] == rgba(theme.plate)[:3]).all()
-
-
-def test_there_is_room_for_more_the_larger_it_is(world):
-    def sections(height, columns=1):
-        inspector = Inspector(Painter(), 0)
-        return len([*inspector._chosen(inspector._look(world.frame), height, columns)])
-
-    numbers = [sections(height) for height in (200, 400, 700, 1400)]
-    assert numbers == sorted(set(numbers))
-    assert sections(200, columns=3) > sections(200)
-
-
-def test_all_sections_have_room_in_the_height_that_it_wants(world):
-    for body in range(5):
-        inspector = Inspector(Painter(), body)
-        _, wanted = inspector.heights(world.frame, 290)
-        chosen = [*inspector._chosen(inspector._look(world.frame), round(wanted) + 1)]
-        assert [part for _, _, part in chosen] == [part for _, part in inspector._look(world.frame)]
-
-
-def test_between_two_drawings_it_is_the_same_for_a_while():
-    world, now = team(steps=8), [0.0]
-    inspector = Inspector(Painter(), clock=lambda: now[0])
-    surface = pygame.Surface((344, 580), 0, 32)
-
-    def picture(frame, body=0):
-        surface.fill("white")
-        inspector.body = body
-        inspector.draw(surface, surface.get_rect(), frame)
-        return pygame.surfarray.array3d(surface)
-
-    first = picture(world.frame)
-    world.step()
-    now[0] = 0.02
-    assert np.array_equal(picture(world.frame), first)
-    assert not np.array_equal(picture(world.frame, 1), first), "another body is seen at once"
-    picture(world.frame)
-    world.step()
-    now[0] = 0.2
-    assert not np.array_equal(picture(world.frame), first)
-
-
-def test_a_contact_that_begins_or_ends_is_seen_at_once():
-    world, kept = team(steps=5), Inspector(Painter(), 0, clock=lambda: 0.0)
-    frame = world.frame
-    touch = np.zeros(1, dtype=frame.contacts.dtype)
-    touch["a"], touch["b"], touch["normal_impulse"] = 0, 1, 1.0
-
-    def picture(inspector, contacts):
-        surface = pygame.Surface((344, 580), 0, 32)
-        inspector.draw(surface, surface.get_rect(), replace(frame, contacts=contacts))
-        return pygame.surfarray.array3d(surface)
-
-    for contacts in (touch[:0], touch, touch[:0]):
-        again = picture(Inspector(Painter(), 0), contacts)
-        assert np.array_equal(picture(kept, contacts), again)
-
-
-@each_case("width", [220, 300, 344])
-def test_the_numbers_of_a_row_stay_apart_however_narrow_it_is(width):
-    layout = Layout.of((1280, 720))
-    inspector = Inspector(painter(layout, LIGHT))
-    surface = Written((width, 40))
-    far, angle = "\N{MINUS SIGN}123.45 m", "\N{MINUS SIGN}179°"
-    numbers = [("x", far), ("y", far), ("θ", angle)]
-    inspector._draw_row(surface, pygame.Rect(0, 0, width, 20), "pose", numbers)
-    assert surface.crowded() == []
-
-
-def test_in_little_room_the_plot_of_forces_is_lower_rather_than_left_out():
-    frame = team().frame
-    inspector = Inspector(Painter(), 2)
-
-    def heights(room):
-        sections = inspector._chosen(inspector._look(frame), room)
-        return [section.height for _, _, section in sections if section.least is not None]
-
-    assert heights(600) == [118.0]
-    assert 76.0 <= heights(287)[0] < 118.0
-    assert heights(200) == []
-
-
-def test_who_plays_sees_no_empty_plot_of_forces(world):
-    def sections(frame, *, plays):
-        inspector = Inspector(Painter(), 0)
-        inspector.plays = plays
-        return [name for name, _ in inspector._look(frame)]
-
-    start = World(world.scenario).frame
-    assert "forces" in sections(start, plays=False)
-    assert "forces" not in sections(start, plays=True)
-    assert "forces" in sections(world.frame, plays=True), "red pushes the crate"
 
 
 def test_numbers_in_messages_are_rounded_and_words_are_not():

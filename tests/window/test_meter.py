@@ -11,8 +11,7 @@ from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.bodies.props import Ball, Box, Solid
 from mars2d.core.materials import GRAVITY
 from mars2d.window.forcemeter import Meter, bound_of
-from mars2d.window.picking import body_at, next_body, selection_mark
-from mars2d.window.player import between
+from mars2d.window.picking import body_at, next_body
 from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.worlds import ELL
@@ -70,17 +69,6 @@ def test_read_step_by_step_it_is_the_same_as_read_at_once():
     assert step_by_step.start == at_once.start
 
 
-def test_step_by_step_the_list_of_all_contacts_is_asked_for_once():
-    world, meter, asked = push(time=0.0), Meter(), []
-    while world.time < 4:
-        log = world.frame.contact_log
-        frame = replace(world.frame, contact_log=lambda log=log: asked.append(1) or log())
-        for body in (0, 1, 0):
-            meter.read(frame, body)
-        world.step()
-    assert len(asked) == 1
-
-
 def test_playback_reads_as_live_and_going_back_reads_anew():
     world = push()
     live = Meter().read(world.frame, 0)
@@ -89,17 +77,6 @@ def test_playback_reads_as_live_and_going_back_reads_anew():
     for row in (len(record) - 1, 20, len(record) - 1):
         played = meter.read(record.frame(row), 0)
         np.testing.assert_allclose(played.force, live.force[:row])
-
-
-def test_between_two_steps_the_one_under_way_is_read():
-    source = Circling(pressed=True)
-    source.row = 7
-    first = source.frame
-    source.row = 8
-    frame = between(first, source.frame, 0.73)
-    reading = Meter().read(frame, 0)
-    np.testing.assert_allclose(reading.force, np.full(8, 5.0))
-    assert len(reading.effort) == 8
 
 
 def test_the_effort_is_read_where_it_is_known():
@@ -137,22 +114,6 @@ def test_what_lies_under_the_pointer_is_hit_with_a_little_slack(point, body):
     assert body_at(crowded(), point, 0.02) == body
 
 
-def test_a_concave_prop_is_not_hit_in_its_notch():
-    frame, (x, y) = crowded(), ELL.centroid
-    # Turned by 90 degrees about the centroid at (2, 0).
-    inside, notch = (0.1, 0.5), (0.5, 0.5)
-    for local, body in ((inside, 2), (notch, None)):
-        point = (2 - (local[1] - y), local[0] - x)
-        assert body_at(frame, point, 0.01) == body
-
-
-def test_robots_lie_above_props():
-    scenario = Scenario(robots=[Robot()], props=[Box(pose=(0.5, 0, 0))])
-    frame = World(scenario).frame
-    frame = replace(frame, prop_pose=np.zeros((3, 1)))
-    assert body_at(frame, (0.0, 0.0), 0.0) == 0
-
-
 def test_one_body_after_the_other_is_selected_and_then_none():
     frame, order, body = crowded(), [], None
     for _ in range(5):
@@ -160,9 +121,3 @@ def test_one_body_after_the_other_is_selected_and_then_none():
         order.append(body)
     assert order == [0, 1, 2, 3, None]
     assert frame.scenario.bodies[2].name == "ell"
-
-
-def test_the_mark_goes_round_the_body():
-    for ring in selection_mark(crowded(), 1).shapes:
-        assert ring.center == pytest.approx((0.4, 0.0))
-        assert ring.radius == pytest.approx(0.15)

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pygame
-import pytest
 
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.notes import STAYS, Notes, Progress, draw_progress
 from tests.cases import each_case
-from tests.window.written import THEMES, Written, painter, pixels
+from tests.window.written import Written, painter, pixels
 
 SIZES = each_case("size", [(640, 480), (1280, 720), (2560, 1440)])
 LONG = (
@@ -52,16 +51,6 @@ def test_a_note_is_seen_for_five_seconds_from_its_first_picture_on_and_fades():
     assert len(board.notes) == 0
 
 
-@each_case("kind", ["info", "warning", "error"])
-@THEMES
-def test_each_kind_has_its_colour(kind, theme):
-    board = Board(theme)
-    board.notes.say("something", kind)
-    tone = {"info": theme.running, "warning": theme.waiting, "error": theme.error}[kind]
-    same = (board.draw(0.0) == list(bytes.fromhex(tone.ink[1:]))).all(axis=2)
-    assert same.sum() > 40
-
-
 def test_an_error_stays_until_another_one_or_until_it_is_cleared():
     board = Board()
     board.notes.say("walk.py, line 3: no", "error")
@@ -87,15 +76,6 @@ def test_the_same_words_are_not_said_twice_but_anew():
     assert board.marks(8.0) > 0
 
 
-def test_only_the_newest_few_are_shown():
-    board = Board()
-    for k in range(50):
-        board.notes.say(f"note {k}")
-    assert len(board.notes) == 4
-    board.draw(0.0)
-    assert board.seen(0.0)[1] > 0.6 * board.layout.plot.bottom
-
-
 @each_case("size, text", [((640, 480), 1.0), ((1280, 720), max(TEXT_SIZES))])
 def test_long_notes_are_wrapped_and_stay_within_the_picture(size, text):
     board = Board(LIGHT, size, text)
@@ -107,13 +87,6 @@ def test_long_notes_are_wrapped_and_stay_within_the_picture(size, text):
     assert right <= plot.right
     assert bottom <= plot.bottom
     assert right - left <= 0.63 * plot.width
-
-
-def test_a_word_longer_than_a_line_is_shortened():
-    board = Board()
-    board.notes.say("x" * 500)
-    left, _, right, _ = board.seen(0.0)
-    assert right - left <= 440
 
 
 # -- progress -------------------------------------------------------------------------------------
@@ -129,18 +102,3 @@ def test_progress_says_what_and_how_far(size, text):
     assert not surface.crowded()
     for _, place in surface.words:
         assert layout.plot.contains(place)
-
-
-def test_its_bar_is_as_long_as_its_share():
-    layout = Layout.of((1280, 720))
-    lengths = []
-    for share in (-1.0, 0.0, 0.5, 1.0, 7.0):
-        surface = Written((1280, 720))
-        draw_progress(surface, layout.plot, painter(layout, LIGHT), Progress("Going", share))
-        lengths.append(
-            (pixels(surface) == list(bytes.fromhex(LIGHT.selected[1:]))).all(axis=2).sum()
-        )
-        assert surface.texts[1] == f"{100 * min(max(share, 0), 1):.0f} %"
-    assert lengths[0] == lengths[1] < 60  # but for the digits
-    assert lengths[2] == pytest.approx(lengths[3] / 2, rel=0.1)
-    assert lengths[3] == lengths[4]

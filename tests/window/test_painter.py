@@ -1,8 +1,5 @@
 """What is painted lies where it should, in its colour, with soft edges; without any display."""
 
-import os
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -13,16 +10,12 @@ from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError
 from mars2d.core.scene import Scene, wake_style
-from mars2d.output.layers.table import LAYERS, Layers
+from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import Artist, paint_frame, save_png
 from mars2d.output.raster.stage import Stage
-from mars2d.output.raster.strokes import dashes
-from mars2d.record.contact import CONTACT
-from mars2d.record.frame import Frame
 from mars2d.scenario.animation import Animation
-from mars2d.window.window import Window
 from tests.cases import each_case
 from tests.window.circling import Circling, circling_scenario
 from tests.window.written import pixels
@@ -54,28 +47,6 @@ def test_a_disc_covers_its_area_and_is_centred():
     assert (covered * y).sum() / covered.sum() == pytest.approx(55.7, abs=0.2)
 
 
-def test_edges_are_soft():
-    scene = Scene()
-    scene.circle((0, 0), 2.0, fill="#000000")
-    covered = coverage(painted(scene))
-    soft = ((covered > 0.1) & (covered < 0.9)).sum()
-    assert soft > 60
-
-
-def test_a_large_disc_is_like_a_small_one():
-    scene = Scene()
-    scene.circle((20.0, 0), 20.0, fill="#000000")  # a radius of 200 pixels
-    covered = coverage(painted(scene))
-    assert covered[50, 49] < 0.3
-    assert covered[50, 51] > 0.8
-
-
-def test_a_point_has_a_size_on_the_screen():
-    scene = Scene()
-    scene.circle((0, 0), 0.0, fill="#000000", pixels=5.0)
-    assert coverage(painted(scene)).sum() == pytest.approx(np.pi * 25, rel=0.05)
-
-
 def test_a_ring_is_hollow():
     scene = Scene()
     scene.circle((0, 0), 3.0, stroke="#000000", width=2.0)
@@ -93,20 +64,6 @@ def test_a_concave_polygon_is_not_filled_in_its_notch():
     assert covered.sum() == pytest.approx(80 * 80 * 0.75, rel=0.02)
 
 
-def test_opacity_lets_the_ground_shine_through():
-    scene = Scene()
-    scene.polygon([(-4, -4), (4, -4), (4, 4), (-4, 4)], fill="#ff000080")
-    red, green, blue = pixels(painted(scene))[50, 50]
-    assert red == 255
-    assert green == blue == pytest.approx(127, abs=3)
-
-
-def test_a_stroke_that_crosses_itself_is_equally_opaque():
-    scene = Scene()
-    scene.line([(-4, -4), (4, 4), (4, -4), (-4, 4)], stroke="#00000080", width=4)
-    assert pixels(painted(scene)).min() == pytest.approx(127, abs=3)
-
-
 @each_case("angle", np.linspace(0, np.pi, 7))
 @each_case("width", [1.0, 1.6, 3.0])
 def test_a_line_is_as_wide_in_every_direction(angle, width):
@@ -114,15 +71,6 @@ def test_a_line_is_as_wide_in_every_direction(angle, width):
     end = 3 * np.array([np.cos(angle), np.sin(angle)])
     scene.line([-end, (0, 0), end], stroke="#000000", width=width)
     assert coverage(painted(scene)).sum() == pytest.approx(60 * width, rel=0.25)
-
-
-def test_zoomed_in_far_a_line_keeps_its_direction():
-    scene = Scene()
-    scene.line([(-1e6, -2e6), (1e6, 2e6)], stroke="#000000", width=3)
-    covered = coverage(painted(scene))
-    assert covered[50, 50] == 1
-    assert covered[90, 30] == pytest.approx(1, abs=0.1)
-    assert covered[90, 70] == 0
 
 
 @each_case("style", ["--", ":", "-."])
@@ -135,15 +83,6 @@ def test_dashes_leave_gaps(style):
     assert 0.15 < coverage(painted(dashed)).sum() / full.sum() < 0.9
 
 
-def test_dashes_go_on_where_they_ended():
-    line = np.array([(0.0, 0.0), (100.0, 0.0)])
-    pieces = dashes(line, (9.0, 6.0))
-    assert [p[:, 0].tolist() for p in pieces[:2]] == [[0, 9], [15, 24]]
-    grown = dashes(np.array([(0.0, 0.0), (30.0, 0.0)]), (9.0, 6.0), start=5.0)
-    assert grown[0][:, 0].tolist() == [0, 4]
-    assert grown[1][:, 0].tolist() == [10, 19]
-
-
 @each_case("marker", [".", "o", "x", "+", "*", "s"])
 def test_each_marker_has_a_shape_of_its_own(marker):
     assert wake_style("style", marker) == marker
@@ -153,14 +92,6 @@ def test_each_marker_has_a_shape_of_its_own(marker):
     assert covered[45:55, 15:25].sum() > 3
     assert covered[45:55, 45:55].sum() == 0
     assert (covered[49:51, 19:21].min() > 0.4) == (marker in ".x+*")
-
-
-def test_markers_and_line_combine():
-    scene = Scene()
-    scene.line([(-3, 0), (0, 0), (3, 0)], stroke="#000000", style="o-")
-    covered = coverage(painted(scene))
-    assert covered[49:51, 35].max() > 0.4
-    assert covered[45:48, 50].max() > 0.4
 
 
 def test_text_stands_on_the_side_of_its_point_that_it_is_anchored_at():
@@ -175,12 +106,6 @@ def test_text_stands_on_the_side_of_its_point_that_it_is_anchored_at():
     assert sides["above"][1] < -5
     assert sides["below"][1] > 5
     assert abs(sides["center"][0]) < 2
-
-
-def test_the_interface_scale_makes_strokes_wider():
-    scene = Scene()
-    scene.line([(-3, 0), (0, 0), (3, 0)], stroke="#000000", width=2)
-    assert coverage(painted(scene, ui=2.0)).sum() == pytest.approx(240, rel=0.15)
 
 
 # -- whole pictures -------------------------------------------------------------------------------
@@ -209,11 +134,6 @@ def test_a_picture_shows_the_robots_where_they_are():
         assert pygame.Color(color)[:3] == surface.get_at((int(x), int(y)))[:3]
 
 
-@each_case("size", [(1280, 720), (800, 600), (1920, 1080), (320, 240), (64, 48)])
-def test_pictures_come_in_any_size(size):
-    assert paint_frame(frame(), size).get_size() == size
-
-
 @each_case(
     "changed",
     [
@@ -231,33 +151,12 @@ def test_every_animation_field_changes_the_picture(changed):
     assert differing(usual, paint_frame(frame(animation=Animation(**changed)))) > 100
 
 
-def test_arguments_override_the_animation():
-    bare = paint_frame(frame(animation=Animation(grid=False, wake=False)))
-    assert differing(bare, paint_frame(frame(), grid=False, trails=False)) == 0
-    assert differing(bare, paint_frame(frame(), grid=True, trails=False)) > 100
-    assert differing(paint_frame(frame()), paint_frame(frame(), sensors=True)) > 100
-
-
 def test_the_message_of_the_end_stands_in_a_banner():
     source = Circling()
     source.row = source.rows
     before, after = paint_frame(frame(row=99)), paint_frame(source.frame)
     assert after.get_at((640, 710))[:3] == (0x24, 0x3B, 0x53)
     assert before.get_at((640, 710))[:3] == (255, 255, 255)
-
-
-@pytest.mark.slow
-@each_case("style", ["-", "--", "o", "o-", ":"])
-def test_paths_that_grow_look_like_paths_drawn_at_once(style):
-    source = Circling(circling_scenario(animation=Animation(wake_style=style)))
-    artist = Artist()
-    for row in range(81):
-        source.row = row
-        grown = artist.paint(source.frame)
-    at_once = paint_frame(source.frame)
-    assert np.abs(pixels(grown) - pixels(at_once)).mean() < 0.06
-    without = paint_frame(source.frame, trails=False)
-    assert np.abs(pixels(without) - pixels(at_once)).mean() > 0.1
 
 
 def test_going_back_in_time_shortens_the_paths():
@@ -269,15 +168,6 @@ def test_going_back_in_time_shortens_the_paths():
     assert differing(artist.paint(source.frame), paint_frame(source.frame)) == 0
 
 
-def test_addons_draw_on_the_picture():
-    plain = frame()
-    marked = Frame(
-        plain.scenario, plain.time, plain.iteration, plain.pose, plain.path,
-        draw_addons=lambda scene: scene.text((0, 0), "here", size=40),
-    )  # fmt: skip
-    assert differing(paint_frame(plain), paint_frame(marked)) > 100
-
-
 def test_a_picture_is_saved_as_png(tmp_path):
     target = tmp_path / "picture.png"
     surface = paint_frame(frame(), (320, 240))
@@ -287,22 +177,6 @@ def test_a_picture_is_saved_as_png(tmp_path):
         save_png(surface, tmp_path / "picture.jpg")
     with pytest.raises(InputError, match=r"no/picture\.png.*can't be written"):
         save_png(surface, tmp_path / "no" / "picture.png")
-
-
-@pytest.mark.slow
-def test_pictures_need_no_display(tmp_path):
-    code = (
-        "import sys; sys.path.insert(0, '.')\n"
-        "from tests.window.circling import Circling\n"
-        "from mars2d.output.raster.picture import paint_frame, save_png\n"
-        "import pygame\n"
-        f"save_png(paint_frame(Circling().frame), {str(tmp_path / 'p.png')!r})\n"
-        "assert not pygame.display.get_init()\n"
-    )
-    hidden = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "PYTEST_CURRENT_TEST")
-    bare = {key: value for key, value in os.environ.items() if key not in hidden}
-    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True, env=bare)
-    assert (tmp_path / "p.png").stat().st_size > 10_000
 
 
 def test_while_the_camera_moves_a_slow_picture_is_enlarged_and_then_drawn_anew(monkeypatch):
@@ -326,19 +200,6 @@ def test_while_the_camera_moves_a_slow_picture_is_enlarged_and_then_drawn_anew(m
     assert differing(fresh, fine) == 0
 
 
-@each_case(
-    "size, fails_at", [((1280, 720), None), ((800, 600), 3), ((300, 200), None), ((40, 30), 3)]
-)
-def test_the_window_draws_itself_at_any_size(size, fails_at):
-    window = Window(Circling(rows=5, fails_at=fails_at), "max")
-    for _ in range(10):
-        window.player.step()
-    window.help.turn()
-    surface = pygame.Surface(size, 0, 32)
-    window.draw(surface)
-    assert window.layout.footer.bottom == size[1] or size[1] < 200
-
-
 # -- arrows and forces ----------------------------------------------------------------------------
 
 
@@ -355,43 +216,6 @@ def test_an_arrow_goes_from_its_tail_to_its_tip_with_its_width(tip):
     assert covered[shaft].sum() / 5 == pytest.approx(3.0, abs=0.7)
     head = (at > 10 * np.hypot(*tip) - 11) & (at < 10 * np.hypot(*tip) - 8)
     assert covered[head].sum() / 3 > 6.0
-
-
-def test_a_short_arrow_is_an_arrow_still_and_a_long_one_is_drawn_as_well():
-    for length, reach in ((0.4, 4), (30.0, 50)):
-        scene = Scene()
-        scene.arrow((0, 0), (length, 0), fill="#000000", stroke="#ffffff", width=4.0)
-        covered = coverage(painted(scene))
-        columns = np.flatnonzero(covered.sum(axis=0) > 0.3)
-        assert columns.min() == pytest.approx(50, abs=1)
-        assert columns.max() == pytest.approx(50 + reach, abs=2)
-
-
-def test_the_edge_of_an_arrow_sets_it_off():
-    scene = Scene()
-    scene.polygon([(-5, -5), (5, -5), (5, 5), (-5, 5)], fill="#000000")
-    scene.arrow((-3, 0), (3, 0), fill="#000000", stroke="#ffffff", width=4.0)
-    seen = 1 - coverage(painted(scene))
-    assert 1.5 < seen[:, 40].sum() < 5.0  # both sides of the shaft
-    assert seen[49:51, 40].max() < 0.1
-
-
-def test_an_arrow_outside_of_the_picture_is_not_kept():
-    scene, painter = Scene(), Painter()
-    scene.arrow((30, 30), (31, 30), fill="#000000")
-    painter.paint(pygame.Surface((100, 100), 0, 32), scene.shapes, CAMERA)
-    assert not painter._sprites
-
-
-def test_a_halo_sets_letters_off_from_a_dark_ground():
-    def white(halo):
-        scene = Scene()
-        scene.polygon([(-5, -5), (5, -5), (5, 5), (-5, 5)], fill="#000000")
-        scene.text((0, 0), "5 N", color="#000000", size=20, halo=halo)
-        return (1 - coverage(painted(scene))).sum()
-
-    assert white(None) == 0
-    assert white("#ffffff") > 100
 
 
 def pressed(row=5, **changes):
@@ -416,35 +240,6 @@ def test_forces_are_off_unless_they_are_asked_for():
     animated = pressed(animation=Animation(forces=True))
     assert differing(paint_frame(animated), shown) == 0
     assert differing(paint_frame(animated, forces=False), plain) == 0
-
-
-@pytest.fixture
-def no_forces():
-    """Let the layer of forces raise when it is asked, for the time of a test."""
-
-    def refuse(frame):
-        raise AssertionError("the forces were asked for")
-
-    before = LAYERS[:]
-    LAYERS[:] = [replace(e, shapes=refuse) if e.name == "forces" else e for e in before]
-    yield
-    LAYERS[:] = before
-
-
-@pytest.mark.usefixtures("no_forces")
-def test_switched_off_forces_cost_nothing():
-    paint_frame(pressed())
-    with pytest.raises(AssertionError):
-        paint_frame(pressed(), forces=True)
-
-
-def test_the_legend_is_left_out_of_small_pictures():
-    nothing = np.empty(0, CONTACT)
-    frame = replace(pressed(), contacts=nothing, contact_log=lambda: nothing, effort=np.zeros(2))
-    assert count(paint_frame(frame, forces=True), SLIP) > 5
-    assert (
-        differing(paint_frame(frame, (320, 200)), paint_frame(frame, (320, 200), forces=True)) == 0
-    )
 
 
 def test_props_and_their_trails_grow_on_the_picture():

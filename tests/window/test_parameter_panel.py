@@ -1,4 +1,4 @@
-"""Parameters as sliders: a real mouse drags them, keys move them, numbers are typed."""
+"""Parameters as sliders: the mouse drags them, keys move them, numbers are typed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from mars2d.core.errors import InputError
 from mars2d.output.raster.painter import Painter
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.parameter_panel import LEAST_ROWS, ROW, ParameterPanel
-from tests.window.person import needs_screen
 
 FILE = """
 from typing import Annotated
@@ -95,20 +94,6 @@ def test_a_drag_sets_a_value_now_and_then_while_time_passes_and_at_its_end(file)
     assert values == sorted(values)
     assert 9 <= len(values) <= 12, "ten times a second"
     assert desk.value("mu") == pytest.approx(1.0, abs=0.01)
-
-
-def test_what_takes_long_is_set_more_rarely_and_while_paused_at_the_end_alone(file):
-    slow, paused = Desk(file, cost=0.1), Desk(file, plays=False)
-    for desk in (slow, paused):
-        desk.send(pygame.MOUSEBUTTONDOWN, desk.at("mu", 0.6))
-        for k in range(100):
-            desk.send(pygame.MOUSEMOTION, desk.at("mu", 0.6 + 0.004 * k))
-            desk.panel.tick()
-            desk.now += 0.01
-        desk.send(pygame.MOUSEBUTTONUP, desk.at("mu", 1.0))
-    assert len(slow.set_to) <= 5
-    assert len(paused.set_to) == 1
-    assert paused.value("mu") == pytest.approx(1.0, abs=0.01)
 
 
 def test_what_needs_a_new_start_waits_until_it_is_let_go_of_and_says_so(file):
@@ -229,16 +214,6 @@ def test_a_file_without_parameters_and_a_failing_value_are_said(file):
     assert desk.panel.said == ("no such value", "error")
 
 
-def test_a_range_of_a_law_that_can_not_be_is_said(file, tmp_path):
-    path = tmp_path / "odd.py"
-    path.write_text(FILE.replace('"m/s")] = 0.1', '"m/s")] = 9'))
-    desk = Desk(file)
-    desk.experiment = open_experiment(path)
-    desk.draw()
-    assert desk.panel.parameters() == {}
-    assert "the default of go(speed) = 9: expected a number >= 0" in desk.panel._words()[0]
-
-
 # -- a window ---------------------------------------------------------------------------------
 
 
@@ -251,7 +226,6 @@ def pixel(window, name, share):
     return round(left + share * width), top + height // 2
 
 
-@needs_screen
 def test_a_slider_is_dragged_while_the_run_goes_on(open_window, file):
     window = open_window(1, experiment=str(file))
     window.do("mousemove", *window.state["buttons"]["parameters"], "click", 1)
@@ -272,7 +246,6 @@ def test_a_slider_is_dragged_while_the_run_goes_on(open_window, file):
     window.until(lambda s: s["sliders"]["values"]["laws.go.speed"] == 0.1)
 
 
-@needs_screen
 def test_more_robots_start_anew_and_a_heavier_crate_does_not(open_window, file):
     window = open_window(1, experiment=str(file))
     window.press("space", "F2")
@@ -298,7 +271,6 @@ def test_more_robots_start_anew_and_a_heavier_crate_does_not(open_window, file):
     window.until(lambda s: s["sliders"]["values"]["props.crate.mass"] == 2.0)
 
 
-@needs_screen
 def test_a_click_beside_the_panel_gives_keys_back_to_the_window(open_window, file):
     window = open_window(1, experiment=str(file))
     window.press("space", "F2")
@@ -316,7 +288,6 @@ def test_a_click_beside_the_panel_gives_keys_back_to_the_window(open_window, fil
     window.until(lambda s: not s["sliders"])
 
 
-@needs_screen
 def test_c_writes_what_was_set(open_window, file, tmp_path):
     window = open_window(1, experiment=str(file), folder=tmp_path)
     window.press("space", "F2")
@@ -332,7 +303,6 @@ def test_c_writes_what_was_set(open_window, file, tmp_path):
     assert again.scenario.robots[0].controller(None) == (0.3, 0.0)
 
 
-@needs_screen
 def test_a_recording_has_no_sliders(open_window, file, tmp_path):
     from mars2d import run
 

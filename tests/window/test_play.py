@@ -1,23 +1,17 @@
-"""Games that people play: roles, the countdown, the end, the scores, with real keys."""
+"""Games that people play: roles, the countdown, the end, the scores."""
 
 import json
 
-import pygame
 import pytest
 
-from mars2d.core.errors import InputError
-from mars2d.output.raster.layout import TEXT_SIZES
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import contest_of
 from mars2d.window.display import Preferences
-from mars2d.window.hints import hints_of
 from mars2d.window.memory import Memory
 from mars2d.window.play import COUNTDOWN, game_of
 from mars2d.window.scores import Scores, Tally
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
-from tests.window.person import needs_screen
 
 CATCH = """
 from mars2d import Holonomic, Robot, Scenario, load_law
@@ -58,7 +52,7 @@ def catch(tmp_path):
 def opened(source, memory, people=(), size=(1280, 720), text=1.0, **options):
     experiment = open_experiment(source, options)
     window = Window(Timeline(experiment), 1.0, size, Preferences(text=text))
-    window.play(memory, game_of(experiment, options), people)
+    window.play(memory, game_of(experiment), people)
     return window
 
 
@@ -99,28 +93,11 @@ def test_scores_are_kept_by_game_and_role(memory):
     assert Scores(again, "corner_game, mu = 0.8").of("evader").won == 1
 
 
-@each_case("text", ["", "[]", '{"g": 3}', '{"g": {"r": {"played": "x"}}}', "\0"])
-def test_a_file_of_scores_that_can_not_be_read_is_empty(monkeypatch, tmp_path, text):
-    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
-    memory = Memory()
-    Scores(memory, "g").add("r", won=True, time=1.0)
-    (tmp_path / "memory" / "scores.json").write_text(text)
-    assert Scores(memory, "g").of("r") == Tally()
-    Scores(memory, "g").add("r", won=True, time=2.0)
-    assert Scores(memory, "g").of("r").quickest == 2.0
-
-
-def test_without_a_memory_nothing_is_kept_and_nothing_fails(monkeypatch):
-    monkeypatch.setenv("MARS2D_MEMORY", "")
-    scores = Scores(Memory(), "g")
-    scores.add("r", won=True, time=1.0)
-    assert scores.of("r") == Tally()
-
-
-def test_a_file_of_ones_own_is_known_by_its_path_and_its_settings(catch):
+def test_a_file_of_ones_own_is_known_by_its_path_and_its_options(catch):
     experiment = open_experiment(catch, {})
-    assert game_of(experiment, {}) == str(catch)
-    assert game_of(experiment, {"stop_time": 9, "mu": 1}) == f"{catch}, mu = 1, stop_time = 9"
+    assert game_of(experiment) == str(catch)
+    again = experiment.with_options({"stop_time": 9, "sampling_time": 0.5})
+    assert game_of(again) == f"{catch}, sampling_time = 0.5, stop_time = 9"
 
 
 # -- the end of a game ----------------------------------------------------------------------------
@@ -149,7 +126,7 @@ def test_who_stays_free_has_won_and_a_better_time_is_news(memory, catch):
     assert window.game.result.words == "You win"
     assert window.game.tally("evader") == Tally(played=1, won=1)
     window = opened(catch, memory, [1])
-    Scores(memory, game_of(open_experiment(catch), {})).add("evader", won=False, time=0.1)
+    Scores(memory, game_of(open_experiment(catch))).add("evader", won=False, time=0.1)
     run_to_the_end(window)
     assert window.game.result.news.startswith("Your best: ")
 
@@ -221,43 +198,7 @@ def test_teams_have_scores_and_those_who_are_out_are_not_near(memory, tmp_path):
     assert window.game.distance(window.player.frame) == pytest.approx(4.0)
 
 
-@each_case("size", [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)])
-@each_case("text", TEXT_SIZES)
-def test_the_panel_stands_beside_the_arena_of_whoever_plays(memory, size, text):
-    window = opened("corner_game", memory, [1], size, text)
-    window.game.counting = 0.0
-    surface = pygame.Surface(size, 0, 32)
-    window.draw(surface)
-    window.draw(surface)
-    assert "inspector" not in window.dock.plates  # no plot of forces for whoever plays
-    if "score" not in window.dock.plates:
-        assert text * 400 > size[0] / 2  # large letters
-        hints = hints_of(window.player, window.game, drives=False, score_shown=False)
-        assert ("↑ ← ↓ →", "evader") in hints
-        return
-    assert not window.dock.plates["score"].colliderect(window._seen_arena(window.player.frame))
-
-
-# -- files that are no games ----------------------------------------------------------------------
-
-
-def test_a_contest_without_an_outcome_is_named_with_the_word_that_was_meant(tmp_path):
-    file = tmp_path / "hill.py"
-    file.write_text(
-        "from mars2d import Robot, Scenario\n"
-        "from mars2d.addons.contest import Contest\n"
-        "class Hill(Contest):\n    def outcom(self, record):\n        return None\n"
-        "robots = [Robot(name=n, pose=(x, 0, 0)) for n, x in [('red', 0), ('blue', 2)]]\n"
-        "scenario = Scenario(robots=robots, addons=[Hill({'a': ['red'], 'b': ['blue']})])\n"
-    )
-    with pytest.raises(InputError) as raised:
-        contest_of(open_experiment(file).scenario, "hill.py")
-    assert str(raised.value) == (
-        "hill.py: Hill has no outcome(record), which says who has won; did you mean 'outcom'?"
-    )
-
-
-# -- with real keys -------------------------------------------------------------------------------
+# -- in a window --------------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -271,7 +212,6 @@ def play(open_window, tmp_path, monkeypatch):
     return start
 
 
-@needs_screen
 @each_case("way", ["key", "click"])
 def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person = play(1.0, "corner_game")
@@ -291,7 +231,6 @@ def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person.do("keyup", "Right")
 
 
-@needs_screen
 def test_space_starts_at_once_and_escape_pauses_before_it_leaves(play):
     person = play(1.0, "corner_game", [1])
     person.press("space")
@@ -303,10 +242,9 @@ def test_space_starts_at_once_and_escape_pauses_before_it_leaves(play):
     person.press("Escape")
     person.until(lambda s: not s["playing"])
     person.press("Escape")
-    person.process.wait(20)
+    person.until(lambda s: s.get("left"))
 
 
-@needs_screen
 def test_two_people_drive_by_arrows_and_by_letters(play):
     person = play(1.0, "sumo", [0, 1])
     person.press("space")
@@ -315,7 +253,6 @@ def test_two_people_drive_by_arrows_and_by_letters(play):
     person.do("keyup", "Down", "keyup", "s")
 
 
-@needs_screen
 def test_in_the_end_r_plays_again_and_the_score_is_kept(play, catch, tmp_path):
     person = play(5.0, catch, [1])
     person.press("space")
@@ -332,7 +269,6 @@ def test_in_the_end_r_plays_again_and_the_score_is_kept(play, catch, tmp_path):
     person.until(lambda s: s["game"]["seats"] == [0] and s["time"] == 0)
 
 
-@needs_screen
 def test_a_law_is_saved_while_somebody_plays(play, catch):
     person = play(1.0, catch, [1], set={"pursuer": "rests.py"})
     person.press("space")

@@ -3,16 +3,10 @@
 from dataclasses import replace
 
 import numpy as np
-import pygame
 import pytest
 
-from mars2d import Robot, Scenario, World
-from mars2d.addons import Map
-from mars2d.core.errors import InputError, LawError
-from mars2d.output.layers.addons import sensors
-from mars2d.sensors import Proximity, RangeFinder
+from mars2d.core.errors import LawError
 from mars2d.window import keys
-from mars2d.window.picking import sensed_by
 from mars2d.window.player import SPEEDS, Player, between
 from tests.cases import each_case
 from tests.window.circling import Circling, circling_scenario
@@ -133,12 +127,6 @@ def test_a_simulation_that_is_too_slow_does_not_pile_up_a_debt():
     assert 1 < float(text.split()[-1].removesuffix("x")) < 20
 
 
-def test_a_long_stop_of_the_machine_is_not_caught_up_with():
-    p = player(1.0)
-    p.pass_time(30.0)
-    assert p.frame.time <= 0.1 + 1e-9
-
-
 def test_over_is_told_once_the_last_frame_is_shown():
     p = player(1.0, rows=3)
     play(p, 0.25)
@@ -176,21 +164,6 @@ def test_a_law_that_fails_stops_time_and_is_kept(speed):
     assert p.frame.iteration == 0
 
 
-@each_case("speed", [-1, "fast", float("nan"), True])
-def test_a_wrong_speed_is_an_error_that_names_it(speed):
-    with pytest.raises(InputError, match="speed"):
-        player(speed)
-
-
-def test_between_keeps_within_its_two_frames():
-    source = Circling()
-    first = source.frame
-    source.advance()
-    second = source.frame
-    assert between(first, second, -1.0).pose == pytest.approx(first.pose)
-    assert between(first, second, 9.0) is second
-
-
 def test_between_two_frames_props_move_and_contacts_are_those_under_way():
     source = Circling(pressed=True)
     source.row = 4
@@ -204,44 +177,6 @@ def test_between_two_frames_props_move_and_contacts_are_those_under_way():
 
 
 # -- keys -----------------------------------------------------------------------------------------
-
-
-def test_between_two_frames_what_a_laser_has_met_stays_where_it_is():
-    laser = RangeFinder(beams=4, range=3.0)
-    wall = Map([[(2, -5), (2, 5)]])
-    robot = Robot(sensors=[laser, Proximity(range=0.5)])
-    world = World(Scenario(robots=[robot], addons=[wall], sampling_time=1.0))
-    frames = []
-    for _ in range(2):
-        world.observe()
-        frames.append(world.frame)
-        world.step([[0.4], [0.5]])
-    between_them = between(frames[0], frames[1], 0.5)
-    fan, hits, sector = sensors(frames[0]).shapes
-    fan_later, hits_later, sector_later = sensors(between_them).shapes
-    assert np.array_equal(hits.points, hits_later.points)
-    assert np.array_equal(fan.points, fan_later.points)
-    assert sector_later.center == pytest.approx(between_them.pose[:2, 0])
-    assert sector_later.center != sector.center
-
-
-def test_with_a_robot_selected_only_its_sensors_are_seen():
-    scout = Robot(sensors=[Proximity(range=0.5)])
-    world = World(Scenario(robots=[scout.at(0, 0), scout.at(2, 0), Robot(pose=(4, 0, 0))]))
-    world.observe()
-    assert [i for i, _ in sensed_by(world.frame, None).readings["proximity"]] == [0, 1]
-    assert [i for i, _ in sensed_by(world.frame, 1).readings["proximity"]] == [1]
-    assert [i for i, _ in sensed_by(world.frame, 2).readings["proximity"]] == [0, 1]  # it has none
-
-
-@each_case("manual", [False, True])
-def test_a_letter_with_ctrl_means_the_same_as_elsewhere_or_nothing(manual):
-    known = set()
-    for letter in "abcdefghijklmnopqrstuvwxyz":
-        held = keys.Keyboard()
-        if held.press(ord(letter), "", pygame.KMOD_LCTRL, manual=manual) is not None:
-            known.add(letter)
-    assert known == set("qswz")  # no Ctrl+R, which elsewhere reloads
 
 
 def test_every_key_has_its_own_command():
@@ -273,18 +208,6 @@ def test_so_many_steps_are_done_as_pictures_allow_and_then_it_is_paused():
     assert p.source.row == 40
     assert p.status() == ("paused", "waiting")
     assert p.frame.time == pytest.approx(4.0)
-
-
-def test_steps_end_where_the_experiment_does_and_a_pause_forgets_them():
-    p = player(1.0, rows=5)
-    p.step(40)
-    assert p.status() == ("over", "waiting")
-    p = player(1.0, clock=Clock(tick=0.02), rows=50)
-    p.step(40)
-    p.pause()
-    row = p.source.row
-    play(p, 1.0)
-    assert p.source.row == row
 
 
 def test_one_can_go_back_and_on_again_through_what_was_run():
@@ -323,33 +246,6 @@ def test_at_speed_max_the_simulation_gets_nine_times_as_long_as_the_drawing():
     p.drawing = 0.01
     p.pass_time(0.016)
     assert p.source.row - quick > 4 * quick
-
-
-def test_another_speed_can_be_set():
-    p = player(1.0)
-    p.set_speed(float("inf"))
-    assert p.status()[0] == "max"
-
-
-def test_a_pause_in_between_two_steps_shows_the_later_one():
-    p = player(1.0, scenario=circling_scenario(sampling_time=1.0))
-    play(p, 1.5)
-    p.pause()
-    assert p.frame.time == 2.0
-
-
-def test_where_a_restart_fails_it_is_told_at_the_newest_step():
-    def fail():
-        raise InputError("the file can't be read")
-
-    p = player(1.0, rows=50)
-    p.step(20)
-    p.back(15)
-    p.source.restart = fail
-    p.restart()
-    assert str(p.error) == "the file can't be read"
-    assert p.failed
-    assert p.source.row == 20
 
 
 @each_case(
@@ -391,38 +287,3 @@ def test_slowly_for_a_second_of_wall_time():
     assert p.frame.time - before == pytest.approx(0.1)
     p.pass_time(0.0625)
     assert p.frame.time - before == pytest.approx(0.225)
-
-
-def test_without_another_contact_it_goes_to_the_end():
-    p = Player(Circling(rows=30), 0)
-    p.next_contact()
-    while p.busy:
-        p.pass_time(0.01)
-    assert p.over
-    p.last_contact()
-    assert p.source.row == 0
-
-
-def test_after_a_new_start_the_pace_is_never_below_zero():
-    class Clock:
-        now = 0.0
-
-        def __call__(self):
-            return self.now
-
-    clock, source = Clock(), Circling(circling_scenario(rows=400))
-    player = Player(source, 2.0, budget=9.0, clock=clock)
-
-    def play(pictures):
-        for _ in range(pictures):
-            clock.now += 0.02
-            player.pass_time(0.02)
-
-    play(60)
-    assert player.factor > 0
-    source.go(0)  # a file that was saved starts again, and tells the player afterwards
-    player.settle()
-    for _ in range(60):
-        play(1)
-        assert player.factor is None or player.factor > 0
-        assert "-" not in player.status()[0]

@@ -84,16 +84,6 @@ def test_a_prediction_is_not_yet_then_ok_so_far_then_ok(tmp_path):
     assert "1 of 1 prediction ok at the end" in desk.says
 
 
-def test_what_holds_already_is_ok_so_far_and_what_fails_at_the_end_is_not_ok(tmp_path):
-    desk = Desk(tmp_path, WAY.replace("1.0,", "0.25,"))
-    desk.run(6)
-    desk.look()
-    assert "ok so far" in desk.says
-    desk.finish()
-    desk.look()
-    assert "NOT OK" in desk.says
-
-
 def test_an_error_while_the_run_goes_on_is_not_yet_and_at_the_end_an_error(tmp_path):
     body = WAY + "    yield Prediction('blow', 1.0, record.contacts['impulse'][0], 0.01, 'N s')\n"
     desk = Desk(tmp_path, body)
@@ -133,19 +123,6 @@ def test_checks_are_asked_seldom_and_dear_ones_when_time_stands_still(tmp_path):
     assert desk.look(playing=False)
 
 
-def test_a_closed_panel_asks_nothing_and_without_checks_there_is_none(tmp_path):
-    desk = Desk(tmp_path, WAY)
-    desk.run(2)
-    desk.panel.close()
-    assert not desk.look()
-    bare = Timeline(open_experiment(desk.timeline.experiment.scenario))
-    panel = Predictions(desk.panel.painter, bare)
-    panel.is_open = True
-    assert not panel.is_open
-    assert not panel.offered
-    assert not Predictions(desk.panel.painter, None).offered
-
-
 def test_a_run_changed_by_hand_has_no_predictions_and_a_new_start_has(tmp_path):
     desk = Desk(tmp_path, WAY)
     desk.run(3)
@@ -177,17 +154,3 @@ def test_words_and_numbers_never_lie_on_each_other(tmp_path, theme, text):
     desk.look()
     assert desk.drawn().crowded() == []
     assert "-" in desk.says
-
-
-def test_many_predictions_are_scrolled_by_the_wheel(tmp_path):
-    body = "    for k in range(20):\n        yield Prediction(f'p{k}', k, k, 0.1)\n"
-    desk = Desk(tmp_path, body, size=(316, 200))
-    desk.run(3)
-    desk.look()
-    assert "p0" in desk.says
-    assert "p19" not in desk.says
-    assert any(text.startswith("wheel: ") for text in desk.says)
-    desk.panel.handle(pygame.event.Event(pygame.MOUSEWHEEL, y=-50))
-    assert "p19" in desk.says
-    least, wanted = desk.panel.heights(desk.timeline.frame, 316)
-    assert least < wanted

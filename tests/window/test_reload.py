@@ -65,11 +65,6 @@ def desk(tmp_path):
     return Desk(tmp_path)
 
 
-def test_without_a_change_nothing_is_said(desk):
-    desk.run(5)
-    assert desk.wait() == []
-
-
 @each_case(
     "name, text, command",
     [
@@ -97,25 +92,6 @@ def test_it_is_in_effect_within_a_second_but_not_before_it_rests(desk):
         assert desk.wait(0.15) == []
     desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW, 0.3"))
     assert len(desk.wait(0.75)) == 1
-
-
-def test_a_file_that_is_gone_for_a_moment(desk):
-    desk.run(5)
-    path = desk.folder / "walk.py"
-    path.unlink()
-    assert desk.wait(3) == []
-    desk.write("walk", WALK)
-    assert desk.wait(3) == []  # the same again
-    path.unlink()
-    assert desk.wait() == []
-    desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW, 0.3"))
-    assert len(desk.wait()) == 1
-
-
-def test_a_file_saved_as_it_was_is_no_change(desk):
-    desk.run(5)
-    desk.write("walk", WALK)
-    assert desk.wait() == []
 
 
 @each_case(
@@ -192,11 +168,6 @@ def test_a_file_that_is_imported_from_now_on_is_watched(desk):
     assert desk.wait() == []
 
 
-def test_a_scenario_that_is_not_from_a_file_is_not_watched(desk):
-    experiment = open_experiment(desk.timeline.scenario)
-    assert Reload(Timeline(experiment)).poll(5.0) is None
-
-
 def test_a_scenario_file_and_its_laws_are_watched(tmp_path):
     scenario = tmp_path / "walk.toml"
     (tmp_path / "law.py").write_text(OTHER)
@@ -212,23 +183,3 @@ def test_a_scenario_file_and_its_laws_are_watched(tmp_path):
     said = [reload.poll(3.0), reload.poll(4.0)]
     assert said[1].message.startswith("walk.toml: in effect from now on")
     assert timeline.scenario.obstacles == (((3.0, 0.0), (3.0, 1.0)),)
-
-
-def test_what_is_saved_within_a_second_is_not_mistaken_for_what_was_before(child, tmp_path):
-    """Python takes a module's compiled code for new if its file has the same second and size."""
-    (tmp_path / "speeds.py").write_text(SPEEDS)
-    (tmp_path / "other.py").write_text(OTHER)
-    (tmp_path / "walk.py").write_text(WALK)
-    code = f"""
-import os
-from pathlib import Path
-from mars2d.scenario.experiment import open_experiment
-folder = Path({str(tmp_path)!r})
-for text in ("SLOW = 0.1\\n", "SLOW = 0.2\\n"):
-    (folder / "speeds.py").write_text(text)
-    os.utime(folder / "speeds.py", (1e9, 1e9))
-    experiment = open_experiment(folder / "walk.py")
-    print(experiment.scenario.robots[0].controller(None))
-"""
-    result = child(code, PYTHONDONTWRITEBYTECODE="")
-    assert result.stdout.splitlines() == ["(0.1, 0.0)", "(0.2, 0.0)"], result.stderr

@@ -1,6 +1,5 @@
 """What is kept of a window: never over another file, and films that show what was shown."""
 
-import subprocess
 import sys
 import time
 from math import pi
@@ -19,8 +18,6 @@ from mars2d.window.player import Player
 from mars2d.window.saving import free_name, save_picture, save_python, start_film
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
-from tests.processes import PATIENCE, bare_environment
-from tests.window.person import needs_screen
 
 SIZE = (160, 120)
 
@@ -96,37 +93,6 @@ def test_a_scenario_is_kept_as_python(tmp_path):
     assert open_experiment(path).scenario == scenario
 
 
-def test_nothing_stays_where_writing_fails(tmp_path, monkeypatch):
-    def fail(*_):
-        raise InputError("full")
-
-    monkeypatch.setattr("mars2d.window.saving.save_png", fail)
-    with pytest.raises(InputError, match="full"):
-        save_picture(painted("red"), tmp_path, "walk")
-    assert list(tmp_path.iterdir()) == []
-
-
-@needs_screen
-def test_a_listing_is_on_the_clipboard_of_a_window(screen, tmp_path):
-    code = (
-        "import pygame; from pathlib import Path; from mars2d import Scenario\n"
-        "from mars2d.window.saving import save_python\n"
-        "pygame.display.init(); pygame.display.set_mode((80, 60))\n"
-        "path, copied = save_python(Scenario(title='caf\\u00e9'), Path(), 'kept')\n"
-        "print(copied, pygame.scrap.get_text() == path.read_text(encoding='utf-8'))"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        env=bare_environment(DISPLAY=screen),
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        timeout=PATIENCE,
-        check=False,
-    )
-    assert done.stdout.splitlines()[-1] == "True True", done.stderr
-
-
 # -- films ----------------------------------------------------------------------------------------
 
 
@@ -159,56 +125,6 @@ def test_another_size_is_fitted_into_the_first(suffix, tmp_path):
     assert {picture.shape for picture in found} == {(120, 160, 3)}
     wide = found[1][:, 80, 0] > 128  # one column: black, red, black
     assert (wide[:25].any(), wide[40:80].all(), wide[95:].any()) == (False, True, False)
-
-
-def test_odd_sides_are_made_even(tmp_path):
-    film = Filming(tmp_path / "film.mp4", Clock())
-    film.take(painted("red", (161, 121)))
-    assert frames_of(film.stop())[0][1].shape == (122, 162, 3)
-
-
-def test_a_long_gap_is_cut_short(tmp_path):
-    clock = Clock()
-    film = Filming(tmp_path / "film.gif", clock)
-    film.take(painted("red"))
-    clock.now += 3600
-    film.take(painted("blue"))
-    assert film.seconds == pytest.approx(2, abs=2 / FPS)
-    film.stop()
-
-
-def test_pictures_that_come_too_fast_are_left_out_and_memory_stays(tmp_path, monkeypatch):
-    clock = Clock()
-    monkeypatch.setattr(
-        "mars2d.output.films.filming.write_gif", lambda file, shots, fps: time.sleep(0.2)
-    )
-    film = Filming(tmp_path / "film.gif", clock)
-    for _ in range(100):
-        film.take(painted("red"))
-        clock.now += 1 / FPS
-    assert film._shots.qsize() <= 4
-    film.stop()
-
-
-@each_case("suffix", [".mp4", ".gif"])
-def test_a_film_that_cannot_be_written_on_says_so(suffix, tmp_path):
-    clock = Clock()
-    film = Filming(tmp_path / f"film{suffix}", clock)
-    film._file.close()  # as a disk that is gone
-    with pytest.raises(InputError, match="the film can't be written, "):
-        for _ in range(1000):
-            film.take(painted("red"))
-            clock.now += 1 / FPS
-            time.sleep(0.001)
-    with pytest.raises(InputError, match="the film can't be written, "):
-        film.stop()
-
-
-def test_a_film_of_nothing_is_no_file(tmp_path):
-    film = start_film(tmp_path, "walk")
-    with pytest.raises(InputError, match="at least one picture"):
-        film.stop()
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monkeypatch):

@@ -14,14 +14,13 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.output.signals import signals_of_bodies
 from mars2d.scenario.experiment import open_experiment
 from mars2d.sensors import Imu, RangeFinder
-from mars2d.window.plot import as_number, limits_of, polylines
+from mars2d.window.plot import as_number
 from mars2d.window.scopes import Scopes
 from mars2d.window.trace import Trace
-from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.person import PUSHING
-from tests.window.written import THEMES, Written, painter
+from tests.window.written import Written, painter
 
 
 @pytest.fixture
@@ -55,19 +54,6 @@ def test_a_trace_that_grows_is_as_one_that_is_read_at_once(timeline, what):
     for a, b in zip(values_of(whole), values_of(recorded), strict=True):
         assert len(a) == len(b) + 1 == timeline.row + 1, "the present row is not recorded yet"
         np.testing.assert_array_equal(a[:-1], b.reshape(len(b), -1))
-
-
-def test_the_row_that_is_not_recorded_yet_is_as_it_will_be(timeline):
-    names = [what for what in WHATS if what != "command"]
-    traces = [Trace(what, (0, 1)) for what in names]
-    for _ in range(25):
-        timeline.advance()
-    now = [values_of(trace.read(timeline.recorded, timeline.frame)) for trace in traces]
-    timeline.advance()
-    later = [values_of(trace.read(timeline.recorded, timeline.frame)) for trace in traces]
-    for what, a, b in zip(names, now, later, strict=True):
-        for before, after in zip(a, b, strict=True):
-            np.testing.assert_allclose(before[-1], after[25], err_msg=what)
 
 
 def test_after_another_branch_or_a_new_start_a_trace_is_read_anew(timeline):
@@ -136,25 +122,6 @@ def test_a_function_of_ones_own_is_traced_and_its_mistakes_are_told(timeline):
 # -- plots ----------------------------------------------------------------------------------------
 
 
-def test_lines_go_through_the_values_and_break_where_there_is_none():
-    area, limits = pygame.Rect(0, 0, 100, 100), limits_of(0.0, 4.0, np.array([0.0, 1.0]))
-    times, values = np.arange(5.0), np.array([0.0, 1.0, np.nan, 0.5, 0.5])
-    first, second = polylines(area, limits, times, values)
-    np.testing.assert_allclose(first[:, 0], [0, 25])
-    np.testing.assert_allclose(second[:, 0], [75, 100])
-    assert first[0, 1] == 100
-    (before,) = polylines(area, limits, times, np.arange(5.0) / 5, held="pre")
-    np.testing.assert_allclose(before[:, 0], [-25, 0, 0, 25, 25, 50, 50, 75, 75, 100])
-    turned = polylines(area, limits, times, np.array([3.0, 3.1, -3.1, -3.0, -2.9]), wraps=True)
-    assert [len(line) for line in turned] == [2, 3]
-
-
-def test_numbers_have_three_digits():
-    assert [as_number(value) for value in (0.0, 0.2, -12.346, 12345.0, 2e-5, np.nan)] == [
-        "0.00", "0.200", "\N{MINUS SIGN}12.3", "1.23e+04", "2e\N{MINUS SIGN}05", "nothing",
-    ]  # fmt: skip
-
-
 class Scoped:
     """Scopes of a run on a surface that remembers its words."""
 
@@ -172,19 +139,6 @@ class Scoped:
         self.surface.words.clear()
         self.scopes.draw(self.surface, self.surface.get_rect(), self.timeline.frame)
         return self.surface
-
-
-@THEMES
-@each_case("size", [(316, 200), (316, 420), (200, 140), (900, 130)])
-def test_words_of_plots_stay_apart_however_small_they_are(timeline, size, theme):
-    scoped = Scoped(timeline, size, theme)
-    for what in ("speed", "force", "energy"):
-        scoped.scopes.switch(what, () if what == "energy" else (0, 1, 2))
-    for _ in range(30):
-        timeline.advance()
-    surface = scoped.draw()
-    assert "speed [m/s]" in surface.texts
-    assert surface.crowded() == []
 
 
 def test_the_cursor_has_the_values_of_the_row_that_is_shown(timeline):
@@ -216,35 +170,6 @@ def test_what_is_switched_on_for_one_body_joins_the_plot_of_another():
     assert not scopes.is_open
 
 
-def test_of_many_robots_all_curves_are_drawn():
-    robots = [Robot(pose=(0.5 * k, 0, 0)) for k in range(20)]
-    timeline = Timeline(open_experiment(Scenario(robots=robots, workspace=None)))
-    timeline.advance()
-    scoped = Scoped(timeline)
-    scoped.scopes.switch("x", tuple(range(20)))
-    for _ in range(200):
-        timeline.advance()
-    surface = scoped.draw()
-    assert "20 curves" in surface.texts
-    column = pygame.surfarray.array3d(surface)[120].astype(int)
-    plate = pygame.Color(scoped.scopes.painter.theme.plate)[:3]
-    colored = (np.ptp(column, axis=1) > 60) & (column != plate).any(axis=1)
-    assert 15 <= colored.sum() <= 25
-
-
-def test_as_time_passes_it_is_drawn_a_few_times_a_second_only(timeline):
-    scoped = Scoped(timeline)
-    scoped.scopes.switch("x", (0,))
-    scoped.draw()
-    first = scoped.scopes._image
-    timeline.advance()
-    scoped.scopes.draw(scoped.surface, scoped.surface.get_rect(), timeline.frame)
-    assert scoped.scopes._image is first
-    scoped.scopes._clock = lambda: 1.0
-    scoped.scopes.draw(scoped.surface, scoped.surface.get_rect(), timeline.frame)
-    assert scoped.scopes._image is not first
-
-
 def test_the_wheel_shows_less_time_and_more_until_it_is_all(timeline):
     scoped = Scoped(timeline)
     scoped.scopes.switch("x", (0,))
@@ -263,14 +188,6 @@ def test_the_wheel_shows_less_time_and_more_until_it_is_all(timeline):
     assert limits.start <= timeline.frame.time < limits.end
     scoped.scopes.handle(pygame.Event(pygame.MOUSEWHEEL, y=-9, precise_y=-9.0))
     assert scoped.scopes.span is None
-
-
-def test_a_window_that_remembers_its_scopes_shows_something(pushing):
-    window = Window(Timeline(open_experiment(pushing)))
-    assert window.remembered["panels"] == []
-    window.dock.open(["scopes"])
-    assert [(trace.what, trace.bodies) for trace in window.scopes.traces] == [("speed", (0, 1))]
-    assert window.remembered["panels"] == ["scopes"]
 
 
 @each_case("kind", ["column", "function"])

@@ -7,7 +7,6 @@ import pytest
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.output.raster.painter import Painter, Sprites
-from mars2d.output.raster.picture import Artist
 from mars2d.scenario.animation import Animation
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.window.source import Playback
@@ -29,13 +28,6 @@ def test_the_one_not_asked_for_the_longest_goes_first():
     sprites.keep("d", sprite(10, 10))
     assert [name for name in "abcd" if sprites.get(name)] == ["a", "c", "d"]
     assert sprites.kept == 300
-
-
-def test_one_that_is_too_large_is_not_kept():
-    sprites = Sprites(300)
-    sprites.keep("small", sprite(10, 10))
-    sprites.keep("large", sprite(20, 20))
-    assert len(sprites) == sprites.kept == 0
 
 
 # -- pictures -------------------------------------------------------------------------------------
@@ -132,7 +124,7 @@ def pixels(surface):
     return pygame.surfarray.array3d(surface).astype(int)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @each_case("situation", SITUATIONS)
 def test_what_is_kept_changes_no_pixel(record, situation):
     kept, plain = Viewer(record), Viewer(record, plain=True)
@@ -145,23 +137,6 @@ def test_what_is_kept_changes_no_pixel(record, situation):
     assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "situation", [nothing, pan, restart, without_paths], ids=lambda situation: situation.__name__
-)
-def test_what_has_grown_looks_as_if_it_were_drawn_at_once(record, situation):
-    grown, fresh = Viewer(record), Viewer(record, plain=True)
-    for viewer in (grown, fresh):
-        viewer.play(40, draw=viewer is grown)
-        situation(viewer)
-        viewer.play(5, draw=viewer is grown)
-    seen, wanted = pixels(grown.draw()), pixels(fresh.draw())
-    # Paths that grow piece by piece differ by shades from paths drawn as one line.
-    assert np.abs(seen - wanted).mean() < 0.06
-    assert (np.abs(seen - wanted).max(axis=2) > 80).sum() < 10
-    assert len(np.unique(wanted.reshape(-1, 3), axis=0)) > 100
-
-
 def test_what_a_sensor_sees_moves_with_its_robot_between_two_readings():
     record = run(Proximity(range=1.0))
     kept, plain = Viewer(record), Viewer(record, plain=True)
@@ -169,15 +144,6 @@ def test_what_a_sensor_sees_moves_with_its_robot_between_two_readings():
         viewer.play(21, draw=True)
         viewer.play(1, draw=False)  # between the same control steps
     assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
-
-
-def test_other_colours_of_the_same_team_are_seen_at_once(record):
-    artist = Artist(sensors=True)
-    artist.paint(record.frame(-1))
-    for colors in (["#aa0000"], ["#aa0000", "#00aa00"]):
-        other = run(base_colors=colors)
-        again = artist.paint(other.frame(-1))
-        assert np.array_equal(pixels(again), pixels(Artist(sensors=True).paint(other.frame(-1))))
 
 
 def test_what_stays_between_two_pictures_is_not_drawn_again(record, monkeypatch):

@@ -1,7 +1,5 @@
 """The time bar shows where an experiment is and finds the row under the pointer; so the slider."""
 
-from dataclasses import replace
-from itertools import pairwise
 from math import inf
 
 import numpy as np
@@ -10,7 +8,7 @@ import pytest
 from mars2d.output.marks import MARKS
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
-from mars2d.window.slider import SpeedSlider, times
+from mars2d.window.slider import SpeedSlider
 from mars2d.window.timebar import TimeBar, TimeState
 from tests.cases import each_case
 from tests.window.written import THEMES, Written, painter, pixels
@@ -60,11 +58,6 @@ def test_the_handle_stands_at_the_row_and_tells_the_past_by_its_colour(theme):
     assert not Drawn(state(row=400), theme).has(theme.past.ink, 400)
 
 
-def test_the_ends_and_the_handle_have_their_times():
-    assert Drawn(state()).surface.texts == ["0 s", "100 s", "30.0 s"]
-    assert Drawn(state(row=400)).surface.texts == ["0 s", "100 s"]  # the header says the time
-
-
 @each_case("size", SIZES)
 @each_case("text", TEXT_SIZES)
 @each_case("row", [0, 399])
@@ -84,23 +77,6 @@ def test_the_row_under_the_pointer_is_found(size):
     assert drawn.bar.row_at(size[0]) == 400  # no further than there is anything
 
 
-def test_before_it_is_drawn_and_without_room_there_is_no_row():
-    assert TimeBar().row_at(100) is None
-    assert not TimeBar().hit((100, 100))
-    narrow = Drawn(state(), size=(30, 300))
-    assert narrow.bar.row_at(5) is None
-
-
-@each_case("size", SIZES)
-def test_the_area_to_press_is_at_least_24_pixels_high(size):
-    drawn = Drawn(state(), size=size)
-    x = round(drawn.bar.x_of(500))
-    hit = [y for y in range(size[1]) if drawn.bar.hit((x, y))]
-    assert len(hit) >= 24
-    assert all(drawn.layout.timebar.top <= y < drawn.layout.timebar.bottom for y in hit)
-    assert not drawn.bar.hit((drawn.layout.slider.centerx, hit[0]))
-
-
 def test_over_it_the_pointers_time_is_shown():
     plain = Drawn(state())
     pointer = (round(plain.bar.x_of(250)), plain.layout.timebar.centery)
@@ -109,12 +85,6 @@ def test_over_it_the_pointers_time_is_shown():
     assert hovered.surface.place("25.0 s").bottom <= hovered.layout.timebar.top
     beside = Drawn(state(), pointer=(pointer[0], 100))
     assert np.array_equal(beside.pixels, plain.pixels)
-
-
-def test_while_it_is_held_it_is_so_beside_it_as_well():
-    plain = Drawn(state())
-    held = Drawn(state(), pointer=(round(plain.bar.x_of(250)), 100), held=True)
-    assert "25.0 s" in held.surface.texts
 
 
 @THEMES
@@ -130,10 +100,6 @@ def test_events_are_ticks_in_colours_of_their_own(theme):
         Drawn(state(collision=np.array([100, 101]))).pixels,
         Drawn(state(collision=[100, 101])).pixels,
     )
-
-
-def test_an_experiment_of_no_length_has_a_bar():
-    assert Drawn(state(row=0, rows=0, last=0)).bar.row_at(600) == 0
 
 
 @each_case("rows, seconds", [(0, 10), (90, 10), (99, 20), (1000, 200), (10_000, 2000)])
@@ -177,15 +143,6 @@ def test_each_speed_is_found_where_it_is_shown(size, text):
     assert SpeedSlider(RUNGS).speed_at(100) is None
 
 
-def test_the_slider_is_logarithmic():
-    slid = Slid(1.0)
-    xs = [slid.slider.x_of(speed) for speed in (0.1, 0.13, 0.2, 3.0, 5.0, 99.0, 100.0, 1e5, inf)]
-    assert xs == sorted(xs)
-    steps = np.diff([slid.slider.x_of(speed) for speed in (*RUNGS, inf)])
-    assert steps == pytest.approx(steps[0])
-    assert slid.slider.x_of(0.0) == slid.slider.x_of(0.1)
-
-
 @each_case(
     "speed, reached, texts",
     [
@@ -200,44 +157,6 @@ def test_the_slider_is_logarithmic():
 )
 def test_the_speed_stands_beside_it_and_what_is_reached(speed, reached, texts):
     assert Slid(speed, reached).surface.texts == texts
-
-
-@each_case("size", SIZES)
-@each_case("text", TEXT_SIZES)
-@each_case("speed, reached", [(100.0, 12.3), (inf, 340.0)])
-def test_its_words_are_whole_at_any_size(size, text, speed, reached):
-    slid = Slid(speed, reached, size=size, text=text)
-    assert times(speed) in slid.surface.texts
-    assert reached is None or any(times(reached) in text for text in slid.surface.texts)
-    assert not slid.surface.crowded()
-    for _, place in slid.surface.words:
-        assert slid.layout.slider.contains(place)
-
-
-def test_over_it_the_pointers_speed_is_shown():
-    slider = Slid(1.0).slider
-    layout = Slid(1.0).layout
-    pointer = round(slider.x_of(20.0)), layout.slider.centery
-    assert slider.hit(pointer)
-    assert "20x" in Slid(1.0, pointer=pointer).surface.texts
-    assert "20x" in Slid(1.0, pointer=(pointer[0], 5), held=True).surface.texts
-    assert "20x" not in Slid(1.0, pointer=(pointer[0], 5)).surface.texts
-
-
-@each_case("size", SIZES)
-def test_the_slider_can_be_hit_and_is_not_the_time_bar(size):
-    slid = Slid(1.0, size=size)
-    x = round(slid.slider.x_of(1.0))
-    assert sum(slid.slider.hit((x, y)) for y in range(size[1])) >= 24
-    assert all(a < b for a, b in pairwise([slid.layout.timebar.right - 1, x]))
-
-
-def test_the_handle_of_a_recording_is_never_in_the_past():
-    shown = replace(state(), live=False)
-    drawn = Drawn(shown)
-    assert drawn.has(LIGHT.selected, 300)
-    assert "30.0 s" not in drawn.surface.texts
-    assert "30.0 s" in Drawn(state()).surface.texts
 
 
 # -- zoomed in time -------------------------------------------------------------------------------
@@ -263,15 +182,6 @@ def test_a_zoom_keeps_the_row_under_the_pointer_and_rows_are_wider(size):
     assert drawn.bar.row_at(x) == 300
     drawn.bar.zoom(-6, x)
     assert not drawn.bar.zoomed
-
-
-def test_a_zoom_ends_at_a_few_rows_and_at_all():
-    drawn = zoomed(state(), notches=200)
-    assert drawn.bar.span.rows == 20
-    drawn.bar.zoom(-300, drawn.bar.x_of(300))
-    assert tuple(drawn.bar.span) == (0, 1000)
-    short = zoomed(state(row=3, rows=5, last=8), row=3)
-    assert not short.bar.zoomed
 
 
 @THEMES
@@ -318,11 +228,3 @@ def test_the_part_moves_on_with_the_handle_but_not_by_itself():
     assert not drawn.bar.span.first <= 390 <= drawn.bar.span.last
     back = after(200)
     assert back.first < 200 < back.last
-
-
-def test_a_very_long_run_can_be_zoomed_to_single_rows():
-    shown = state(row=5_000_000, rows=9_000_000, last=90_000_000)
-    drawn = zoomed(shown, notches=100, row=5_000_000)
-    x = drawn.bar.x_of(5_000_000)
-    rows = [drawn.bar.row_at(x + k * drawn.bar._line.width / 20) for k in range(-3, 4)]
-    assert np.diff(rows).tolist() == [1] * 6

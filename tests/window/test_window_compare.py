@@ -1,24 +1,19 @@
-"""Three runs in step in one window, with a real mouse and keys, and how far they get apart."""
+"""Three runs in step in one window, with mouse and keys, and how far they get apart."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from mars2d.cli import command_line as cli
 from mars2d.core.errors import LawError
 from mars2d.output.figures.comparison import MODES, Comparison
-from mars2d.output.raster.layout import TEXT_SIZES, Layout
-from mars2d.output.raster.theme import DARK, LIGHT
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.display import Preferences
-from mars2d.window.driftplot import DriftPlot
-from mars2d.window.player import Player
 from mars2d.window.trio import Trio
 from tests.cases import each_case
-from tests.window.person import Driver, differing, needs_screen
-from tests.window.written import Written, painter
+from tests.window.person import differing
+from tests.window.written import Written
 
 FAILS = """
 from mars2d import Robot, Scenario
@@ -92,16 +87,6 @@ def test_going_back_and_on_measures_nothing_twice_and_all_stay_in_step():
     assert len(trio.drifts["stop"]) == 1
 
 
-def test_frames_between_two_control_steps_are_of_the_same_time():
-    trio = trio_of("push_box", stop_time=3)
-    player = Player(trio, 1.0)
-    for _ in range(33):
-        player.pass_time(0.017)
-    frames = trio.frames(player.frame.time)
-    assert {round(frame.time, 9) for frame in frames.values()} == {round(player.frame.time, 9)}
-    assert 0 < player.frame.time % 0.1 < 0.1
-
-
 def test_an_error_names_the_physics_and_the_others_have_gone_on(tmp_path):
     (tmp_path / "mine.py").write_text(FAILS)
     trio = trio_of(tmp_path / "mine.py")
@@ -111,27 +96,6 @@ def test_an_error_names_the_physics_and_the_others_have_gone_on(tmp_path):
 
 
 # -- the plot -------------------------------------------------------------------------------------
-
-
-@each_case("theme", [LIGHT, DARK])
-@each_case("text", TEXT_SIZES)
-@each_case("width", [520, 756, 1236])
-def test_words_of_the_plot_never_lie_on_each_other(theme, text, width):
-    layout = Layout.of((1280, 720), text=text, controls=True)
-    surface, plot = Written((width, 220)), DriftPlot()
-    drifts = {mode: np.linspace((0, 0), (2.5, 1.2), 400) for mode in MODES[1:]}
-    plot.draw(surface, surface.get_rect(), painter(layout, theme), drifts, 0.05, 3.0)
-    assert surface.crowded() == []
-    assert plot.time_at(plot.area.left) == 0
-    assert plot.time_at(plot.area.right + 50) == pytest.approx(399 * 0.05)
-
-
-def test_runs_that_agree_say_so():
-    layout = Layout.of((1280, 720), controls=True)
-    surface, plot = Written((900, 220)), DriftPlot()
-    drifts = {mode: np.zeros((40, 2)) for mode in MODES[1:]}
-    plot.draw(surface, surface.get_rect(), painter(layout, LIGHT), drifts, 0.05, 1.0)
-    assert "the three runs agree" in surface.texts
 
 
 @each_case("size", [(800, 600), (1024, 768), (1280, 720)])
@@ -149,25 +113,11 @@ def test_the_arenas_have_the_same_width_and_lie_above_the_plot(size, text):
 # -- the window -----------------------------------------------------------------------------------
 
 
-class Comparer(Driver):
-    def __init__(self, screen, experiment, speed):
-        self._sit(screen, "observed_compare", experiment, speed)
-
-
 @pytest.fixture
-def compare(screen):
-    opened = []
-
-    def start(experiment, speed="max"):
-        opened.append(Comparer(screen, str(experiment), speed))
-        return opened[-1]
-
-    yield start
-    for window in opened:
-        window.close()
+def compare(open_window):
+    return lambda experiment, speed="max": open_window(speed, compare=experiment)
 
 
-@needs_screen
 def test_keys_and_buttons_of_time_move_all_three(compare):
     window = compare("push_box")
     window.until(lambda s: s["over"])
@@ -184,7 +134,6 @@ def test_keys_and_buttons_of_time_move_all_three(compare):
     window.until(lambda s: s["over"])
 
 
-@needs_screen
 def test_the_time_bar_and_the_plot_are_scrubbed_and_the_wheel_zooms_all_arenas(compare):
     window = compare("push_box")
     window.until(lambda s: s["over"])
@@ -204,7 +153,6 @@ def test_the_time_bar_and_the_plot_are_scrubbed_and_the_wheel_zooms_all_arenas(c
     window.until(lambda s: s["span"][1] < s["newest"])
 
 
-@needs_screen
 def test_looks_help_pictures_and_leaving(compare):
     window = compare("head_on", 1)
     window.press("d", "z", "x")
@@ -218,41 +166,3 @@ def test_looks_help_pictures_and_leaving(compare):
     window.until(lambda s: s["row"] < row or s["row"] < 5)
     window.press("Escape")
     window.until(lambda s: s.get("left"))
-
-
-@needs_screen
-def test_the_command_opens_a_window_and_prints_the_table(screen, tmp_path):
-    import subprocess
-    import sys
-
-    from tests.processes import PATIENCE, bare_environment, wait_until
-    from tests.window.person import ROOT
-
-    here = {"DISPLAY": screen, "PYTHONPATH": str(ROOT), "SDL_VIDEO_WINDOW_POS": "0,0"}
-    environment = bare_environment(**here, MARS2D_MEMORY="")
-    command = [sys.executable, "-m", "mars2d", "compare", "push_box", "--stop-time", "1000"]
-    close = ["xdotool", "mousemove", "300", "300", "sleep", "0.3", "key", "ctrl+q"]
-
-    def closed():
-        subprocess.run(close, env=environment, check=True, timeout=PATIENCE)
-        return process.poll() is not None
-
-    with subprocess.Popen(
-        command, env=environment, cwd=tmp_path, stdout=subprocess.PIPE, text=True
-    ) as process:
-        wait_until(closed)
-        out, _ = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 0
-    assert "physics" in out
-    assert "The window was closed" in out
-    assert not list(tmp_path.iterdir()), "neither picture nor film"
-
-
-@pytest.mark.slow
-def test_without_a_display_it_makes_a_picture_and_a_film(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.delenv("DISPLAY", raising=False)
-    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    cli.main(["compare", "push_box", "--stop-time", "1"])
-    assert "picture: mars2d_compare" in capsys.readouterr().out
-    assert (tmp_path / "mars2d_compare" / "push_box.png").exists()

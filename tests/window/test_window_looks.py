@@ -5,9 +5,7 @@
 
 import pytest
 
-from tests.window.person import ROOM, compare, needs_screen
-
-pytestmark = [needs_screen, pytest.mark.nightly]
+from tests.window.person import ROOM, compare
 
 ACROSS = 300, 30
 """A pixel where the pointer changes nothing."""

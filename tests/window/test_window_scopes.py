@@ -1,15 +1,12 @@
-"""Scopes in a real window, with a real mouse: chosen, scrubbed, saved."""
+"""Scopes in a window: chosen by mouse, scrubbed, saved."""
 
 import csv
 
 import numpy as np
 import pygame
-import pytest
 
 from mars2d import load, run
-from tests.window.person import PUSHING, needs_screen
-
-pytestmark = [needs_screen, pytest.mark.nightly]
+from tests.window.person import PUSHING
 
 
 def push(window, button):

@@ -4,7 +4,6 @@ import pygame
 import pytest
 
 from mars2d import Robot, Scenario
-from mars2d.output.raster.fonts import Fonts
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.window import Window
 from mars2d.world.timeline import Timeline
@@ -94,13 +93,6 @@ def test_the_first_branch_says_how_to_get_to_the_other(window):
     assert "another branch, run until 5 s; B goes back" in said(window)
 
 
-def test_following_is_said(window):
-    do(window, "follow", "follow", "select", "follow")
-    assert [text.partition(";")[0] for text in said(window)] == [
-        "the camera follows all robots", "the camera stays where it is", "the camera follows red",
-    ]  # fmt: skip
-
-
 def test_escape_clears_an_error_before_it_closes_the_window(window):
     window._open = True
     window.notes.say("walk.py, line 3: no", "error")
@@ -108,23 +100,6 @@ def test_escape_clears_an_error_before_it_closes_the_window(window):
     assert (said(window), window._open) == ([], True)
     do(window, "leave")
     assert not window._open
-
-
-def test_a_name_stands_but_once_beside_what_the_pointer_is_over(window):
-    words(window)
-    pixel = tuple(window.camera.to_pixels([window.player.frame.pose[:2, 1]])[0].astype(int))
-    window.grab.move(window.player.frame, window.camera, pixel, running=True)
-    marks = window.grab.marks(window.player.frame, window.camera)
-    bare = window.grab.marks(window.player.frame, window.camera, named=True)
-    assert len(marks) == len(bare) + 1
-
-
-def test_a_long_path_is_broken_after_a_folder_and_keeps_its_name():
-    fonts, path = Fonts(), "/home/somebody/lectures/on/robots/of/this/year/walk_1.png"
-    lines = fonts.wrap(f"picture: {path}", 14, 260, 6)
-    assert "".join(lines).removeprefix("picture: ").replace("picture:", "") == path
-    assert all(fonts.width(line, 14) <= 260 for line in lines)
-    assert lines[0].endswith("/") or lines[0] == "picture:"
 
 
 def test_what_is_said_is_in_no_film(window):

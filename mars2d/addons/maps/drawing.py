@@ -29,9 +29,6 @@ ALWAYS = "GeoJSON, WKT, .png, .jpg and .pgm need nothing"
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 """The units that a drawing can be in, by name, in metres."""
 
-MAX_PIECES, MAX_POINTS = 30_000, 100_000
-"""The most pieces and points of a drawing."""
-
 NO_LAYER = "no layer"
 """The layer of a piece that is in none."""
 
@@ -196,23 +193,6 @@ def layer_name(name: object, otherwise: str = NO_LAYER) -> str:
     return " ".join(plain.split())[:80] or otherwise
 
 
-class Tally:
-    """Counts the pieces and points that are read of a file, and refuses too many."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-        self._pieces = self._points = 0
-
-    def add(self, points: int, pieces: int = 1) -> None:
-        """Count pieces with so many points in all. Raises InputError beyond the limits."""
-        self._pieces += pieces
-        self._points += points
-        if self._pieces > MAX_PIECES:
-            raise InputError(f"{self._name}: more than {MAX_PIECES} pieces; choose fewer layers")
-        if self._points > MAX_POINTS:
-            raise InputError(f"{self._name}: more than {MAX_POINTS} points; draw it with fewer")
-
-
 @contextlib.contextmanager
 def broken(name: str, kind: str) -> Iterator[None]:
     """Turn any error of a reader into an InputError: `name` can't be read as `kind`."""
@@ -223,10 +203,6 @@ def broken(name: str, kind: str) -> Iterator[None]:
         if str(error).startswith(name):
             raise
         raise InputError(f"{name}: {error}") from error
-    except NameError:  # a fault of ours, not the file's
-        raise
-    except MemoryError:
-        raise InputError(f"{name}: can't be read as {kind}: it needs too much memory") from None
     except RecursionError:
         raise InputError(f"{name}: can't be read as {kind}: it is nested too deeply") from None
     except Exception as error:  # libraries raise all kinds

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import re
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,7 +17,6 @@ from mars2d.addons.maps.drawing import (
     ALWAYS,
     Drawing,
     Piece,
-    Tally,
     Unit,
     broken,
     check_finite,
@@ -26,7 +24,7 @@ from mars2d.addons.maps.drawing import (
     wall,
 )
 from mars2d.addons.maps.regions import region
-from mars2d.core.errors import InputError, shown
+from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 
 if TYPE_CHECKING:
@@ -42,18 +40,6 @@ UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
 LINES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
 AREAS = ("SOLID", "TRACE")
 """The kinds of entities that are read, besides INSERT."""
-
-ENTITY = re.compile(rb"\n[ \t]*+0[ \t]*+\r?\n[A-Z]|\0\0[A-Z]")
-"""The beginning of an entity or a table's entry, in text and in binary: code 0 and its name."""
-
-MAX_ENTITIES = 200_000
-"""The most in a file: the library makes an object of each before any can be left out."""
-
-MAX_DEPTH = 16
-"""The deepest nesting of blocks."""
-
-MAX_CONTROLS, MAX_DEGREE = 1_000, 11
-"""The most control points of a spline, and its highest degree."""
 
 FLATNESS = 2e-4
 """The largest distance of a curve from its points, in parts of its own size."""
@@ -80,13 +66,10 @@ def read_dxf(path: Path, unit: Unit | None) -> Drawing:
         import ezdxf
     with broken(name, "a DXF drawing"):
         _quiet()
-        data = path.read_bytes()
-        if sum(1 for _ in ENTITY.finditer(data)) > MAX_ENTITIES:
-            raise InputError(f"{name}: more than {MAX_ENTITIES} entities; save a part of it")
         document = ezdxf.filemanagement.readfile(path)
-        reader = _Reader(name, document)
+        reader = _Reader(document)
         shapes = reader.layout()
-        unit = unit or _unit(document, named=b"$INSUNITS" in data)
+        unit = unit or _unit(document, named=b"$INSUNITS" in path.read_bytes())
         hidden = {
             layer_name(layer.dxf.name)
             for layer in document.layers
@@ -126,7 +109,7 @@ def _pieces(name: str, shape: _Shape, metres: float) -> Iterator[Piece]:
     points = shape.points[:, :2]
     if shape.solid:
         check_finite(name, points)
-        for area in region(name, [points * metres]):
+        for area in region([points * metres]):
             yield Piece(shape.layer, area)
         return
     piece = wall(name, shape.layer, points, metres)
@@ -137,10 +120,9 @@ def _pieces(name: str, shape: _Shape, metres: float) -> Iterator[Piece]:
 class _Reader:
     """Walks a document; each block is read once, however often it is inserted."""
 
-    def __init__(self, name: str, document: Document) -> None:
-        self._name, self._document = name, document
+    def __init__(self, document: Document) -> None:
+        self._document = document
         self._blocks: dict[str, list[_Shape]] = {}
-        self._open: list[str] = []
         self.skipped: Counter[str] = Counter()
 
     def layout(self) -> list[_Shape]:
@@ -149,21 +131,17 @@ class _Reader:
 
     def _shapes(self, entities: Any) -> list[_Shape]:
         found: list[_Shape] = []
-        tally = Tally(self._name)  # of this block alone: what inserts it counts it again
         for entity in entities:
             kind = entity.dxftype()
             if entity.dxf.get("invisible", 0):
                 self.skipped[f"invisible {kind}"] += 1
             elif kind == "INSERT":
-                found += self._inserted(entity, tally)
+                found += self._inserted(entity)
             elif kind in AREAS:
                 corners = np.array([tuple(v) for v in entity.wcs_vertices()]).reshape(-1, 3)
-                tally.add(len(corners))
                 found.append(_Shape(layer_name(entity.dxf.layer), corners, solid=True))
             elif kind in LINES and self._is_flat(entity):
-                points = self._points(entity)
-                tally.add(len(points))
-                found.append(_Shape(layer_name(entity.dxf.layer), points))
+                found.append(_Shape(layer_name(entity.dxf.layer), self._points(entity)))
             else:
                 self.skipped[kind] += 1
         return found
@@ -177,38 +155,21 @@ class _Reader:
         """Return points (k, 3) along a line or curve."""
         from ezdxf.path import make_path
 
-        dxf: Any = entity
-        if entity.dxftype() in ("LWPOLYLINE", "POLYLINE"):
-            corners = dxf if entity.dxftype() == "LWPOLYLINE" else dxf.vertices
-            Tally(self._name).add(len(corners))  # before anything is made of it
-        if entity.dxftype() == "SPLINE":
-            count = max(len(dxf.control_points), len(dxf.fit_points), len(dxf.knots) // 2)
-            if count > MAX_CONTROLS or not 1 <= dxf.dxf.degree <= MAX_DEGREE:
-                raise InputError(
-                    f"{self._name}: a SPLINE of degree {dxf.dxf.degree} with {count} control "
-                    f"points; expected up to {MAX_DEGREE} and {MAX_CONTROLS}"
-                )
         line = make_path(entity)
         points = np.array([tuple(v) for v in line.control_vertices()]).reshape(-1, 3)
         if not line.has_curves or not len(points):
             return points
-        check_finite(self._name, points)
         size = float(np.ptp(points, axis=0).max())
-        Tally(self._name).add(8 * len(points))  # before it is flattened
         curve = line.flattening(max(FLATNESS * size, 1e-12), segments=8)
         return np.array([tuple(v) for v in curve]).reshape(-1, 3)
 
-    def _inserted(self, insert: Insert, tally: Tally) -> list[_Shape]:
+    def _inserted(self, insert: Insert) -> list[_Shape]:
         """Return the shapes of a block's reference, once for each time that it repeats them."""
         from ezdxf.math import Vec3
 
         shapes = self._block(insert.dxf.name)
         rows = max(int(insert.dxf.get("row_count", 1)), 1)
         columns = max(int(insert.dxf.get("column_count", 1)), 1)
-        points = sum(len(shape.points) for shape in shapes)
-        tally.add(rows * columns * points, rows * columns * len(shapes))
-        if not shapes:
-            return []
         matrix = np.array(list(insert.matrix44())).reshape(4, 4)
         ocs, turn = insert.ocs(), insert.dxf.rotation
         steps = insert.dxf.get("column_spacing", 0.0), insert.dxf.get("row_spacing", 0.0)
@@ -227,10 +188,6 @@ class _Reader:
         key = name.lower()
         if key in self._blocks:
             return self._blocks[key]
-        if key in self._open:
-            raise InputError(f"{self._name}: the block {shown(name)} contains itself")
-        if len(self._open) >= MAX_DEPTH:
-            raise InputError(f"{self._name}: blocks within blocks, more than {MAX_DEPTH} deep")
         block = self._document.blocks.get(name)
         if block is None:
             self.skipped["INSERT of a missing block"] += 1
@@ -238,7 +195,5 @@ class _Reader:
         if block.block is not None and block.block.is_xref:
             self.skipped["INSERT of another file"] += 1
             return []
-        self._open.append(key)
         self._blocks[key] = self._shapes(block)
-        self._open.pop()
         return self._blocks[key]

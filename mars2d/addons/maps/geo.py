@@ -15,7 +15,6 @@ from mars2d.addons.maps.drawing import (
     NO_LAYER,
     Drawing,
     Piece,
-    Tally,
     Unit,
     broken,
     check_finite,
@@ -30,9 +29,6 @@ if TYPE_CHECKING:
     import shapely
 
 Float = NDArray[np.float64]
-
-MAX_DEPTH = 16
-"""The deepest nesting of collections and brackets."""
 
 LAYER_NAMES = ("layer", "Layer", "name")
 """The properties of a feature that may name its layer; the first one counts."""
@@ -50,7 +46,7 @@ def read_geojson(path: Path, unit: Unit | None) -> Drawing:
     with broken(name, "GeoJSON"):
         data = json.loads(path.read_text(encoding="utf-8-sig"), parse_constant=_no_number)
         reader = _Reader(name, unit or METRES)
-        for layer, geometry in _geometries(name, data, NO_LAYER, 0):
+        for layer, geometry in _geometries(name, data, NO_LAYER):
             reader.add_json(layer, geometry)
     return reader.drawing("GeoJSON")
 
@@ -66,9 +62,8 @@ def read_wkt(path: Path, unit: Unit | None) -> Drawing:
     with broken(name, "WKT"):
         reader = _Reader(name, unit or METRES)
         for text in _statements(name, path.read_text(encoding="utf-8-sig")):
-            whole = shapely.from_wkt(text)
-            parts = [whole]
-            for _ in range(MAX_DEPTH):  # collections hold collections
+            parts = [shapely.from_wkt(text)]
+            while any(hasattr(part, "geoms") for part in parts):  # collections hold collections
                 parts = shapely.get_parts(parts).tolist()
             for part in parts:
                 reader.add(part)
@@ -84,7 +79,6 @@ class _Reader:
 
     def __init__(self, name: str, unit: Unit) -> None:
         self._name, self._unit = name, unit
-        self._tally = Tally(name)
         self._pieces: list[Piece] = []
         self._skipped: Counter[str] = Counter()
 
@@ -133,7 +127,6 @@ class _Reader:
             ) from None
 
     def _line(self, layer: str, points: Float) -> None:
-        self._tally.add(len(points))
         piece = wall(self._name, layer, points, self._unit.metres)
         if piece is None:
             self._skipped["line without length"] += 1
@@ -141,34 +134,29 @@ class _Reader:
             self._pieces.append(piece)
 
     def _area(self, layer: str, rings: list[Float]) -> None:
-        self._tally.add(sum(map(len, rings)))
         for ring in rings:
             check_finite(self._name, ring)
-        areas = region(self._name, [r * self._unit.metres for r in rings], even_odd=True)
+        areas = region([r * self._unit.metres for r in rings], even_odd=True)
         self._pieces += [Piece(layer, area) for area in areas]
         if not areas:
             self._skipped["Polygon without area"] += 1
 
 
-def _geometries(
-    name: str, data: Any, layer: str, depth: int
-) -> Iterator[tuple[str, dict[str, Any]]]:
+def _geometries(name: str, data: Any, layer: str) -> Iterator[tuple[str, dict[str, Any]]]:
     """Yield the single geometries of GeoJSON with the layer of each."""
-    if depth > MAX_DEPTH:
-        raise InputError(f"{name}: collections in collections, more than {MAX_DEPTH} deep")
     kind = data.get("type") if isinstance(data, dict) else None
     if kind == "FeatureCollection" and isinstance(data.get("features"), list):
         for feature in data["features"]:
-            yield from _geometries(name, feature, layer, depth + 1)
+            yield from _geometries(name, feature, layer)
     elif kind == "Feature":
         properties = data.get("properties")
         names = properties if isinstance(properties, dict) else {}
         own = next((layer_name(names[key]) for key in LAYER_NAMES if names.get(key)), layer)
         if data.get("geometry") is not None:
-            yield from _geometries(name, data["geometry"], own, depth + 1)
+            yield from _geometries(name, data["geometry"], own)
     elif kind == "GeometryCollection" and isinstance(data.get("geometries"), list):
         for geometry in data["geometries"]:
-            yield from _geometries(name, geometry, layer, depth + 1)
+            yield from _geometries(name, geometry, layer)
     elif kind in GEOMETRIES:
         yield layer, data
     else:
@@ -186,10 +174,7 @@ def _statements(name: str, text: str) -> Iterator[str]:
     depth, statement = 0, ""
     for line in text.splitlines():
         statement += line.strip() + " "
-        for character in line:
-            depth += (character == "(") - (character == ")")
-            if depth > MAX_DEPTH:
-                raise InputError(f"{name}: brackets in brackets, more than {MAX_DEPTH} deep")
+        depth += line.count("(") - line.count(")")
         if depth <= 0 and statement.strip():
             yield statement
             depth, statement = 0, ""

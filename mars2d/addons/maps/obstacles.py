@@ -64,7 +64,7 @@ def obstacles(drawing: Drawing, tolerance: float = TOLERANCE) -> Obstacles:
     tolerance = tolerance_of(tolerance)
     geometries = [piece.geometry for piece in drawing.pieces]
     solid = [g for g in geometries if g.geom_type == "Polygon"]
-    areas = solid if drawing.apart else joined(drawing.source, solid)
+    areas = solid if drawing.apart else joined(solid)
     _check_corners(drawing.source, 3 * len(areas), tolerance)  # a triangle each, at least
     simple = shapely.get_parts(
         shapely.set_precision([simple_area(area, tolerance) for area in areas], GRID)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import isfinite, pi
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -32,9 +32,6 @@ MAX_BYTES = 20_000_000
 
 MAX_CORNERS = 100_000
 """The most corners of occupied cells: an image with more is noise, not a map."""
-
-MAX_BRACKETS = 100
-"""The most brackets in the YAML of an occupancy grid."""
 
 MODES = ("trinary", "scale", "raw")
 KEYS = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode")
@@ -138,13 +135,7 @@ def _fields(name: str, path: Path) -> dict[str, Any]:
     with extra("maps", f"{name}: an occupancy grid needs PyYAML", ALWAYS):
         import yaml
     with broken(name, "YAML"):
-        text = path.read_text(encoding="utf-8")
-        if max(text.count("["), text.count("{")) > MAX_BRACKETS:
-            raise InputError(f"{name}: more than {MAX_BRACKETS} brackets")
-        for token in yaml.scan(text, Loader=yaml.SafeLoader):
-            if isinstance(token, (yaml.AliasToken, yaml.AnchorToken)):
-                raise InputError(f"{name}: has an alias or anchor (& or *), which is refused")
-        fields = yaml.safe_load(text)
+        fields = yaml.safe_load(path.read_text(encoding="utf-8"))
     if not isinstance(fields, dict):
         raise InputError(f"{name}: expected an occupancy grid: image, resolution, origin, ...")
     for key in ("image", "resolution"):
@@ -155,19 +146,11 @@ def _fields(name: str, path: Path) -> dict[str, Any]:
 
 
 def _beside(name: str, path: Path, image: Any) -> Path:
-    """Return the image that a YAML file names: beside it, or in a folder beside it."""
+    """Return the image that a YAML file names, by a path from its own folder."""
     expected = "the name of an image beside it, " + ", ".join(IMAGES)
-    if not isinstance(image, str) or not image or "\0" in image:
+    if not isinstance(image, str) or Path(image).suffix.lower() not in IMAGES:
         raise wrong(f"{name}: image", image, expected)
-    outside = PurePosixPath(image).is_absolute() or PureWindowsPath(image).drive
-    parts = PureWindowsPath(image).parts
-    if outside or ".." in parts or PureWindowsPath(image).root:
-        raise wrong(f"{name}: image", image, f"{expected}, without .. and no absolute path")
     found = path.parent / image
-    if found.suffix.lower() not in IMAGES:
-        raise wrong(f"{name}: image", image, expected)
-    if not found.resolve().is_relative_to(path.parent.resolve()):
-        raise wrong(f"{name}: image", image, f"{expected}, no link that leads elsewhere")
     if not found.is_file():
         raise InputError(f"{name}: image = {image!r}: there is no such file beside it")
     check_bytes(f"{name}: image {image}", found, MAX_BYTES)

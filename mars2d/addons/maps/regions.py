@@ -1,4 +1,4 @@
-"""Areas from rings of points, and lines and areas with fewer corners, within limits."""
+"""Areas from rings of points, and lines and areas with fewer corners."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError
-
 if TYPE_CHECKING:
     import shapely
 
@@ -17,15 +15,6 @@ Float = NDArray[np.float64]
 
 GRID = 1e-5
 """The step to which corners are rounded, metres."""
-
-MAX_AREAS = 10_000
-"""The most areas that can be joined."""
-
-MAX_CROSSINGS, MAX_NEAR = 30_000, 500_000
-"""The most pairs of edges that cross, and whose boxes overlap: cutting more takes for ever."""
-
-BATCH = 2_000_000
-"""The number of pairs that are looked at together."""
 
 MAX_LINE = 500
 """The most corners of a line that is simplified as one: the library recurses as deep as that."""
@@ -37,7 +26,7 @@ TRIALS = 3
 """The number of tolerances that are tried, each half of the one before."""
 
 
-def region(name: str, rings: Sequence[Float], *, even_odd: bool = False) -> list[shapely.Polygon]:
+def region(rings: Sequence[Float], *, even_odd: bool = False) -> list[shapely.Polygon]:
     """Return the area that rings (k, 2) of points [m] fill, as polygons, with their holes.
 
     even_odd: a point lies inside if it is surrounded an odd number of times; else, as in drawing
@@ -52,27 +41,23 @@ def region(name: str, rings: Sequence[Float], *, even_odd: bool = False) -> list
         whole = shapely.Polygon(edges[0])
         if whole.is_valid:
             return [whole]
-    check_crossings(name, edges)
     cut = shapely.union_all([shapely.LineString(ring.coords) for ring in edges], grid_size=GRID)
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(cut)))
     if not len(faces):
         return []
     middles = shapely.get_coordinates(shapely.point_on_surface(faces))
-    turns = _turns(name, middles, _edges(edges))
+    turns = _turns(middles, _edges(edges))
     inside = turns % 2 != 0 if even_odd else turns != 0
     whole = shapely.coverage_union_all(faces[inside])  # faces meet edge to edge
     return [part for part in shapely.get_parts(whole).tolist() if part.geom_type == "Polygon"]
 
 
-def joined(name: str, polygons: Sequence[shapely.Geometry]) -> list[shapely.Polygon]:
+def joined(polygons: Sequence[shapely.Geometry]) -> list[shapely.Polygon]:
     """Return polygons that cover the same and do not overlap, corners rounded to GRID."""
     import shapely
 
     if not polygons:
         return []
-    if len(polygons) > MAX_AREAS:
-        raise InputError(f"{name}: {len(polygons)} areas; expected at most {MAX_AREAS}")
-    check_crossings(name, polygons)
     whole = shapely.set_precision(shapely.union_all(polygons), GRID)
     parts = shapely.get_parts(whole).tolist()
     return [part for part in parts if part.geom_type == "Polygon"]
@@ -114,23 +99,6 @@ def simple_area(area: shapely.Polygon, tolerance: float) -> shapely.Polygon:
     return area
 
 
-def check_crossings(name: str, geometries: Sequence[shapely.Geometry]) -> None:
-    """Raise InputError for lines that cross each other so often that nobody drew them."""
-    import shapely
-
-    edges = shapely.linestrings(_edges(geometries))
-    tree = shapely.STRtree(edges)
-    at_once = max(16, BATCH // max(len(edges), 1))
-    near = crossing = 0
-    for first in range(0, len(edges), at_once):
-        some = edges[first : first + at_once]
-        near += tree.query(some).shape[1]
-        if near < MAX_NEAR + 16 * len(edges):
-            crossing += tree.query(some, "crosses").shape[1] // 2
-        if near > MAX_NEAR + 16 * len(edges) or crossing > MAX_CROSSINGS:
-            raise InputError(f"{name}: its lines cross each other too many times")
-
-
 def _edges(geometries: Sequence[shapely.Geometry]) -> Float:
     """Return all edges of lines and polygons, (k, 2, 2)."""
     import shapely
@@ -143,7 +111,7 @@ def _edges(geometries: Sequence[shapely.Geometry]) -> Float:
     return np.stack([points[:-1][same], points[1:][same]], axis=1)
 
 
-def _turns(name: str, points: Float, edges: Float) -> NDArray[np.int64]:
+def _turns(points: Float, edges: Float) -> NDArray[np.int64]:
     """Return how many times closed rings go round points (n, 2), counter-clockwise, (n,).
 
     edges: (k, 2, 2) of all rings. They count where they cross the ray from a point to the right.
@@ -154,15 +122,9 @@ def _turns(name: str, points: Float, edges: Float) -> NDArray[np.int64]:
     rays = shapely.linestrings(np.stack([points, ends], axis=1))
     tree = shapely.STRtree(shapely.linestrings(edges))
     turns = np.zeros(len(points), dtype=np.int64)
-    at_once = max(16, BATCH // len(edges))
-    met = 0
-    for first in range(0, len(points), at_once):
-        ray, edge = tree.query(rays[first : first + at_once])
-        met += len(ray)
-        if met > 10 * BATCH:
-            raise InputError(f"{name}: an area of too many parts within parts")
-        (x, y), (x1, y1), (x2, y2) = points[first + ray].T, edges[edge, 0].T, edges[edge, 1].T
-        left = (x2 - x1) * (y - y1) - (x - x1) * (y2 - y1)
-        up, down = (y1 <= y) & (y2 > y) & (left > 0), (y1 > y) & (y2 <= y) & (left < 0)
-        np.add.at(turns, first + ray, up.astype(np.int64) - down)
+    ray, edge = tree.query(rays)
+    (x, y), (x1, y1), (x2, y2) = points[ray].T, edges[edge, 0].T, edges[edge, 1].T
+    left = (x2 - x1) * (y - y1) - (x - x1) * (y2 - y1)
+    up, down = (y1 <= y) & (y2 > y) & (left > 0), (y1 > y) & (y2 <= y) & (left < 0)
+    np.add.at(turns, ray, up.astype(np.int64) - down)
     return turns

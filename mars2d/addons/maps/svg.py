@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -15,12 +15,10 @@ from numpy.typing import NDArray
 
 from mars2d.addons.maps.drawing import (
     ALWAYS,
-    MAX_POINTS,
     METRES,
     NO_LAYER,
     Drawing,
     Piece,
-    Tally,
     Unit,
     broken,
     check_finite,
@@ -34,20 +32,7 @@ from mars2d.core.extras import extra
 Float = NDArray[np.float64]
 
 SVG = "{http://www.w3.org/2000/svg}"
-XLINK = "{http://www.w3.org/1999/xlink}href"
 LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
-
-MAX_ELEMENTS = 20_000
-"""The most elements, with those that `use` repeats."""
-
-MAX_DEPTH = 64
-"""The deepest nesting of groups."""
-
-MAX_WORK = 50_000_000
-"""The most characters that are looked at."""
-
-MAX_DIGITS = 100
-"""The most digits of a number; patterns of colours and fonts take the square of that."""
 
 ASIDE = ("symbol", "marker", "mask", "pattern", "clipPath", "filter", "metadata", "foreignObject")
 """Elements that draw nothing where they stand."""
@@ -83,9 +68,8 @@ def read_svg(path: Path, unit: Unit | None) -> Drawing:
         document = svgelements.SVG.parse(data, on_error="raise")
         skipped: Counter[str] = Counter()
         pieces = []
-        tally = Tally(name)
         for layer, shape in _drawn(document, NO_LAYER, skipped):
-            rings = _rings(shape, tally)
+            rings = _rings(shape)
             for points in rings:
                 check_finite(name, points)
                 points[:, 1] = height - points[:, 1]
@@ -93,128 +77,13 @@ def read_svg(path: Path, unit: Unit | None) -> Drawing:
     return Drawing(name, "an SVG drawing", unit, tuple(pieces), skipped=dict(skipped))
 
 
-class _Builder(ET.TreeBuilder):
-    """Builds a tree that is neither too large nor too deep."""
-
-    def __init__(self, name: str) -> None:
-        super().__init__()
-        self._name, self._depth, self._count = name, 0, 0
-
-    def start(self, tag: Any, attrs: Any, /) -> Any:
-        """Count an element that begins."""
-        self._depth += 1
-        self._count += 1
-        if self._depth > MAX_DEPTH:
-            raise InputError(f"{self._name}: elements within elements, more than {MAX_DEPTH} deep")
-        if self._count > MAX_ELEMENTS:
-            raise InputError(f"{self._name}: more than {MAX_ELEMENTS} elements")
-        return super().start(tag, attrs)
-
-    def end(self, tag: Any, /) -> Any:
-        """Count an element that ends."""
-        self._depth -= 1
-        return super().end(tag)
-
-
 def _parsed(name: str, data: bytes) -> ET.Element:
-    """Return the tree of an SVG that is safe to read. Raises InputError."""
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise InputError(f"{name}: expected an SVG drawing, text in UTF-8") from None
-    if re.search(r"<!\s*(DOCTYPE|ENTITY)", text, flags=re.IGNORECASE):
-        raise InputError(f"{name}: has a <!DOCTYPE ...>, which is refused: delete it")
-    root = ET.fromstring(text, ET.XMLParser(target=_Builder(name)))
+    """Return the tree of an SVG. Raises InputError."""
+    root = ET.fromstring(data)
     if root.tag not in ("svg", f"{SVG}svg"):
         raise InputError(f"{name}: expected an SVG drawing; its root is <{shown(root.tag, 40)}>")
-    _check_size(name, root)
-    if re.search(rf"\d{{{MAX_DIGITS + 1}}}", text):
-        raise InputError(f"{name}: a number of more than {MAX_DIGITS} digits")
-    numbers = sum(
-        len(re.findall(r"[\d.]+", e.get("d", "") + e.get("points", ""))) for e in root.iter()
-    )
-    if numbers > 2 * MAX_POINTS:
-        raise InputError(f"{name}: more than {MAX_POINTS} points; draw it with fewer")
     _set_aside(root)
     return root
-
-
-class _Size(NamedTuple):
-    """The size of an element with all that it contains and repeats.
-
-    elements: how many. depth: how deep they are nested. work: characters of attributes, each as
-    often as there are elements that inherit it.
-    """
-
-    elements: int
-    depth: int
-    work: int
-
-
-def _check_size(name: str, root: ET.Element) -> None:
-    """Raise InputError for elements that use themselves, or repeat others without end."""
-    by_id = {e.get("id"): e for e in root.iter() if e.get("id")}
-    styles = [e for e in root.iter() if e.tag in ("style", f"{SVG}style")]
-    for each in styles:
-        each.text = re.sub(r"/\*.*?(?:\*/|\Z)", "", each.text or "", flags=re.DOTALL)
-    style = sum(len(each.text or "") for each in styles)
-    work = sum(_work_of_style(each.text or "") for each in styles)
-    if work > MAX_WORK:
-        raise InputError(f"{name}: too many attributes and styles; simplify it")
-    sizes: dict[ET.Element, _Size] = {}
-    begun: set[ET.Element] = set()
-
-    def measure(element: ET.Element) -> _Size:
-        if element in sizes:
-            return sizes[element]
-        if element in begun or len(begun) > 2 * MAX_DEPTH:
-            raise InputError(f"{name}: <use> of what it is part of: {shown(element.get('id'))}")
-        begun.add(element)
-        parts = [measure(child) for child in element]
-        if element.tag in ("use", f"{SVG}use"):
-            link = element.get("href", element.get(XLINK, ""))
-            if not link.startswith("#"):
-                raise InputError(f"{name}: <use> of {shown(link)}: expected #id in the same file")
-            if link[1:] in by_id:
-                parts.append(measure(by_id[link[1:]]))
-        begun.discard(element)
-        count = 1 + sum(part.elements for part in parts)
-        depth = 1 + max((part.depth for part in parts), default=0)
-        work = sum(map(_work_of, element.attrib.values())) * count
-        work += _work_of_path(element.get("d", "")) * count
-        work += style * (3 + element.get("class", "").count(" "))
-        size = _Size(count, depth, work + sum(part.work for part in parts))
-        if size.elements > MAX_ELEMENTS:
-            raise InputError(f"{name}: more than {MAX_ELEMENTS} elements, by <use> of others")
-        if size.depth > MAX_DEPTH:
-            raise InputError(f"{name}: <use> within <use>, more than {MAX_DEPTH} deep")
-        if size.work > MAX_WORK:
-            raise InputError(f"{name}: too many attributes and styles; simplify it")
-        sizes[element] = size
-        return size
-
-    measure(root)
-
-
-def _work_of(value: str) -> int:
-    """Return the number of characters that reading an attribute looks at: more where ( is open."""
-    return len(value) + sum(
-        len(piece) * (piece.count("(") - 1) for piece in value.split(")") if piece.count("(") > 1
-    )
-
-
-def _work_of_path(data: str) -> int:
-    """Return the number of segments, as characters, that closing a path's parts looks at."""
-    parts = re.split("[Mm]", data)
-    closed = [len(re.findall("[Zz]", part)) for part in parts]
-    pairs = zip(parts, closed, strict=True)
-    return sum(10 * len(part) * (count - 1) for part, count in pairs if count > 1)
-
-
-def _work_of_style(text: str) -> int:
-    """Return the number of characters that reading a <style> looks at: more where { is open."""
-    before = sum(len(piece) ** 2 for piece in text.split("{"))
-    return before + sum(len(piece) * piece.count("{") for piece in text.split("}"))
 
 
 def _set_aside(root: ET.Element) -> None:
@@ -295,7 +164,7 @@ def _pieces(
     """Return a shape as areas if it is filled, else as walls if it has a line."""
     if _is_solid(shape):
         even_odd = str(shape.values.get("fill-rule", "")) == "evenodd"
-        areas = region(name, [points * metres for points in rings], even_odd=even_odd)
+        areas = region([points * metres for points in rings], even_odd=even_odd)
         if areas:
             return [Piece(layer, area) for area in areas]
     if _is_seen(shape.stroke, shape.values.get("stroke-opacity")):
@@ -322,15 +191,14 @@ def _is_seen(color: Any, opacity: Any) -> bool:
     return bool(there and not clear)
 
 
-def _rings(shape: Any, tally: Tally) -> list[Float]:
-    """Return the points (k, 2) of each part of a shape, in user units, y down; all are counted."""
+def _rings(shape: Any) -> list[Float]:
+    """Return the points (k, 2) of each part of a shape, in user units, y down."""
     import svgelements
 
     found: list[list[tuple[float, float]]] = []
     for segment in abs(svgelements.Path(shape)):  # abs: its transforms done
         if isinstance(segment, svgelements.Move):
             found.append([(segment.end.x, segment.end.y)])
-            tally.add(1)
             continue
         if segment.start is None or segment.end is None:
             continue
@@ -342,7 +210,6 @@ def _rings(shape: Any, tally: Tally) -> list[Float]:
             count = ROUND // 4
         else:
             count = 1
-        tally.add(count, 0)
         if count == 1:
             found[-1].append((segment.end.x, segment.end.y))
         else:

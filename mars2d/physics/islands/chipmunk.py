@@ -1,7 +1,7 @@
 """Chipmunk, pymunk's engine, as the islands use it: spaces, bodies, shapes, joints, contacts.
 
 Python calls its functions through pymunk. The compiled islands call the same functions by their
-addresses: ``chipmunk.pxi`` is this module in C. `layout` finds out where its numbers are.
+addresses: ``chipmunk.pxi`` is this module in C. Tests find out where its numbers are.
 """
 
 from __future__ import annotations

@@ -61,8 +61,7 @@ class DrivenBody(RigidBody):
     def follow(self, angle: cython.double, h: cython.double) -> cython.void:
         """Aim a robot along its command's arc: at the velocity that leads to its end within h s.
 
-        angle: its heading at the beginning. Source: the arc of radius v / omega seen as its chord,
-        of length v h sinc(omega h / 2) in the direction theta + omega h / 2.
+        angle: its heading at the beginning.
         """
         half: cython.double = self.turning * (h / 2) if self.in_robot_frame else 0.0
         turned: cython.double = angle + half if self.in_robot_frame else 0.0

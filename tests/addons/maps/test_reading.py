@@ -80,13 +80,6 @@ def test_curves_are_as_long_as_they_are(plan, add, expected):
     assert length(read(plan)) == pytest.approx(expected, rel=1e-3)
 
 
-def test_a_bulge_turns_the_way_that_it_should(plan):
-    document, space = dxf(plan)
-    space.add_lwpolyline([(0, 0, 1), (2, 0, 0)], format="xyb")  # counter-clockwise: beneath
-    document.saveas(plan)
-    assert read(plan).bounds == pytest.approx((0, 2, -1, 0), abs=1e-3)
-
-
 def test_blocks_are_placed_scaled_turned_mirrored_and_nested(plan):
     document, space = dxf(plan)
     inner = document.blocks.new("INNER")
@@ -111,14 +104,6 @@ def test_an_array_of_blocks_stands_row_by_row_turned_but_not_scaled(plan):
         for column in range(3)
     )
     assert same(read(plan), f"MULTILINESTRING ({expected})")
-
-
-def test_an_uneven_scale_makes_ellipses_of_a_blocks_circles(plan):
-    document, space = dxf(plan)
-    document.blocks.new("B").add_circle((0, 0), 1)
-    space.add_blockref("B", (0, 0), dxfattribs={"xscale": 3})
-    document.saveas(plan)
-    assert read(plan).bounds == pytest.approx((-3, 3, -1, 1), abs=1e-3)
 
 
 def test_what_is_on_layer_0_of_a_block_is_on_the_layer_of_its_reference(plan):
@@ -168,15 +153,6 @@ def test_without_a_unit_metres_are_supposed_and_said(plan):
     document, space = dxf(plan, units=0)
     space.add_line((0, 0), (12, 0))
     document.saveas(plan)
-    rows = dict(described(read(plan), obstacles(read(plan)), 0.02))
-    assert rows["unit"] == "m, supposed: the header names no unit"
-
-
-def test_a_drawing_without_a_header_names_no_unit(plan):
-    line = (
-        "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n12\n21\n0\n0\nENDSEC\n0\nEOF\n"
-    )
-    plan.write_text(line)
     rows = dict(described(read(plan), obstacles(read(plan)), 0.02))
     assert rows["unit"] == "m, supposed: the header names no unit"
 
@@ -268,13 +244,6 @@ def test_transforms_of_groups_and_shapes_are_done(tmp_path):
     assert same(drawing, shapely.box(3, 2, 4, 4).wkt)
 
 
-def test_curves_and_arcs_of_a_path_are_round(tmp_path):
-    drawing = read(svg(tmp_path, '<path d="M2 4A2 2 0 0 1 6 4A2 2 0 0 1 2 4z"/>'))
-    assert drawing.pieces[0].geometry.area == pytest.approx(4 * pi, rel=2e-3)
-    bow = f'<path d="M0 0C0 2 3 4 4 4" {LINE}/><path d="M0 0Q2 2 4 0" {LINE}/>'
-    assert read(svg(tmp_path, bow)).bounds == pytest.approx((0, 4, 4, 8), abs=1e-6)
-
-
 @each_case(
     ("rule", "inner", "area"),
     [
@@ -336,13 +305,6 @@ def test_geojson_has_solid_polygons_walls_and_layers(tmp_path):
     assert drawing.skipped == {"Point": 1}
     assert drawing.pieces[0].geometry.area == pytest.approx(12)
     assert read(path, layers="doors", unit="cm").size == pytest.approx((0.01, 0))
-
-
-def test_degrees_are_told_by_their_size(tmp_path):
-    path = tmp_path / "plan.json"
-    ring = [[11.33, 43.31], [11.3302, 43.31], [11.3302, 43.312], [11.33, 43.31]]
-    path.write_text(json.dumps({"type": "Polygon", "coordinates": [ring]}))
-    assert "small for a map" in read(path).hint
 
 
 def test_wkt_may_hold_several_geometries_and_collections(tmp_path):

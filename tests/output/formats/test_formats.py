@@ -3,34 +3,20 @@
 from __future__ import annotations
 
 import json
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.core.extras import pip_line
-from mars2d.output import formats
-from mars2d.output.formats.columns import KEYWORDS, MAX_NAME, plain_names
 from mars2d.output.formats.header import as_text
 from tests.cases import each_case
 from tests.output.formats.records import FORMATS, cut_to, everything, records, refused
 
 each_format = each_case("suffix", FORMATS)
-
-
-@each_case("suffix", formats.FORMATS)
-def test_a_formats_module_has_what_its_line_in_the_table_says(suffix):
-    format_ = formats.FORMATS[suffix]
-    module = import_module(f"mars2d.output.formats.{format_.module}")
-    assert hasattr(module, "read") == (suffix in formats.SUFFIXES)
-    assert callable(module.write)
-    assert hasattr(module, "require") == bool(format_.extra)
-    assert hasattr(module, "Log") == format_.streamed == formats.is_streamed(Path(f"run{suffix}"))
 
 
 # -- what is saved comes back ---------------------------------------------------------------
@@ -64,7 +50,7 @@ def test_a_record_of_few_rows_comes_back(suffix, rows, tmp_path):
     assert (len(again), again.digest) == (rows, record.digest)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @settings(max_examples=30)
 @given(record=records())
 def test_any_bits_come_back(record, tmp_path_factory):
@@ -72,19 +58,6 @@ def test_any_bits_come_back(record, tmp_path_factory):
         again = mars2d.load(record.save(tmp_path_factory.getbasetemp() / f"any{suffix}"))
         assert again.digest == record.digest
         assert (again.contents, again.seed) == (record.contents, record.seed)
-
-
-@settings(max_examples=15)
-@given(names=st.lists(st.text(), unique=True))
-def test_names_for_other_programs_are_plain_and_differ(names):
-    plain = plain_names([*names, 70 * "a", 70 * "a" + "b", *KEYWORDS])
-    assert len(set(plain.values())) == len(plain)
-    for name in plain.values():
-        assert name.isascii()
-        assert name.isidentifier()
-        assert name[0].isalpha()
-        assert name not in KEYWORDS
-        assert len(name) <= MAX_NAME
 
 
 # -- what is no record ----------------------------------------------------------------------
@@ -106,15 +79,6 @@ def test_a_foreign_file_is_refused(suffix, content, tmp_path):
 def test_a_misspelt_name_is_answered_with_the_nearest_one(suffix, tmp_path):
     (tmp_path / f"pursuit{suffix}").write_bytes(b"")
     refused(tmp_path / f"persuit{suffix}", f"no such file; did you mean '.*pursuit{suffix}'")
-
-
-@each_format
-@each_case("other", FORMATS)
-def test_a_record_under_a_wrong_name_is_refused(suffix, other, tmp_path):
-    if suffix != other:
-        path = tmp_path / f"run{other}"
-        everything().save(tmp_path / f"run{suffix}").rename(path)
-        refused(path, "not a record of MARS2D, or damaged")
 
 
 @each_format
@@ -159,13 +123,6 @@ def _rewrite_header(path: Path, change: dict, write=as_text) -> None:
         table = _cells(path)["table"]
         table["record"] = ["".join(text[i * 30000 :][:30000]) for i in range(len(table))]
         table.to_csv(path, index=False)
-
-
-def test_what_rewrites_headers_here_leaves_the_rest_of_a_file_as_it_is(tmp_path):
-    for suffix in FORMATS:
-        path = everything().save(tmp_path / f"run{suffix}")
-        _rewrite_header(path, {})
-        assert mars2d.load(path).digest == everything().digest
 
 
 # -- what somebody changed ------------------------------------------------------------------

@@ -43,67 +43,6 @@ def test_the_struct_has_the_names_of_the_paper(tmp_path):
     assert out["Seed"] == 2**63 - 1
 
 
-def test_no_column_is_twice_in_the_file(tmp_path):
-    record = everything()
-    out = loadmat(record.save(tmp_path / "run.mat"))["out_data"]
-    sizes = []
-
-    def walk(value) -> None:
-        if value.dtype.names:
-            for name in value.dtype.names:
-                walk(value[name][0, 0])
-        elif value.dtype.kind in "fbu" and value.size > 15:
-            sizes.append(value.size)
-
-    walk(out)
-    columns = [column.size for name, column in record.columns().items() if "conte" not in name]
-    assert sorted(sizes) == sorted(
-        [size for size in columns if size > 15] + [len(record.messages)]  # message:content
-    )
-
-
-@pytest.mark.slow
-@needs_octave
-def test_octave_opens_it_with_shapes_values_and_texts(tmp_path):
-    record = everything()
-    record.save(tmp_path / "run.mat")
-    code = """
-load run.mat
-H = out_data.History;
-disp(size(H.Time)), disp(size(H.Pose)), disp(size(H.Command)), disp(size(H.Prop_pose))
-printf("%.17g\\n", H.Pose(end, 1, 3), H.Command(2, 2, 3), H.Time(end))
-disp(class(out_data.Contacts.began)), disp(class(out_data.Contacts.a))
-printf("%d %d\\n", [out_data.Contacts.a, out_data.Contacts.b]')
-disp(out_data.Robot.Name{out_data.Contacts.a(1)})
-disp(size(out_data.Sensors.gr__e)), disp(class(out_data.Sensors.gr__e))
-disp(out_data.Sensor_robots.grid')
-disp(out_data.Exp_over_msg), disp(out_data.Animation.Title), disp(out_data.Robot.Name{2})
-header = jsondecode(out_data.Header);
-disp(header.contents{out_data.Messages.content(1)})
-"""
-    text = octave(code, tmp_path)
-    n = len(record)
-    shapes = [[int(number) for number in line.split()] for line in text[:4]]
-    assert shapes == [[n, 1], [n, 3, 3], [n, 2, 3], [n, 3, 2]]
-    exact = [record.pose[-1, 0, 2], record.command[1, 1, 2], record.time[-1]]
-    assert [float(line) for line in text[4:7]] == exact
-    assert text[7:9] == ["logical", "double"]
-    contacts = record.contacts
-    # Bodies are counted from 1; obstacles are below 0 here and there.
-    pairs = [f"{a + 1} {b + 1 if b >= 0 else b}" for a, b in contacts[["a", "b"]].tolist()]
-    assert (contacts["b"] < 0).any()
-    assert (contacts["b"] > 0).any()
-    text = text[9:]
-    assert text[: len(pairs)] == pairs
-    text = text[len(pairs) :]
-    assert text[0] == ["robot0", 'größe, "x"', "robot2"][contacts["a"][0]]
-    assert text[1].split() == [str(n), "1", "4"]
-    assert text[2] == "logical"
-    assert text[3].split() == ["1", "3"]
-    assert text[4:7] == ["Time is over: 2 s", "Grüße 🤖", 'größe, "x"']
-    assert text[7] == record.contents[record.messages["content"][0]]
-
-
 @pytest.mark.slow
 @needs_octave
 def test_the_lines_of_octave_in_the_docs_do_what_they_say(tmp_path, monkeypatch):

@@ -8,13 +8,10 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import mars2d
 from mars2d import InputError, LawError, Record, Robot, Scenario, World
@@ -23,14 +20,12 @@ from mars2d.output.formats.mcap import Log
 from mars2d.output.formats.mcap.reading import BROKEN_OFF
 from mars2d.output.formats.mcap.row import Row, decoded, encoded, schema
 from mars2d.output.formats.mcap.scanning import scan
-from mars2d.record.columns import DiskError
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE
 from mars2d.scenario import serialize
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import simulate
 from tests.cases import each_case
-from tests.output.formats.records import cut_to, everything
 
 pytest.importorskip("mcap")
 
@@ -39,7 +34,7 @@ EXAMPLES = ["token_ring", "many_push_one", "wall_follower", "billiards", "sumo"]
 
 
 def run(name: str, path: Path, until: float = 8.0) -> Record:
-    return simulate(open_experiment(name, {"stop_time": until}), 1, log=Log(path)).record
+    return simulate(open_experiment(name, {"stop_time": until}, seed=1), log=Log(path)).record
 
 
 def torn(path: Path, size: int) -> Path:
@@ -78,7 +73,7 @@ def unclosed(name: str, path: Path, until: float = 8.0) -> Record:
 @each_case("name", EXAMPLES)
 def test_a_log_holds_the_same_bits_as_the_record_of_the_run(name, tmp_path) -> None:
     record = run(name, tmp_path / "run.mcap")
-    without = simulate(open_experiment(name, {"stop_time": 8.0}), 1).record
+    without = simulate(open_experiment(name, {"stop_time": 8.0}, seed=1)).record
     read = mars2d.load(tmp_path / "run.mcap")
     assert read.digest == record.digest == without.digest
     assert (read.over_message, read.finished, read.seed) == (record.over_message, True, 1)
@@ -88,7 +83,7 @@ def test_a_log_holds_the_same_bits_as_the_record_of_the_run(name, tmp_path) -> N
 
 @each_case("name", EXAMPLES)
 def test_a_record_is_saved_as_a_log_and_stays_the_same(name, tmp_path) -> None:
-    record = simulate(open_experiment(name, {"stop_time": 8.0}), 1).record
+    record = simulate(open_experiment(name, {"stop_time": 8.0}, seed=1)).record
     first = mars2d.load(record.save(tmp_path / "first.mcap"))
     second = mars2d.load(first.save(tmp_path / "second.mcap"))
     assert first.digest == second.digest == record.digest
@@ -114,19 +109,6 @@ def test_without_a_library_a_log_says_what_to_install(library, child, tmp_path) 
     assert list(tmp_path.iterdir()) == []
 
 
-def test_what_no_run_gives_is_not_written_as_a_log_that_could_not_be_read(tmp_path) -> None:
-    record = everything()
-    part = replace(cut_to(record, 5), messages=record.messages, contents=record.contents)
-    none = replace(cut_to(record, 0), contacts=record.contacts)
-    early, late = (replace(record, time=record.time + shift) for shift in (-9.0, 1e11))
-    for each in (part, none, early, late):
-        with pytest.raises(InputError, match=r"run\.mcap: can't be written: a log is of a whole"):
-            each.save(tmp_path / "run.mcap")
-        assert mars2d.load(each.save(tmp_path / "run.npz")).digest == each.digest
-    first = cut_to(record, 5)
-    assert mars2d.load(first.save(tmp_path / "run.mcap")).digest == first.digest
-
-
 @each_case("name", EXAMPLES)
 def test_a_log_that_nobody_closed_has_all_rows(name, tmp_path) -> None:
     record = unclosed(name, tmp_path / "run.mcap")
@@ -150,25 +132,6 @@ def test_wherever_a_log_breaks_off_all_rows_before_are_there(tmp_path) -> None:
         count = len(read)
         same_up_to(read, record)
     assert count > 200
-
-
-@given(size=st.integers(0, 60_000), place=st.integers(0, 60_000), value=st.integers(0, 255))
-def test_a_damaged_log_is_refused_in_one_line_or_read(size, place, value, tmp_path_factory) -> None:
-    path = tmp_path_factory.getbasetemp() / "whole.mcap"
-    if not path.exists():
-        run("many_push_one", path, 3.0)
-    data = bytearray(path.read_bytes())
-    if place < len(data):
-        data[place] = value
-    part = path.with_name("damaged.mcap")
-    part.write_bytes(data[: max(1, len(data) - size)])
-    told = f"{part}: "
-    try:
-        mars2d.load(part)
-    except InputError as error:
-        told = str(error)
-    assert told.startswith(f"{part}: ")
-    assert "\n" not in told
 
 
 def test_a_row_is_a_message_that_protocol_buffers_can_read(tmp_path) -> None:
@@ -295,24 +258,6 @@ def test_foxglove_gets_poses_frames_scans_and_the_scene(tmp_path) -> None:
     assert names == {"world", "robot0", "robot1"}
 
 
-def test_a_scan_has_the_time_at_which_it_was_measured(tmp_path) -> None:
-    from foxglove_schemas_protobuf.LaserScan_pb2 import LaserScan
-    from mcap.reader import make_reader
-
-    from mars2d.sensors import RangeFinder
-
-    scanner = RangeFinder(beams=3, rate=5, latency=0.1, name="eye")
-    scenario = Scenario(robots=[Robot(sensors=[scanner])], sampling_time=0.1, stop_time=0.6)
-    mars2d.run(scenario, record=tmp_path / "run.mcap")
-    with (tmp_path / "run.mcap").open("rb") as file:
-        found = [
-            (message.log_time, LaserScan.FromString(message.data).timestamp.ToNanoseconds())
-            for _, _, message in make_reader(file).iter_messages(topics="/robot0/eye")
-        ]
-    ms = 10**6
-    assert found == [(100 * ms, 0), (300 * ms, 200 * ms), (500 * ms, 400 * ms)]
-
-
 # -- what ends a run ------------------------------------------------------------------------------
 
 
@@ -330,48 +275,6 @@ def test_a_run_that_a_law_ends_is_in_its_log(tmp_path) -> None:
     assert not read.finished
 
 
-def test_ctrl_c_ends_a_log_as_it_ends_a_run(tmp_path) -> None:
-    def law(world):
-        if world.iteration == 5:
-            raise KeyboardInterrupt
-        return np.zeros((2, 1))
-
-    with pytest.raises(KeyboardInterrupt):
-        mars2d.run(Scenario(), control=law, record=tmp_path / "run.mcap")
-    assert mars2d.load(tmp_path / "run.mcap").over_message == "Interrupted by Ctrl-C"
-
-
-@each_case("suffix", [".npz", ".mcap"])
-def test_run_takes_the_name_of_a_record(suffix, tmp_path) -> None:
-    path = tmp_path / f"run{suffix}"
-    record = mars2d.run("random_walk", stop_time=5, record=path)
-    assert mars2d.load(path).digest == record.digest
-
-
-def test_a_world_that_one_steps_oneself_can_be_logged(tmp_path) -> None:
-    with Log(tmp_path / "run.mcap") as log:
-        world = World(Scenario(), storage=log.storage)
-        for _ in range(5):
-            world.step([[0.1], [0.2]])
-            log.follow(world)
-        world.operator.place(0, (1, 1, 0))
-        world.step([[0.1], [0.2]])
-    read = mars2d.load(tmp_path / "run.mcap")
-    assert read.digest == world.record.digest
-    assert read.interventions == world.record.interventions
-
-
-def test_steps_that_were_not_followed_one_by_one_are_caught_up_with(tmp_path) -> None:
-    experiment = open_experiment("many_push_one", {"stop_time": 6.0})
-    with Log(tmp_path / "run.mcap") as log:
-        world = World(experiment.scenario, experiment.control, filename=experiment.source.name)
-        while not world.over:
-            world.step()
-            if world.iteration % 7 == 0:
-                log.follow(world)
-    assert mars2d.load(tmp_path / "run.mcap").digest == world.record.digest
-
-
 # -- kill -9 --------------------------------------------------------------------------------------
 
 ENDLESS = """
@@ -380,9 +283,9 @@ import mars2d
 from mars2d.scenario.experiment import open_experiment
 from mars2d.output.formats.mcap import Log
 from mars2d.world.loop import open_world
-experiment = open_experiment("token_ring", {"stop_time": float(sys.argv[2])})
+experiment = open_experiment("token_ring", {"stop_time": float(sys.argv[2])}, seed=1)
 with Log(sys.argv[1]) as log:
-    world = open_world(experiment, 1, (), log.storage)
+    world = open_world(experiment, (), log.storage)
     while not world.over:
         world.step()
         log.follow(world)
@@ -410,7 +313,7 @@ def killed(path: Path, after: float, until: float) -> int:
 
 
 def check_kills(count: int, tmp_path: Path) -> None:
-    whole = simulate(open_experiment("token_ring", {"stop_time": 200.0}), 1).record
+    whole = simulate(open_experiment("token_ring", {"stop_time": 200.0}, seed=1)).record
     chosen = random.Random(count)
     for k in range(count):
         path = tmp_path / f"{k}.mcap"
@@ -424,7 +327,7 @@ def check_kills(count: int, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_run_that_is_killed_loses_no_finished_step(tmp_path) -> None:
-    check_kills(6, tmp_path)
+    check_kills(3, tmp_path)
 
 
 @pytest.mark.nightly
@@ -449,64 +352,6 @@ def test_a_run_that_is_killed_while_it_is_packed_keeps_all(tmp_path, child) -> N
     read = mars2d.load(path)
     assert read.digest == mars2d.run("token_ring", stop_time=20).digest
     assert read.finished
-
-
-# -- a disk that is full, a folder that is gone ---------------------------------------------------
-
-
-def test_a_folder_that_vanishes_ends_the_run_within_seconds(tmp_path) -> None:
-    folder = tmp_path / "gone"
-    folder.mkdir()
-    path = folder / "run.mcap"
-
-    def law(world):
-        if world.iteration == 20:
-            path.unlink()
-            folder.rmdir()
-        time.sleep(0.01)
-        return np.zeros((2, 1))
-
-    scenario = Scenario(stop_time=1e5)
-    with pytest.raises(DiskError, match=r"run.mcap: it was deleted or moved") as caught:
-        mars2d.run(scenario, control=law, record=path)
-    assert 20 < len(caught.value.record) < 400
-    assert caught.value.record.save(tmp_path / "saved.npz").exists()
-
-
-def test_where_nothing_can_be_written_the_run_does_not_begin(tmp_path) -> None:
-    with pytest.raises(InputError, match="there is no folder"):
-        mars2d.run(Scenario(), record=tmp_path / "nowhere" / "run.mcap")
-    (tmp_path / "run.mcap").mkdir()
-    with pytest.raises(InputError, match="this is a folder"):
-        mars2d.run(Scenario(), record=tmp_path / "run.mcap")
-
-
-@pytest.mark.slow
-def test_memory_stays_flat_while_a_run_is_logged(tmp_path, child) -> None:
-    code = (
-        "import sys, mars2d, numpy as np\n"
-        "from mars2d import Robot, Scenario\n"
-        "from mars2d.addons import Communication\n"
-        "def talk(robot):\n"
-        "    robot.send({'t': robot.time, 'text': 'x' * 3000})\n"
-        "    return 0.05, 0.3\n"
-        "def peak():\n"
-        "    lines = open('/proc/self/status').read().splitlines()\n"
-        "    return int(next(l for l in lines if l.startswith('VmHWM')).split()[1])\n"
-        "robots = [Robot(pose=(x, 0, 0), controller=talk) for x in (-1, 1)]\n"
-        "for time in (100, 300):\n"
-        "    scenario = Scenario(robots=robots, stop_time=time, on_exit='ignore',\n"
-        "                        addons=[Communication()])\n"
-        f"    record = mars2d.run(scenario, record={str(tmp_path / 'run.mcap')!r})\n"
-        "    print(len(record), len(record.messages), record.digest and peak())\n"
-    )
-    if not Path("/proc/self/status").exists():
-        pytest.skip("this system does not tell of its memory so")
-    lines = [[int(each) for each in line.split()] for line in child(code).stdout.splitlines()]
-    (rows, sent, before), (more, later, after) = lines
-    assert (more, later) > (2 * rows, 2 * sent)
-    kept = (later - sent) * 3  # kB, were the messages kept in memory
-    assert after < before + kept / 3
 
 
 # -- what is no log of ours -----------------------------------------------------------------------
@@ -554,7 +399,7 @@ def test_a_log_follows_the_branches_of_a_timeline(tmp_path) -> None:
 
     path = tmp_path / "run.mcap"
     log = Log(path)
-    timeline = Timeline(open_experiment("many_push_one", {"stop_time": 8.0}), 1, log=log)
+    timeline = Timeline(open_experiment("many_push_one", {"stop_time": 8.0}, seed=1), log=log)
     for _ in range(50):
         timeline.advance()
     assert len(mars2d.load(path)) == 50
@@ -579,7 +424,7 @@ def test_a_run_that_begins_anew_begins_its_log_anew(tmp_path) -> None:
 
     path = tmp_path / "run.mcap"
     log = Log(path)
-    timeline = Timeline(open_experiment("token_ring", {"stop_time": 8.0}), 1, log=log)
+    timeline = Timeline(open_experiment("token_ring", {"stop_time": 8.0}, seed=1), log=log)
     for _ in range(30):
         timeline.advance()
     timeline.restart()

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d.output.formats.header import as_text
 from tests.output.formats.records import everything, refused
 
 
@@ -25,15 +24,6 @@ def test_it_holds_arrays_that_numpy_opens(record, tmp_path):
         assert np.array_equal(data["contact:impulse"], record.contacts["impulse"])
         assert data["sensor:größe"].dtype == bool
         assert json.loads(data["header"].tobytes())["digest"] == record.digest
-
-
-def test_other_numpy_files_are_refused(tmp_path):
-    np.save(tmp_path / "array.npy", np.zeros(3))
-    refused(tmp_path / "array.npy", "expected a record: a name that ends in")
-    np.savez(tmp_path / "arrays.npz", a=np.zeros(3))
-    refused(tmp_path / "arrays.npz", "not a record")
-    np.savez(tmp_path / "odd.npz", header=np.zeros(3))
-    refused(tmp_path / "odd.npz", "not a record")
 
 
 def test_pickled_objects_are_never_loaded(record, tmp_path):
@@ -74,29 +64,3 @@ def test_a_file_whose_columns_were_changed_is_refused(record, tmp_path):
     refused(tmp_path / "bad.npz", "damaged")
     _rewrite(good, tmp_path / "bad.npz", {"contact:a.npy": _npy(np.zeros((3, 3)))})
     refused(tmp_path / "bad.npz", "damaged")
-
-
-def _header(path) -> dict:
-    with np.load(path) as data:
-        return json.loads(data["header"].tobytes())
-
-
-def _encoded(header) -> bytes:
-    return _npy(
-        np.frombuffer(
-            (as_text if isinstance(header, dict) else json.dumps)(header).encode(), dtype=np.uint8
-        )
-    )
-
-
-def test_a_file_of_format_1_says_that_the_experiment_is_to_be_run_again(record, tmp_path):
-    good = record.save(tmp_path / "good.npz")
-    header = _header(good) | {"format": 1, "versions": {"mars2d": "0.2.0"}}
-    # Its scenario and its columns were other ones: they are not even looked at.
-    header["scenario"] = {"type": "Scenario", "gone": 1}
-    changes = {"header.npy": _encoded(header), "effort.npy": None, "prop_pose.npy": None}
-    _rewrite(good, tmp_path / "old.npz", changes)
-    refused(
-        tmp_path / "old.npz",
-        r"written by an older version of MARS2D, 0.2.0: run the experiment again",
-    )

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from dataclasses import replace
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -14,11 +10,9 @@ import xarray as xr
 import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario
 from mars2d.bodies import Car, Differential
-from mars2d.record.message import STATUS, as_text
 from mars2d.sensors import Pose, RangeFinder
 from tests.cases import each_case
 from tests.output.formats.records import cut_to, everything, refused
-from tests.output.formats.test_mat import needs_octave, octave
 
 NAMES = ["robot0", 'größe, "x"', "robot2", "puck0", "load"]
 
@@ -60,21 +54,6 @@ def test_a_frame_has_a_column_for_each_value_of_a_reading():
     }
 
 
-def test_a_sensor_called_as_a_column_is_has_a_column_of_its_own():
-    record = everything()
-    renamed = mars2d.Record(
-        **{name: getattr(record, name) for name in ("scenario", "seed", "time", "pose", "command",
-                                                    "command_time", "prop_pose", "effort")},
-        sensors={"x": record.effort, "a": record.pose.swapaxes(1, 2), "a_1": -record.effort},
-        sensor_robots={"x": (0, 1, 2), "a": (0, 1, 2), "a_1": (0, 1, 2)},
-    )  # fmt: skip
-    frame = renamed.to_frame().xs("robot2", level="body")
-    assert np.array_equal(frame["x"], record.pose[:, 0, 2])
-    assert np.array_equal(frame["x_"], record.effort[:, 2])
-    assert np.array_equal(frame["a_1"], record.pose[:, 1, 2])
-    assert np.array_equal(frame["a_1_"], -record.effort[:, 2])
-
-
 @each_case(
     "drives, units",
     [
@@ -109,21 +88,6 @@ def test_a_frame_of_contacts_names_who_touched_whom():
     assert frame.attrs["units"]["point_y"] == "m"
 
 
-def test_a_frame_of_messages_has_texts_and_words():
-    record = everything()
-    frame = record.to_frame("messages")
-    assert frame["status"].tolist() == [STATUS[k] for k in record.messages["status"]]
-    assert frame["content"].tolist() == [record.contents[k] for k in record.messages["content"]]
-    assert frame["receiver_name"].tolist() == [NAMES[k] for k in record.messages["receiver"]]
-
-
-@each_case("table", ["bodies", "contacts", "messages"])
-def test_a_record_without_rows_has_tables_without_rows(table):
-    frame = cut_to(everything(), 0).to_frame(table)
-    assert len(frame) == 0
-    assert list(frame.columns) == list(everything().to_frame(table).columns)
-
-
 def test_an_unknown_table_is_refused_with_the_nearest_name():
     with pytest.raises(InputError, match=r"table = 'contact': .*; did you mean 'contacts'\?"):
         everything().to_frame("contact")
@@ -144,19 +108,6 @@ def test_a_csv_is_the_frame_that_pandas_reads_without_options(tmp_path):
     pd.testing.assert_frame_equal(read.drop(columns="record"), as_numbers, rtol=1e-15)
 
 
-def test_a_csv_has_short_cells_and_one_line_a_row(tmp_path):
-    record = everything()
-    long = as_text("ä" * 8_000)  # 48 000 characters in ASCII
-    talkative = replace(record, contents=(*record.contents, long))
-    path = talkative.save(tmp_path / "run.csv")
-    text = path.read_text(encoding="utf-8")
-    rows = list(csv.reader(io.StringIO(text)))
-    assert len(text.splitlines()) == len(rows) == 1 + 5 * len(talkative)
-    assert {len(row) for row in rows} == {len(rows[0])}
-    assert max(len(cell) for row in rows for cell in row) == 30_000
-    assert mars2d.load(path).contents[-1] == long
-
-
 def test_what_does_not_fit_beside_the_rows_of_a_csv_follows_them(tmp_path):
     record = cut_to(everything(), 0)
     path = record.save(tmp_path / "run.csv")
@@ -164,13 +115,6 @@ def test_what_does_not_fit_beside_the_rows_of_a_csv_follows_them(tmp_path):
     assert len(table) == len(table["record"].dropna()) >= 1
     assert table["time"].isna().all()
     assert mars2d.load(path).digest == record.digest
-
-
-def test_a_csv_is_read_with_windows_line_ends_and_a_mark_in_front(tmp_path):
-    path = everything().save(tmp_path / "run.csv")
-    lines = path.read_bytes().replace(b"\n", b"\r\n")
-    path.write_bytes(b"\xef\xbb\xbf" + lines)
-    assert mars2d.load(path).digest == everything().digest
 
 
 def test_a_csv_that_was_rounded_or_cut_is_refused(tmp_path):
@@ -183,14 +127,6 @@ def test_a_csv_that_was_rounded_or_cut_is_refused(tmp_path):
     refused(path, "damaged")
     path.write_text("".join([*whole, whole[-1]]), encoding="utf-8")
     refused(path, "damaged")
-
-
-@needs_octave
-def test_octave_reads_the_numbers_of_a_csv(tmp_path):
-    record = everything()
-    record.save(tmp_path / "run.csv")
-    code = "data = dlmread('run.csv', ',', 1, 0);\nprintf('%.17g\\n', data(4:5, 3))\n"
-    assert [float(line) for line in octave(code, tmp_path)] == record.prop_pose[0, 0].tolist()
 
 
 # -- xarray and netCDF ----------------------------------------------------------------------

@@ -2,10 +2,9 @@
 
 from itertools import combinations
 
-import pygame
 import pytest
 
-from mars2d.output.raster.layout import TEXT_SIZES, Layout, interface_scale
+from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from tests.cases import each_case
 
 SIZES = [(640, 480), (800, 600), (1280, 720), (1920, 1080), (2560, 1440), (700, 1200)]
@@ -31,18 +30,6 @@ def test_the_parts_cover_the_surface_and_do_not_overlap(size, text):
     assert layout.timebar.width > 1.5 * layout.slider.width > 200
 
 
-@every_size
-def test_larger_text_is_larger(size):
-    scales = [interface_scale(size, text) for text in TEXT_SIZES]
-    assert scales == sorted(scales)
-    assert scales[2] >= 1.5 * scales[0]
-
-
-def test_text_is_as_large_as_was_asked_for_where_there_is_room():
-    assert interface_scale((1280, 720), 2.2) == pytest.approx(2.2, rel=0.01)
-    assert interface_scale((640, 480), 2.2) < 2.2 * interface_scale((640, 480))
-
-
 @each_case("size", [(1280, 720), (1920, 1080), (960, 600)])
 def test_pictures_have_no_time_bar_and_are_laid_out_as_they_were(size):
     layout = Layout.of(size)
@@ -61,13 +48,3 @@ def test_on_a_sharp_screen_everything_is_as_large_as_on_another_one(scale, text)
     assert sharp.ui == pytest.approx(scale * once.ui)
     for a, b in zip(parts(once), parts(sharp), strict=True):
         assert [round(scale * side) for side in a] == pytest.approx(list(b), abs=4)
-
-
-@each_case("size", [(16, 16), (60, 40), (200, 100), (3000, 60)])
-@every_text
-def test_the_smallest_surfaces_break_nothing(size, text):
-    layout = Layout.of(size, 400.0, text=text, controls=True)
-    assert layout.plot.width > 0
-    assert layout.plot.height > 0
-    assert all(part.width >= 0 and part.height >= 0 for part in parts(layout))
-    assert layout.footer.bottom == max(size[1], pygame.Rect(layout.footer).top)

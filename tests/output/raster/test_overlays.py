@@ -9,10 +9,8 @@ import numpy as np
 import pygame
 import pytest
 
-from mars2d import Robot, Scenario, Unicycle, World
-from mars2d.bodies.props import Box
-from mars2d.core.scene import Arrow, Line, Text
-from mars2d.output.layers.bodies import names
+from mars2d import Robot, Scenario, Unicycle
+from mars2d.core.scene import Arrow, Line
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.neighbours import Links
 from mars2d.output.layers.table import Layers
@@ -23,7 +21,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import DARK, LIGHT
 from mars2d.record.frame import Frame
-from mars2d.scenario.neighbours import Graph, Neighbourhood, Within
+from mars2d.scenario.neighbours import Graph, Within
 from tests.cases import each_case
 
 SIZE = (640, 480)
@@ -92,13 +90,6 @@ def test_circles_show_how_tightly_a_robot_can_turn_at_its_speed():
     )
 
 
-def test_in_a_crowd_those_that_turn_the_most_have_arcs():
-    frame = frame_of([(k % 10, k // 10, 0) for k in range(100)], (0.1, 0, 0.5))
-    shapes = velocities(frame).shapes
-    assert sum(isinstance(shape, Line) for shape in shapes) < 20
-    assert sum(isinstance(shape, Arrow) and shape.stroke is None for shape in shapes) > 100
-
-
 @each_case("scale", [20.0, 80.0, 150.0, 333.0])
 def test_the_legends_lie_side_by_side(scale):
     scenario, plot = frame_of([(0, 0, 0)]).scenario, pygame.Rect(0, 0, 1280, 600)
@@ -115,28 +106,7 @@ def test_the_legends_lie_side_by_side(scale):
     assert len(np.flatnonzero(np.diff(both.astype(int)))) == 4  # with a gap between them
 
 
-@each_case("size, rows", [((1280, 600), 1), ((320, 400), 1), ((280, 400), 0)])
-def test_legends_take_a_quarter_of_the_height_at_most(size, rows):
-    surface = pygame.Surface(size, 0, 32)
-    scenario, camera = frame_of([(0, 0, 0)]).scenario, Camera(80.0, 100.0, 240.0)
-    draw_legends(surface, Painter(), camera, surface.get_rect(), legends(scenario))
-    drawn = pygame.surfarray.array3d(surface).any(axis=(0, 2))
-    assert int(drawn.sum()) <= size[1] / 4
-    assert len(np.flatnonzero(np.diff(drawn.astype(int)))) == 2 * rows
-
-
 # -- names ----------------------------------------------------------------------------------------
-
-
-def test_names_stand_above_robots_and_props():
-    frame = frame_of([(0, 0, 0), (1, 0, 0)], props=[Box(pose=(2, 1, 0.3), name="crate")])
-    shapes = names(frame).shapes
-    assert [shape.text for shape in shapes] == ["robot0", "robot1", "crate"]
-    for shape, body in zip(shapes, frame.scenario.bodies, strict=True):
-        radius = body.shape.bound[1]
-        assert isinstance(shape, Text)
-        assert shape.position[1] == pytest.approx(body.pose[1] + radius, abs=0.2)
-        assert shape.halo
 
 
 def test_a_name_hides_no_body_and_can_be_read():
@@ -149,31 +119,6 @@ def test_a_name_hides_no_body_and_can_be_read():
         assert rows.max() < 240 - 80 * 0.15, "above the robot's rim"
         page = sum(int(theme.page[k : k + 2], 16) for k in (1, 3, 5))
         assert np.abs(seen[changed].sum(axis=1) - page).max() > 300
-
-
-def test_in_a_crowd_robots_called_by_their_number_have_the_number():
-    frame = frame_of([(k, 0, 0) for k in range(25)])
-    assert [shape.text for shape in names(frame).shapes] == [str(k) for k in range(25)]
-
-
-def test_a_label_that_is_kept_looks_like_one_that_is_painted():
-    shapes, painter, seen = names(frame_of([(0, 0, 0), (1, 0.5, 0)])).shapes, Painter(), []
-
-    def painted_by_hand(surface):
-        reach = max(1, round(1.5 * painter.ui))
-        for shape in shapes:
-            for dx, dy in [(a, b) for a in (-reach, 0, reach) for b in (-reach, 0, reach)]:
-                rim = replace(shape, color=shape.halo, halo=None)
-                painter.paint(surface, [rim], CAMERA.panned(dx, dy))
-            painter.paint(surface, [replace(shape, halo=None)], CAMERA)
-
-    for draw in (lambda surface: painter.paint(surface, shapes, CAMERA), painted_by_hand):
-        surface = pygame.Surface(SIZE, 0, 32)
-        surface.fill("#80a0c0")
-        draw(surface)
-        seen.append(pygame.surfarray.array3d(surface).astype(int))
-    assert np.abs(seen[0] - seen[1]).max() < 60
-    assert np.abs(seen[0] - seen[1]).mean() < 0.05
 
 
 # -- neighbours -----------------------------------------------------------------------------------
@@ -195,23 +140,6 @@ def test_neighbours_are_linked():
     assert linked(frame_of(places)) == [False, False], "all are neighbours: that says nothing"
 
 
-def test_who_is_a_neighbour_is_asked_once_a_control_step():
-    asked = []
-
-    class Chain(Neighbourhood):
-        def of(self, position):
-            asked.append(position)
-            n = position.shape[1]
-            return [[i + 1] if i + 1 < n else [] for i in range(n)]
-
-    frame, links = frame_of([(0, 0, 0), (1, 0, 0), (2, 0, 0)], neighbours=Chain()), Links()
-    for _ in range(3):
-        assert linked(frame, links) == [True, True]
-    assert len(asked) == 1
-    linked(replace(frame, path=np.repeat(frame.path, 2, axis=0)), links)
-    assert len(asked) == 2
-
-
 # -- layers ---------------------------------------------------------------------------------------
 
 
@@ -222,11 +150,3 @@ def test_each_layer_is_seen_when_it_is_on(layer):
     off, on = (picture(frame, replace(QUIET, **{layer: value})) for value in (False, True))
     assert (off != on).any()
     assert not getattr(Layers(), layer), "pictures are as they were"
-
-
-def test_add_ons_can_be_hidden():
-    world = World(Scenario(robots=[Robot()], workspace=None))
-    frame = replace(
-        world.frame, draw_addons=lambda scene: scene.circle((0, 1), 0.3, fill="#ff0000")
-    )
-    assert (picture(frame, QUIET) != picture(frame, replace(QUIET, addons=False))).any()

@@ -1,15 +1,12 @@
 """Both themes can be read, and on dark paper scenes keep what tells their colours apart."""
 
-from dataclasses import fields, replace
 from itertools import combinations
 
 import numpy as np
 import pygame
 import pytest
 
-from mars2d.bodies.colors import MATERIAL_COLORS, OBSTACLE
-from mars2d.core.scene import NAMED, PALETTE, THEORY, Scene
-from mars2d.output.layers.bodies import INK, prop_edge
+from mars2d.core.scene import PALETTE, Scene
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
@@ -17,14 +14,10 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import (
     DARK,
     LIGHT,
-    PRINTED,
-    Tone,
     _lab,
     _numbers,
     contrast,
-    luminance,
     mixed,
-    on_dark,
 )
 from tests.cases import each_case
 from tests.window.circling import Circling
@@ -78,60 +71,7 @@ def test_the_time_bar_and_the_slider_can_be_seen(theme):
     assert contrast(theme.effort, theme.plate) >= SEEN
 
 
-@THEMES
-def test_each_colour_of_a_theme_is_one(theme):
-    for item in fields(theme):
-        value = getattr(theme, item.name)
-        for color in value if isinstance(value, Tone) else [value]:
-            if color is not theme.dark:
-                assert len(on_dark(color, DARK.paper)) == 7
-
-
-def test_on_white_paper_scenes_stay_as_they_are():
-    for color in (*PALETTE, "#ffffff80", "#123456"):
-        assert LIGHT.shade(color) == PRINTED.shade(color) == color
-    image = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
-    assert LIGHT.shade_pixels(image) is image
-
-
-def test_pictures_are_the_light_theme_with_paler_small_print():
-    assert replace(PRINTED, muted=LIGHT.muted) == LIGHT
-
-
 # -- on dark paper --------------------------------------------------------------------------------
-
-
-def test_white_becomes_the_paper_and_black_nearly_white():
-    assert DARK.shade("#ffffff") == DARK.paper
-    assert contrast(DARK.shade("#000000"), DARK.paper) > 12
-
-
-def test_opacity_is_kept():
-    assert DARK.shade("#0072b280") == DARK.shade("#0072b2") + "80"
-    assert DARK.shade("#ffffffe6") == DARK.paper + "e6"
-
-
-@each_case("color", [*PALETTE, THEORY, INK, "#a3003c", "#c92a2a", "#333333"])
-def test_words_of_a_scene_can_be_read(color):
-    assert contrast(DARK.shade(color), DARK.paper) >= READABLE
-
-
-@each_case("name", [name for name in NAMED if NAMED[name] != "#ffffff"])
-def test_each_colour_with_a_name_is_seen(name):
-    assert contrast(DARK.shade(NAMED[name]), DARK.paper) >= SEEN
-
-
-@each_case("material", MATERIAL_COLORS)
-def test_the_edge_of_a_prop_is_seen(material):
-    color = MATERIAL_COLORS[material]
-    assert contrast(DARK.shade(prop_edge(color)), DARK.paper) >= SEEN
-
-
-def test_greys_are_turned_over_in_order():
-    greys = [DARK.shade(f"#{k:02x}{k:02x}{k:02x}") for k in range(0, 256, 15)]
-    bright = [luminance(grey) for grey in greys]
-    assert bright == sorted(bright, reverse=True)
-    assert contrast(DARK.shade(OBSTACLE), DARK.shade(INK)) > 1.7
 
 
 def distance(one, other):
@@ -143,17 +83,6 @@ def test_the_colours_of_robots_are_told_apart_as_well():
     dark = [DARK.shade(color) for color in PALETTE]
     assert min(distance(a, b) for a, b in combinations(dark, 2)) > 0.075
     assert [distance(DARK.shade(c), c) < 0.25 for c in PALETTE[:-1]] == [True] * 7
-
-
-def test_an_image_is_turned_like_a_shape():
-    colors = [*PALETTE, "#ffffff", "#000000", "#b8c0c8"]
-    pixels = np.array([[[*bytes.fromhex(c[1:]), k] for k, c in enumerate(colors)]])
-    turned = DARK.shade_pixels(pixels.astype(np.uint8))
-    for k, color in enumerate(colors):
-        expected = list(bytes.fromhex(DARK.shade(color)[1:]))
-        assert np.abs(turned[0, k, :3].astype(int) - expected).max() <= 12
-    assert turned[0, :, 3].tolist() == list(range(len(colors)))
-    assert DARK.shade_pixels(pixels.astype(np.uint8)[..., :3]).shape == (1, len(colors), 3)
 
 
 # -- painted --------------------------------------------------------------------------------------
@@ -186,31 +115,6 @@ def test_each_kind_of_shape_follows_the_theme(kind):
     assert painted(scene, LIGHT)[50, 50].tolist() == [0x00, 0x72, 0xB2]
     wanted = list(bytes.fromhex(DARK.shade("#0072b2")[1:]))
     assert np.abs(painted(scene, DARK)[50, 50] - wanted).max() <= (12 if kind == "image" else 1)
-
-
-def test_text_and_its_rim_follow_the_theme():
-    scene = Scene()
-    scene.text((0, 0), "HHH", color="#000000", size=30.0, halo="#ffffff")
-    dark = painted(scene, DARK)
-    assert dark.max() > 230  # the letters
-    assert dark.min() < 60  # the rim
-
-
-def test_a_theme_may_change_at_any_time():
-    scene = all_shapes("#0072b2")["disc"]
-    painter, surface = Painter(), pygame.Surface((100, 100), 0, 32)
-    camera = Camera(10.0, 50.0, 50.0)
-    for theme in (LIGHT, DARK, LIGHT):
-        painter.theme = theme
-        painter.paint(surface, scene.shapes, camera)
-        assert np.array_equal(pixels(surface)[45:55, 45:55], painted(scene, theme)[45:55, 45:55])
-
-
-def test_the_themes_own_colours_are_painted_as_they_are():
-    scene = all_shapes(DARK.muted)["disc"]
-    wanted = list(bytes.fromhex(DARK.muted[1:]))
-    assert painted(scene, DARK, shaded=False)[50, 50].tolist() == wanted
-    assert painted(scene, DARK)[50, 50].tolist() != wanted
 
 
 def test_a_stage_that_has_changed_its_theme_draws_what_a_new_one_draws():

@@ -47,24 +47,6 @@ def drawn(stage, frame):
     return pygame.surfarray.array3d(surface).astype(int)
 
 
-def drawn_forward(run, row):
-    """Return the picture of a row that was played to, some rows a picture."""
-    stage = Stage(Painter())
-    for before in range(0, row, 64):
-        drawn(stage, frame_at(run, before))
-    return drawn(stage, frame_at(run, row))
-
-
-@pytest.mark.slow
-def test_rows_at_random_look_as_if_they_were_played_to(run):
-    stage = Stage(Painter(), MEMORY)
-    rng = np.random.default_rng(0)
-    for row in [ROWS - 1, 1, 2900, 2899, 0, *rng.integers(0, ROWS, 5).tolist()]:
-        seen, wanted = drawn(stage, frame_at(run, row)), drawn_forward(run, row)
-        assert np.abs(seen - wanted).mean() < 0.25, row
-        assert (np.abs(seen - wanted).max(axis=2) > 120).sum() < 30, row
-
-
 def test_forward_row_by_row_memory_changes_no_pixel(run):
     remembering, plain = Stage(Painter(), MEMORY), Stage(Painter())
     for row in range(200):
@@ -85,18 +67,6 @@ def test_after_a_branch_the_old_paths_are_gone(run):
     frame = frame_at((scenario, other, prop), 2500)
     seen, wanted = drawn(stage, frame), drawn(Stage(Painter()), frame)
     assert np.abs(seen - wanted).mean() < 0.25
-
-
-def test_what_is_kept_stays_within_the_memory(run):
-    stage = Stage(Painter(), 5 * SIZE[0] * SIZE[1] * 4)
-    drawn(stage, frame_at(run, ROWS - 1))
-    assert 2 <= len(stage._canvas.wakes._kept) <= 5
-    assert (
-        np.abs(
-            drawn(stage, frame_at(run, 1600)) - drawn(Stage(Painter()), frame_at(run, 1600))
-        ).mean()
-        < 0.25
-    )
 
 
 def test_dragging_back_draws_few_rows_anew(run):
@@ -139,19 +109,3 @@ def test_a_picture_that_is_moved_by_whole_pixels_is_what_it_would_be_drawn_anew(
     assert np.abs(seen - wanted).mean() < 0.25
     stage.draw(surface, frame, camera, Layers())
     assert np.abs(pygame.surfarray.array3d(surface).astype(int) - wanted).mean() < 0.25
-
-
-def test_while_the_camera_moves_no_picture_waits_for_all_paths(run, monkeypatch):
-    monkeypatch.setattr("mars2d.output.raster.stage.PATIENCE", 0.0)
-    monkeypatch.setattr("mars2d.output.raster.stage.AHEAD", 0.0)
-    stage, frame = Stage(Painter(), MEMORY), frame_at(run, ROWS - 1)
-    drawn(stage, frame)
-    first, surface, grown = stage._canvas, pygame.Surface(SIZE, 0, 32), []
-    for k in range(1, 30):
-        stage.draw(surface, frame, CAMERA.panned(k, 0), Layers(), hurried=True)
-        wakes = (stage._next or stage._canvas).wakes
-        grown.append(0 if wakes is None else wakes.trails[1].drawn)
-    assert stage._canvas is not first, "in the end it is there"
-    steps = np.diff(grown)
-    assert steps.max() <= 256
-    assert (steps > 0).sum() > 8, "it came bit by bit"
