@@ -73,12 +73,8 @@ def users_line(stack: traceback.StackSummary) -> str | None:
 def _is_users(path: Path) -> bool:
     compiled = path.suffix == ".pyx"  # for example numpy's random generators
     others = compiled or _is_ours(path) or path.is_relative_to(_STANDARD_LIBRARY)
-    return not (others or "site-packages" in path.parts or _is_no_file(path))
-
-
-def _is_no_file(path: Path) -> bool:
-    """Return whether this is the name of code that was made by `eval` or `exec`."""
-    return str(path).startswith("<") or not path.name
+    made = str(path).startswith("<") or not path.name  # by `eval` or `exec`
+    return not (others or made or "site-packages" in path.parts)
 
 
 def _is_ours(path: Path) -> bool:
