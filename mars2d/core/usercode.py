@@ -73,15 +73,17 @@ def users_line(stack: traceback.StackSummary) -> str | None:
 def _is_users(path: Path) -> bool:
     compiled = path.suffix == ".pyx"  # for example numpy's random generators
     others = compiled or _is_ours(path) or path.is_relative_to(_STANDARD_LIBRARY)
-    made = str(path).startswith("<") or not path.name  # by `eval` or `exec`
-    return not (others or made or "site-packages" in path.parts)
+    return not (others or "site-packages" in path.parts or _is_no_file(path))
+
+
+def _is_no_file(path: Path) -> bool:
+    """Return whether this is the name of code that was made by `eval` or `exec`."""
+    return str(path).startswith("<") or not path.name
 
 
 def _is_ours(path: Path) -> bool:
-    command = path.name == "mars2d"  # the file in bin/ that starts the command line
-    return command or (
-        path.is_relative_to(_PACKAGE) and not path.is_relative_to(_PACKAGE / "examples")
-    )
+    ours = path.is_relative_to(_PACKAGE) and not path.is_relative_to(_PACKAGE / "examples")
+    return ours or path.name == "mars2d"  # the file in bin/ that starts the command line
 
 
 def name_of(function: Callable[..., Any]) -> str:
