@@ -28,7 +28,7 @@ GOAL = 50.0
 
 def run(name: str) -> tuple[float, dict[str, Any]]:
     """Run an example to its end; return the processor's seconds of its steps, and its figures."""
-    world = open_world(open_experiment(name), seed=0)
+    world = open_world(open_experiment(name, seed=0))
     engine, clock = world.simulation.engine, time.process_time
     drive, driving = engine.drive, 0.0
 

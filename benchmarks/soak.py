@@ -88,7 +88,7 @@ def run(ticks: int, folder: Path, *, logged: bool) -> dict[str, Any]:
     storage = Scratch(folder) if log is None else log.storage
     progress, begun, grown = Progress(ticks), time.perf_counter(), []
     with log or nullcontext():
-        world = open_world(Experiment(scenario_of(ticks), wander), 1, [progress], storage)
+        world = open_world(Experiment(scenario_of(ticks), wander, seed=1), [progress], storage)
         while not world.over:
             world.step()
             if log is not None:

@@ -86,6 +86,16 @@ _LATER = {
 """The names that are imported when they are first asked for: not every program needs them."""
 
 
+def _picture(scenario: Scenario) -> str:
+    """Return the picture of a scenario that a notebook shows."""
+    from mars2d.output.pages.notebook import scenario_svg
+
+    return scenario_svg(scenario)
+
+
+Scenario._repr_svg_ = _picture  # scenarios know nothing of pictures
+
+
 def __getattr__(name: str) -> Any:
     if name not in _LATER:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.core.arithmetic import cosine_sine, cosines_sines
-from mars2d.core.delay import ROUNDING
+from mars2d.core.arithmetic import ROUNDING, cosine_sine, cosines_sines
 from mars2d.core.description import entry, number, text
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike

@@ -8,8 +8,8 @@ from math import ceil, floor
 import numpy as np
 
 from mars2d.addons.base import Addon
+from mars2d.core.arithmetic import ROUNDING
 from mars2d.core.checks import NAMES, names
-from mars2d.core.delay import ROUNDING
 from mars2d.core.description import accepts, entry, number
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, color_of, rgb

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.delay import ROUNDING
+from mars2d.core.arithmetic import ROUNDING
 
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]

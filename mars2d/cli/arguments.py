@@ -15,7 +15,7 @@ from mars2d.core.terminal import warn
 from mars2d.output.raster import has_pygame, require_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.options import parse_setting
+from mars2d.scenario.options import parse_option
 from mars2d.scenario.roles import robots_named
 from mars2d.window.display import Preferences
 
@@ -36,7 +36,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def options_of(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return the options that `add_options` asks for, by the names of fields."""
-    options = dict(parse_setting(setting) for setting in arguments.set)
+    options = dict(parse_option(setting) for setting in arguments.set)
     if arguments.stop_time is not None:
         options["stop_time"] = arguments.stop_time
     return options

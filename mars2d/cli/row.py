@@ -37,8 +37,8 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
 
     def run() -> tuple[Record, None]:
         if arguments.view and _has_window():
-            return show(experiment, None, then.seed, preferences_of(arguments), log=log), None
-        return run_headless(experiment, then.seed, log=log).record, None
+            return show(experiment, None, preferences_of(arguments), log=log), None
+        return run_headless(experiment, log=log).record, None
 
     log = log_to(arguments.record)
     record, made, troubles = run_and_save(arguments, run)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
@@ -40,7 +40,6 @@ def has_display() -> bool:
 def show(
     experiment: Experiment,
     speed: float | str | None,
-    seed: int,
     preferences: Preferences,
     humans: Sequence[int] = (),
     log: Log | None = None,
@@ -48,14 +47,13 @@ def show(
     *,
     kept: bool = False,
     play: bool = False,
-    settings: Mapping[str, Any] | None = None,
 ) -> Record:
     """Run in a window, at the experiment's own speed unless one is given.
 
     humans: robots that are driven by hand; then the speed is one to drive at. log: writes each row
     while the run goes on. watchers: called at each control step. kept: whether the record is saved
     afterwards; else the window asks, where hands have changed the run. play: whether it is a game
-    whose roles people may choose. settings: in which the experiment differs from its file.
+    whose roles people may choose.
     """
     from mars2d.window.show import show_experiment
 
@@ -65,14 +63,12 @@ def show(
     return show_experiment(
         experiment,
         pace,
-        seed,
         watchers,
         preferences=preferences,
         humans=humans,
         log=log,
         asks=not kept,
         play=play,
-        settings=settings,
     )
 
 
@@ -93,7 +89,6 @@ def speed_by_hand(scenario: Scenario, robots: Sequence[int] = ()) -> float:
 
 def run_headless(
     experiment: Experiment,
-    seed: int,
     watchers: Sequence[Watcher] = (),
     log: Log | None = None,
     speed: float | str = "max",
@@ -101,7 +96,7 @@ def run_headless(
     """Run to the end without a window, with a progress bar, and return the world."""
     progress = Progress(experiment.scenario.last_iteration)
     try:
-        return simulate(experiment, seed, speed, [*watchers, progress], log)
+        return simulate(experiment, speed, [*watchers, progress], log)
     finally:
         progress.close()
 

@@ -7,7 +7,7 @@ The engine has the same sines: see ``mars2d/physics/islands/arithmetic.py``.
 
 from __future__ import annotations
 
-from math import floor, fmod, inf, isfinite, isinf, nan, sqrt
+from math import ceil, floor, fmod, inf, isfinite, isinf, nan, sqrt
 from typing import Any
 
 import numpy as np
@@ -28,6 +28,9 @@ FEW = 32
 """So few angles are worked out one by one, which is quicker."""
 
 TURN = 6.283185307179586
+
+ROUNDING = 1e-9
+"""Times that differ by less count as equal, in sampling times."""
 
 ARCTANGENTS = (0.46364760900080611621, 0.78539816339744830962, 0.98279372324732906799,
                1.57079632679489661923)  # fmt: skip
@@ -180,3 +183,8 @@ def _arc_share(r: Any) -> Any:
     even = even * w - 1.11111104054623557880e-01
     even = even * w - 1.99999999998764832476e-01
     return z * odd + w * even
+
+
+def steps_until(delay: float, sampling_time: float) -> int:
+    """Return the number of control steps until a delay [s] has passed."""
+    return ceil(delay / sampling_time - ROUNDING)

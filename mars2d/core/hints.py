@@ -15,8 +15,6 @@ ROOMS = ("mars2d", "mars2d.sensors", "mars2d.addons", "mars2d.bodies", "mars2d.g
 
 ABBREVIATIONS = {"np": "import numpy as np", "plt": "import matplotlib.pyplot as plt"}
 
-LIBRARIES = ("numpy", "scipy", "matplotlib", "pygame", "pymunk", "mars2d")
-
 _FIXED: list[tuple[type[BaseException], str, str, str]] = [
     (AttributeError, "has no setter", "",
      "it can't be set: a law returns its command, and keeps things in robot.memory"),
@@ -66,7 +64,7 @@ def _of_name(error: NameError) -> str:
         keep = f"robot.memory.{name}" if law else "an object of your own"
         return f"; a function that assigns {name!r} has its own: keep it in {keep}"
     line = ABBREVIATIONS.get(name) or _import_of(name)
-    if name in sys.stdlib_module_names or name in LIBRARIES:
+    if name in sys.stdlib_module_names or name in ("numpy", "mars2d"):
         line = f"import {name}"
     if line:
         return f"; write `{line}` at the top"
@@ -78,15 +76,12 @@ def _of_import(error: ImportError) -> str:
     """Return where a name is, or the package that is nearest."""
     module = error.name or ""
     if isinstance(error, ModuleNotFoundError):
-        if module.startswith("mars2d."):
-            return likely(module, ROOMS, 0.6) or f"; there are {', '.join(ROOMS[1:])}"
-        return likely(module, [*ROOMS, *LIBRARIES], 0.7)
+        return likely(module, ROOMS, 0.6)
     if not module.startswith("mars2d"):
         return ""
     if line := _import_of(name := _quoted(error)):
         return f"; write `{line}`"
-    known = {each for room in ROOMS for each in import_module(room).__all__}
-    return instead(name, "a room") or likely(name, known, 0.7)
+    return instead(name, "a room") or likely(name, import_module(module).__all__, 0.7)
 
 
 def _quoted(error: BaseException) -> str:

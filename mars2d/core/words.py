@@ -6,9 +6,6 @@ _PLACE = "x y theta position positon pos xy orientation heading angle start init
 _SPEED = "speed maxspeed maxlinearspeed vmax maxv v velocity"
 _TURN = "omega maxomega maxangularspeed w wmax angularspeed maxangularvelocity"
 _COMMAND = "return v, omega: a law returns its command"
-_MEMORY = (
-    "robot.memory in the law, or functools.partial(law, goal=...): a law keeps its own numbers"
-)
 
 _INSTEAD: dict[str, dict[str, str]] = {
     "Robot": {
@@ -18,15 +15,6 @@ _INSTEAD: dict[str, dict[str, str]] = {
         _TURN: "drive=Unicycle(max_angular_speed=...)",
         "law control controllaw behaviour behavior policy function": "controller=law",
         "holonomic omni": "drive=Holonomic()",
-        "goal target kp gain k params": _MEMORY,
-        "id number index label": "name='...'",
-        "wheelbase wheelradius": "drive=Differential(wheel_radius=...) or Car(wheelbase=...)",
-        "weight": "mass=...",
-    },
-    "Prop": {
-        _PLACE: "pose=(x, y, theta)",
-        "r size": "diameter=... or radius=..., for a Box length=... and width=...",
-        "weight density": "mass=... or material='...'",
     },
     "Scenario": {
         "n number numrobots agents": "robots=3, or robots=[Robot(...), ...]",
@@ -36,63 +24,31 @@ _INSTEAD: dict[str, dict[str, str]] = {
             "def control(world) in the file, or controller=law of each Robot",
         "obstacle obstacles wall walls map": "addons=[Map([[(x, y), ...], ...])], of mars2d.addons",
         "bounds arena size world field area width": "workspace=[(x, y), ...], the area's corners",
-        "boxes objects bodies things balls": "props=[Box(...), ...]",
         "sensor sensors": "Robot(sensors=[...])",
-        "seed randomseed": "--seed 3, or mars2d.run(scenario, seed=3)",
-        "gravity": "ground_friction=... of a prop: one looks at the plane from above",
     },
     "Sensor": {
         "distance maxrange reach maxdistance": "range=...",
         "fov angle aperture opening": "field_of_view=...",
-        "n rays numbeams numrays": "beams=...",
     },
-    "Drive": {
-        _SPEED: "max_linear_speed=...",
-        _TURN: "max_angular_speed=...",
-        "wheelbase": "wheel_semiaxis=..., half the distance of the wheels",
-    },
-    "Within": {"radius distance r": "range=..."},
+    "Drive": {_SPEED: "max_linear_speed=...", _TURN: "max_angular_speed=..."},
     "a robot": {
         "x": "robot.pose[0]",
         "y": "robot.pose[1]",
         "theta heading angle orientation yaw": "robot.pose[2]",
         "speed v vel omega w": "robot.velocity: x', y' [m/s], theta' [rad/s]",
-        "sensors sensor readings prox proximity lidar range measure":
-            "robot.sense.NAME, the reading of the sensor of that name",
-        "t now": "robot.time",
         "dt ts step": "robot.sampling_time",
         "goal target state integral error": "robot.memory: a law keeps things there",
         "stop move setvelocity setspeed setcommand forward turn rotate": _COMMAND,
         "others robots": "robot.neighbours",
     },
-    "a world": {
-        "n count number": "len(world.robots)",
-        "x state states poses positions getposes": "world.pose, an array (3, n)",
-        "t now": "world.time",
-        "dt ts": "world.sampling_time",
-    },
     "a room": {
         "lidar laser laserscanner rangesensor scanner": "RangeFinder, of mars2d.sensors",
-        "camera vision": "LineCamera, RangeBearing or Ground, of mars2d.sensors",
-        "ir infrared proximitysensor": "Proximity, of mars2d.sensors",
-        "gps compass": "Pose, of mars2d.sensors",
-        "encoder encoders": "Odometry, of mars2d.sensors",
-        "gyro accelerometer": "Imu, of mars2d.sensors",
         "wall walls obstacle obstacles": "Map, of mars2d.addons: Map([[(x, y), ...]])",
         "simulator simulation simulate sim environment env": "run: mars2d.run(scenario)",
     },
-    "mars2d": {"help h": "mars2d --help"},
     "mars2d run": {
         "time stop duration t end": "--stop-time S",
         "seeds runs n": "--seed K; mars2d sweep has --seeds N",
-        "out output save log csv npz": "--record OUT.npz, .csv or another",
-        "param params values option": "--set NAME=VALUE",
-    },
-    "mars2d sweep": {
-        "values param params vary range grid": "--set NAME=VALUES",
-        "time stop duration": "--stop-time S",
-        "seed runs n repeat": "--seeds N",
-        "jobs j processes cores": "--workers N",
     },
 }  # fmt: skip
 """What to write, by where it is written and the words, in small letters and without underscores."""

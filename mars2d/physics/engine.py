@@ -65,9 +65,9 @@ class Engine(Motion):
         """
         return sqrt(self._depth_of_push / acceleration)
 
-    def bears(self, body: int, force: float, torque: float) -> bool:
+    def withstands(self, body: int, force: float, torque: float) -> bool:
         """Return whether a body stays where it is held under a force [N] and torque [N m].
 
         A robot that follows its command is held by its drive, a prop at rest by the floor.
         """
-        return bool(self._mover.bears(body, float(force), float(torque)))
+        return bool(self._mover.withstands(body, float(force), float(torque)))

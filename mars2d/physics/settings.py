@@ -110,13 +110,13 @@ Karnopp, J. Dyn. Syst. Meas. Control 107, 100 (1985).
 
 # -- drives -------------------------------------------------------------------------------------
 
-SWAYING = 1e-3
+OFFSET_STEP = 1e-3
 """The longest substep of a robot with `force_limited` and `mass_offset` in the open, seconds."""
 
 LINGER = 3
 """For how many substeps a drive stays engaged after its robot has followed its command again."""
 
-TURNED = 0.01
+BRAKING_TURN = 0.01
 """How far a rim may turn on while its drive stops it, in parts of the overlap allowed.
 
 It keeps slides along walls with friction within half a percent of the formula. Where more overlap

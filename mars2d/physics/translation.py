@@ -226,12 +226,14 @@ def _accuracy(scenario: Scenario) -> dict[str, float]:
         "slop": slop,
         "bias_rate": settings.BIAS_RATE,
         "joint_bias_rate": settings.JOINT_BIAS_RATE,
-        "swaying": settings.SWAYING,
+        "offset_step": settings.OFFSET_STEP,
         "preload": settings.PRELOAD * slop,
         "closed": min(settings.CLOSED, settings.MEETING * slop),
         "touch": settings.MEETING * slop,
         "impact_depth": settings.IMPACT_DEPTH * slop,
-        "turned": settings.TURNED * overlap * max(1.0, overlap / settings.DEFAULT_OVERLAP),
+        "braking_turn": settings.BRAKING_TURN
+        * overlap
+        * max(1.0, overlap / settings.DEFAULT_OVERLAP),
         "growth": settings.GROWTH,
         "linger": settings.LINGER,
         "slack": settings.SLACK,

@@ -65,7 +65,7 @@ class Change:
 
     moved: bodies that were moved at the same time, by index in `Scenario.bodies`, and their poses.
     control: the law of the team from then on, which files do not keep. given: the names of robots
-    that were given other laws by hand, not by their file; files do not keep these either. settings:
+    that were given other laws by hand, not by their file; files do not keep these either. options:
     the parameters that were set, if that is what changed it, by their names for ``--set``, with
     their values.
     """
@@ -74,7 +74,7 @@ class Change:
     scenario: Scenario
     moved: tuple[tuple[int, Triple], ...] = ()
     control: Callable[[Any], Any] | None = field(default=None, compare=False)
-    settings: tuple[tuple[str, Any], ...] = ()
+    options: tuple[tuple[str, Any], ...] = ()
     given: frozenset[str | None] = field(default=frozenset(), compare=False)
 
 
@@ -98,18 +98,18 @@ def leaps_of(done: Iterable[Intervention]) -> tuple[Leap, ...]:
 def to_plain(intervention: Intervention) -> dict[str, Any]:
     """Return an intervention as dicts, lists, text and numbers."""
     kept = [each.name for each in fields(intervention) if each.compare]  # not what is code
-    if not getattr(intervention, "settings", ()):
-        kept = [name for name in kept if name != "settings"]
     values = {
         name: serialize.from_description(pictures.enclosed(getattr(intervention, name)))
         for name in kept
     }
+    if options := values.pop("options", None):
+        values["settings"] = options  # as files have called them ever since
     return {"type": type(intervention).__name__, **values}
 
 
 def of_plain(data: Any) -> Intervention:
     """Return the intervention that `to_plain` made plain. Raises various exceptions if it can't."""
-    values = {name: _read(value) for name, value in data.items() if name != "type"}
+    values = {n if n != "settings" else "options": _read(v) for n, v in data.items() if n != "type"}
     return _KINDS[data["type"]](**values)
 
 
@@ -119,8 +119,8 @@ def of_one_hand(before: Intervention, after: Intervention) -> bool:
         return before.body == after.body and before.target is not None
     if isinstance(before, Steer) and isinstance(after, Steer):
         return before.robot == after.robot and before.driven
-    if isinstance(before, Change) and isinstance(after, Change) and after.settings:
-        return [name for name, _ in before.settings] == [name for name, _ in after.settings]
+    if isinstance(before, Change) and isinstance(after, Change) and after.options:
+        return [name for name, _ in before.options] == [name for name, _ in after.options]
     return False
 
 
@@ -144,7 +144,7 @@ def check(done: Sequence[Intervention], scenario: Scenario, rows: int) -> None:
             sound &= [body.name for body in each.scenario.bodies] == [
                 body.name for body in scenario.bodies
             ]
-            sound &= all(len(pair) == 2 and isinstance(pair[0], str) for pair in each.settings)
+            sound &= all(len(pair) == 2 and isinstance(pair[0], str) for pair in each.options)
         if not (sound and _is_index(each.row, rows + 1) and each.row >= before):
             raise ValueError(type(each).__name__)
         before = each.row

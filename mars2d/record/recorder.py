@@ -94,15 +94,15 @@ class Recorder:
         scenario: Scenario,
         storage: Storage = Column,
         versions: Callable[[], Mapping[str, str]] = dict,
-        settings: Mapping[str, Any] | None = None,
+        options: Mapping[str, Any] | None = None,
     ) -> None:
         """Make the columns for the robots and sensors of a scenario.
 
         storage: makes columns, in memory or in files. versions: returns the versions of the
-        software on which the numbers depend, for the record. settings: the options that the
+        software on which the numbers depend, for the record. options: the options that the
         experiment was opened with, for the record.
         """
-        self.versions, self.settings = versions, dict(settings or {})
+        self.versions, self.options = versions, dict(options or {})
         n, props = len(scenario.robots), len(scenario.props)
         capacity = min(scenario.last_iteration + 1, 4096)
         self._columns = {
@@ -260,7 +260,7 @@ class Recorder:
             versions=self.versions(),
             drawn=drawn,
             interventions=tuple(each for each in interventions if each.row < self.rows),
-            settings=self.settings,
+            options=self.options,
         )
 
     def _messages_as_of(self, now: float) -> NDArray[np.void]:

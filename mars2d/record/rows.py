@@ -56,7 +56,7 @@ class Rows:
     `content` refers. over_message: why the run ended. finished: False if an error or Ctrl-C ended
     the run, or while it goes on. drawn: the add-ons' drawing at the end, which files do not keep.
     missing: the user's own parts that a file could not hold. interventions: changes that were made
-    to the world from outside, in order; `scenario` is the one at the start. settings: the options
+    to the world from outside, in order; `scenario` is the one at the start. options: the options
     with which the experiment was opened, by the names of ``--set``; files keep numbers, texts, and
     lists of these. branches: runs in a
     window that were left for this one, which are kept in files of their own.
@@ -85,7 +85,7 @@ class Rows:
     drawn: Scene = field(default_factory=Scene, repr=False)
     missing: tuple[str, ...] = ()
     interventions: tuple[Intervention, ...] = ()
-    settings: Mapping[str, Any] = field(default_factory=dict)
+    options: Mapping[str, Any] = field(default_factory=dict)
     branches: tuple[Rows, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:

@@ -11,11 +11,6 @@ import sysconfig
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
-from mars2d.physics.islands import difference
-
-TRIED = "7.3.1"
-"""A version of pymunk that is as the islands were written for."""
-
 AGAIN = "pip install --force-reinstall --no-deps"
 NOWHERE = f"{AGAIN} FOLDER, that of its sources"
 
@@ -24,8 +19,6 @@ def remedy() -> str:
     """Return the remedy where the engine does not run compiled."""
     if os.environ.get("MARS2D_PLAIN") == "1":
         return "set MARS2D_PLAIN=" if sys.platform == "win32" else "unset MARS2D_PLAIN"
-    if difference():
-        return f"pip install pymunk=={TRIED}"
     return " && ".join(filter(None, [_tools(), _again()]))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from math import isfinite, nan
 from pathlib import Path
 from types import ModuleType
@@ -19,6 +20,7 @@ from mars2d.scenario.observation import Action, Observation
 from mars2d.scenario.policy import describe
 from mars2d.scenario.roles import contests_of, robots_named, role_of, roles_of
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.loop import open_world
 from mars2d.world.record import Record
 from mars2d.world.room import Room
 from mars2d.world.views import RobotView
@@ -70,9 +72,7 @@ class Episode:
                 "contest whose winner gets 1 and whose loser gets -1"
             )
         self._reward = won_or_lost if reward is None else reward
-        self.world = World(
-            self._cast(scenario), opened.control, 0, filename=opened.source.name, record=record
-        )
+        self.world = open_world(replace(opened, scenario=self._cast(scenario)), record=record)
         self.world.observe()
         self.observations = [
             Observation.of(scenario, i, self.world.robots[i]) for i in self.learners

@@ -48,7 +48,5 @@ class Animation(Description):
         doc="1 is real time, 0 one step per key press, 'max' as fast as possible",
     )
     base_colors: Sequence[str] = entry(
-        default=PALETTE,
-        check=_colors,
-        doc="the robots' colours, cycled",
+        default=PALETTE, check=_colors, doc="the robots' colours, cycled"
     )

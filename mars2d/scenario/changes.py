@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
-from functools import lru_cache
+import operator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.drives.base import Drive
-from mars2d.bodies.rigid import Rigid
-from mars2d.core.arithmetic import norms
+from mars2d.core.arithmetic import norm
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError, counted
-from mars2d.core.plane import Outline, lines_and_areas, outside_polygon
 from mars2d.scenario.scenario import Scenario
-from mars2d.scenario.starts import footprint
+from mars2d.scenario.starts import check_in_workspace, check_off_walls, cut_by, depth
 
 Float = NDArray[np.float64]
+Same = Callable[[Any, Any], bool]
 
 FREE = frozenset(
     {"title", "robots", "props", "joints", "workspace", "on_exit", "stop_time", "addons"}
@@ -43,19 +42,34 @@ FREE_OF_JOINTS = frozenset({"stiffness", "damping"})
 """Fields of joints that may change."""
 
 
-def check_same(before: Scenario, after: Scenario) -> None:
-    """Refuse a scenario that a running world can't go on with; the InputError says why not."""
-    for field in dataclasses.fields(Scenario):
-        if field.name not in FREE and getattr(before, field.name) != getattr(after, field.name):
-            raise _needs_new_start(f"Scenario.{field.name} is another one")
-    _check_bodies("robots", FREE_OF_ROBOTS, before, after)
+def check_same(before: Scenario, after: Scenario, same: Same = operator.eq) -> None:
+    """Refuse a scenario that a running world can't go on with; the InputError says why not.
+
+    same: decides whether two values are the same.
+    """
+    for name in _changed(before, after, FREE, same):
+        raise _needs_new_start(f"Scenario.{name} is another one")
+    for family, free in (("robots", FREE_OF_ROBOTS), ("props", FREE_OF_BODIES)):
+        first, second = getattr(before, family), getattr(after, family)
+        if len(first) != len(second):
+            raise _needs_new_start(f"{counted(len(second), family[:-1])} in place of {len(first)}")
+        for one, other in zip(first, second, strict=True):
+            if not _same_kind(one, other):
+                raise _needs_new_start(f"{one.name} is a {type(other).__name__} now")
+            for name in _changed(one, other, free, same):
+                raise _needs_new_start(f"{name} of {one.name} is another one")
     for one, other in zip(before.robots, after.robots, strict=True):
-        _check_drive(f"drive of {one.name}", one.drive, other.drive)
-    _check_bodies("props", FREE_OF_BODIES, before, after)
-    _check_joints(before, after)
+        if not same(one.drive, other.drive):
+            _check_drive(f"drive of {one.name}", one.drive, other.drive)
+    joints = [*zip(before.joints, after.joints, strict=False)]
+    kept = all(
+        _same_kind(*pair) and not [*_changed(*pair, FREE_OF_JOINTS, same)] for pair in joints
+    )
+    if len(before.joints) != len(after.joints) or not kept:
+        raise _needs_new_start("Scenario.joints is another one")
     busy = [{a.key: a for a in scenario.addons if a.acts} for scenario in (before, after)]
     for key in sorted({*busy[0], *busy[1]}):
-        if busy[0].get(key) != busy[1].get(key):
+        if not same(busy[0].get(key), busy[1].get(key)):
             raise _needs_new_start(
                 f"the add-on {key!r}, which does something at each step, is another one"
             )
@@ -78,22 +92,8 @@ def moves_alike(before: Scenario, after: Scenario) -> bool:
     )
 
 
-def _check_bodies(name: str, free: frozenset[str], before: Scenario, after: Scenario) -> None:
-    first, second = getattr(before, name), getattr(after, name)
-    if len(first) != len(second):
-        raise _needs_new_start(f"{counted(len(second), name[:-1])} in place of {len(first)}")
-    for one, other in zip(first, second, strict=True):
-        if type(one) is not type(other):
-            raise _needs_new_start(f"{one.name} is a {type(other).__name__} now")
-        changed = next(_changed(one, other, free), None)
-        if changed is not None:
-            raise _needs_new_start(f"{changed} of {one.name} is another one")
-
-
 def _check_drive(name: str, before: Drive, after: Drive) -> None:
-    if before == after:
-        return
-    if type(before).__qualname__ != type(after).__qualname__:
+    if not _same_kind(before, after):
         raise _needs_new_start(f"{name} is another one")
     if before.noise:
         raise _needs_new_start(f"{name} is another one, and has noise")
@@ -102,18 +102,18 @@ def _check_drive(name: str, before: Drive, after: Drive) -> None:
             raise _needs_new_start(f"{name} has another {field}")
 
 
-def _check_joints(before: Scenario, after: Scenario) -> None:
-    same = [type(joint) for joint in before.joints] == [type(joint) for joint in after.joints]
-    pairs = zip(before.joints, after.joints, strict=False)
-    if not same or any(any(_changed(one, other, FREE_OF_JOINTS)) for one, other in pairs):
-        raise _needs_new_start("Scenario.joints is another one")
+def _same_kind(before: object, after: object) -> bool:
+    """Return whether two are of one class, which may be of a file that was run twice."""
+    return type(before).__qualname__ == type(after).__qualname__
 
 
-def _changed(before: Description, after: Description, free: frozenset[str]) -> Iterator[str]:
+def _changed(
+    before: Description, after: Description, free: frozenset[str], same: Same
+) -> Iterator[str]:
     """Yield the fields that differ, except those that are free; both are of one class."""
     for field in dataclasses.fields(before):
-        here, there = getattr(before, field.name), getattr(after, field.name)
-        if field.name not in free and here != there:
+        here, there = (getattr(each, field.name, None) for each in (before, after))
+        if field.name not in free and not same(here, there):
             yield field.name
 
 
@@ -165,52 +165,29 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
         rigid._replace(pose=tuple(pose))
         for rigid, pose in zip(scenario.bodies, poses.T.tolist(), strict=True)
     ]
-    here = bodies[body]
-    if body < len(scenario.robots) and scenario.workspace and scenario.on_exit != "ignore":
-        x, y, _ = np.array([here.pose]).T
-        if outside_polygon(x, y, np.array(scenario.workspace))[0]:
-            return "be outside of the workspace"
+    here, overlap = bodies[body], scenario.max_overlap
+    area = None if scenario.on_exit == "ignore" else scenario.workspace
+    if area and body < len(scenario.robots) and _refused(check_in_workspace, [here], area):
+        return "be outside of the workspace"
     if scenario.physics == "ideal":
         return ""
-    allowed = min(scenario.max_overlap, min(rigid.shape.thickness for rigid in bodies) / 8)
-    core = _core(here, allowed)
-    if scenario.on_exit == "wall" and scenario.workspace:
-        import shapely
-
-        if not shapely.Polygon(scenario.workspace).contains(core):
-            return "be in the workspace's wall"
-    found = _tree(scenario.obstacles).query(core, "intersects") if scenario.obstacles else ()
-    if len(found):
-        return f"be in obstacle {min(found)}"
-    for k in _near(bodies, body):
-        pair = (min(k, body), max(k, body))
-        if pair not in scenario.joined and core.intersects(_core(bodies[k], 0.0)):
-            return f"overlap {bodies[k].name}"
+    if area and scenario.on_exit == "wall" and _refused(check_off_walls, [here], area, overlap):
+        return "be in the workspace's wall"
+    for k in cut_by(here, scenario.obstacles, overlap):
+        return f"be in obstacle {k}"
+    (cx, cy), radius = here.bound
+    for k, other in enumerate(bodies):
+        (x, y), reach = other.bound
+        if k == body or norm(x - cx, y - cy) >= reach + radius:
+            continue
+        if (min(k, body), max(k, body)) not in scenario.joined and depth(here, other, overlap):
+            return f"overlap {other.name}"
     return ""
 
 
-def _near(bodies: list[Rigid], body: int) -> list[int]:
-    """Return the other bodies that may touch a body, the nearest first."""
-    centers = np.array([rigid.bound[0] for rigid in bodies])
-    radii = np.array([rigid.bound[1] for rigid in bodies])
-    gaps = norms(*(centers - centers[body]).T) - radii - radii[body]
-    gaps[body] = np.inf
-    return [int(k) for k in np.argsort(gaps) if gaps[k] < 0]
-
-
-def _core(body: Rigid, less: float) -> Any:
-    """Return the ground that a body covers, less a rim of `less` metres."""
-    import shapely
-
-    if body.is_disc:
-        center, radius = body.bound
-        return shapely.Point(center).buffer(radius - less, quad_segs=64)
-    ground = footprint(body)
-    return ground.buffer(-less, join_style="mitre") if less else ground
-
-
-@lru_cache(maxsize=4)
-def _tree(outlines: tuple[Outline, ...]) -> Any:
-    import shapely
-
-    return shapely.STRtree(lines_and_areas(outlines))
+def _refused(check: Callable[..., None], *given: Any) -> bool:
+    try:
+        check(*given)
+    except InputError:
+        return True
+    return False

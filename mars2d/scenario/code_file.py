@@ -59,17 +59,12 @@ def module_in(path: Path, what: str = "an experiment") -> ModuleType:
     finally:
         sys.path.remove(folder)
         sys.dont_write_bytecode = keeps
-        _forget_modules(before, folder)
+        for other in set(sys.modules) - before:  # lest they are taken for those of another folder
+            file = getattr(sys.modules[other], "__file__", None)
+            if file is not None and str(Path(file).parent) == folder:
+                note_file(Path(file))
+                del sys.modules[other]
     return module
-
-
-def _forget_modules(before: set[str], folder: str) -> None:
-    """Forget the modules of a folder, so that they are not taken for those of another."""
-    for name in set(sys.modules) - before:
-        file = getattr(sys.modules[name], "__file__", None)
-        if file is not None and str(Path(file).parent) == folder:
-            note_file(Path(file))
-            del sys.modules[name]
 
 
 def line_in(error: BaseException, path: Path) -> str:
@@ -94,22 +89,18 @@ def law_in(
         if name != "control" or given != ((), {}):
             raise InputError(f"{file.name}: a learned law has no other names and no arguments")
         return Policy(file)
-    module = module_in(file, "a law")
-    try:
-        return _law_of(module, name, subject, *given)
-    except InputError as error:
-        error.where = file.name
-        raise
-
-
-def _law_of(
-    module: ModuleType, name: str, subject: str, args: Sequence[Any], values: Mapping[str, Any]
-) -> Callable[[Any], Any]:
+    module, (args, values) = module_in(file, "a law"), given
     law = getattr(module, name, None)
     if law is None:
         functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
-        raise InputError(f"has no law {name!r}{nearest(name, functions)}")
+        problem = InputError(f"has no law {name!r}{nearest(name, functions)}")
+        problem.where = file.name
+        raise problem
     if (args or values) and callable(law):
         law = partial(law, *args, **values)
-    checks.function(name, law, subject)
+    try:
+        checks.function(name, law, subject)
+    except InputError as error:
+        error.where = file.name
+        raise
     return cast("Callable[[Any], Any]", law)

@@ -2,55 +2,31 @@
 
 from __future__ import annotations
 
-import dataclasses
-import difflib
 import inspect
 import sys
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Protocol
+from typing import Any
 from warnings import catch_warnings, simplefilter
 
 from mars2d.core import checks
 from mars2d.core.description import wrong
-from mars2d.core.errors import (
-    InputError,
-    LawError,
-    Mars2dError,
-    likely,
-    nearest,
-    shown,
-)
+from mars2d.core.errors import InputError, LawError, Mars2dError, likely, nearest, shown
 from mars2d.core.files import file_beside, files_read, note_file
 from mars2d.core.hints import described
+from mars2d.core.streams import check_seed
 from mars2d.core.usercode import called, quiet
-from mars2d.scenario import law_parameters, parameters, toml_file
+from mars2d.scenario import parameters, toml_file
 from mars2d.scenario.code_file import law_in, line_in, module_in
 from mars2d.scenario.examples import examples
-from mars2d.scenario.law_parameters import PREFIX
-from mars2d.scenario.map_option import MapOption, reading_options
-from mars2d.scenario.options import override
-from mars2d.scenario.parameters import Parameter
+from mars2d.scenario.options import MapOption, override, reading_options
+from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.scenario.policy import SUFFIX
 from mars2d.scenario.prediction import Prediction
 from mars2d.scenario.scenario import Scenario
-
-
-class Run(Protocol):
-    """A record, as far as it decides whether it can be compared with predictions."""
-
-    @property
-    def finished(self) -> bool:
-        """Whether it went on to its end."""
-
-    @property
-    def interventions(self) -> Sequence[object]:
-        """What was done by hand."""
-
-    def __len__(self) -> int: ...
 
 
 @dataclass(frozen=True)
@@ -105,7 +81,7 @@ class Experiment:
         Raises InputError, as `open_experiment` does.
         """
         if self.opened is None:
-            return open_experiment(self.scenario, options, self.control)
+            return open_experiment(self.scenario, options, self.control, self.seed)
         return self.opened(options)
 
     def decides_as(self, other: Experiment) -> bool:
@@ -116,7 +92,7 @@ class Experiment:
         return (
             self.source.written == other.source.written
             and len(self._laws) == len(other._laws)
-            and all(map(law_parameters.same, self._laws, other._laws))
+            and all(map(parameters.same, self._laws, other._laws))
             and self.scenario.addons == other.scenario.addons
         )
 
@@ -127,25 +103,17 @@ class Experiment:
         later change its fields and laws, but no parameters of a function.
         """
         laws = {r.name: r.controller for r in self.scenario.robots if r.name not in given}
-        robots = [r.replace(controller=laws.get(r.name, r.controller)) for r in scenario.robots]
+        drawn = scenario.with_laws([laws.get(r.name, r.controller) for r in scenario.robots])
 
         def opened(options: Mapping[str, Any]) -> Experiment:
-            fields, of_laws = _split({k: v for k, v in options.items() if before.get(k) != v})
+            of_scenario, of_laws = _split({k: v for k, v in options.items() if before.get(k) != v})
             again = self.with_options({**before, **of_laws}) if self.alone or of_laws else self
             again = again.redrawn(scenario, given)
-            set_too = _set(again.scenario, fields, None)
-            return dataclasses.replace(
-                again, scenario=set_too, options=options, opened=opened, plain=again
-            )
+            set_too = override(again.scenario, of_scenario)
+            return replace(again, scenario=set_too, options=options, opened=opened, plain=again)
 
-        before = self.options
-        return dataclasses.replace(
-            self,
-            scenario=scenario.replace(robots=robots),
-            source=dataclasses.replace(self.source, function=None),
-            opened=opened,
-            plain=None,
-        )
+        before, source = self.options, replace(self.source, function=None)
+        return replace(self, scenario=drawn, source=source, opened=opened, plain=None)
 
     def parameters(self, body: int | None = None) -> list[Parameter]:
         """Return the numbers that can be set: of the scenario function, and of laws.
@@ -159,7 +127,7 @@ class Experiment:
         made, given = self.source.function, self.options
         own = [] if made is None else [*parameters.of_arguments(made, given, self.seed)]
         names = {each.name for each in own}
-        laws = law_parameters.of_laws(self._laws, plain._laws)
+        laws = parameters.of_laws(self._laws, plain._laws)
         return own + [each for each in laws if each.name.rpartition(".")[2] not in names]
 
     @property
@@ -167,14 +135,7 @@ class Experiment:
         """The team's law, then those of the robots."""
         return [self.control, *(robot.controller for robot in self.scenario.robots)]
 
-    def _with_laws(self, settings: Mapping[str, Any]) -> Experiment:
-        """Return the experiment with other values of its laws' arguments."""
-        control, *own = law_parameters.with_settings(self._laws, settings)
-        robots = zip(self.scenario.robots, own, strict=True)
-        scenario = self.scenario.replace(robots=[r.replace(controller=law) for r, law in robots])
-        return dataclasses.replace(self, scenario=scenario, control=control)
-
-    def predictions(self, record: Run) -> tuple[Prediction, ...]:
+    def predictions(self, record: Any) -> tuple[Prediction, ...]:
         """Return the predictions that `checks` compares with a run; none without `checks`.
 
         There are none for a run that was cut short, has not a single step, or was changed by hand.
@@ -183,7 +144,7 @@ class Experiment:
         """
         return tuple(self._checked(record)) if record.finished else ()
 
-    def predictions_so_far(self, record: Run) -> tuple[tuple[Prediction, ...], LawError | None]:
+    def predictions_so_far(self, record: Any) -> tuple[tuple[Prediction, ...], LawError | None]:
         """Return the predictions for a run that goes on, and the error that ended `checks`, if any.
 
         `checks` may need what has not happened yet: what it returned before its error counts. What
@@ -200,7 +161,7 @@ class Experiment:
             return tuple(predictions), error
         return tuple(predictions), None
 
-    def _checked(self, record: Run) -> Iterator[Prediction]:
+    def _checked(self, record: Any) -> Iterator[Prediction]:
         """Yield the predictions that `checks` makes of a record, if it can be compared."""
         checks = self.source.checks
         if checks is None or record.interventions or len(record) < 2:
@@ -208,10 +169,9 @@ class Experiment:
         expected = "expected a list of Prediction(name, predicted, measured, tolerance)"
         with called("checks", checks):
             made = checks(record)
-            if made is None:
-                raise LawError(f"checks returned nothing: {expected}")
             if isinstance(made, (str, bytes, Mapping)) or not isinstance(made, Iterable):
-                raise LawError(f"checks returned {shown(made)}: {expected}")
+                found = "nothing" if made is None else shown(made)
+                raise LawError(f"checks returned {found}: {expected}")
             for k, prediction in enumerate(made):  # which runs a generator
                 if not isinstance(prediction, Prediction):
                     raise LawError(f"checks returned {shown(prediction)} as item {k}: {expected}")
@@ -239,30 +199,31 @@ def open_experiment(
     """
     if options is not None and not isinstance(options, Mapping):
         raise wrong("options", options, "a dict, such as {'sampling_time': 0.5}")
-    given = dict(options or {})
+    given, seed = dict(options or {}), None if seed is None else check_seed(seed)
     rest, of_laws = _split(given)
     with files_read() as files:
         plain, chart = _opened(source, rest, control, seed)
         try:
-            scenario = _set(plain.scenario, rest, chart)
+            scenario = chart.override(plain.scenario, rest) if chart else plain.scenario
+            scenario = scenario if chart else override(scenario, rest)
             scenario = scenario if seed is None else scenario.started(seed)
-            same = scenario is plain.scenario
-            experiment = plain if same else dataclasses.replace(plain, scenario=scenario)
+            experiment = replace(plain, scenario=scenario)
             if of_laws:
-                experiment = experiment._with_laws(of_laws)
+                team, *own = parameters.laws_with(experiment._laws, of_laws)
+                experiment = replace(plain, scenario=scenario.with_laws(own), control=team)
         except Mars2dError as error:
             error.where = error.where or plain.source.name or None
             raise
     read = files if control is None else ()
     written = {path: path.stat().st_mtime_ns for path in read if path.exists()}
-    return dataclasses.replace(
+    return replace(
         experiment,
-        source=dataclasses.replace(experiment.source, written=written),
+        source=replace(experiment.source, written=written),
         options=given,
         seed=seed,
         opened=partial(open_experiment, source, control=control, seed=seed),
         alone=control is None and isinstance(source, (str, Path)),
-        plain=None if experiment is plain else plain,
+        plain=None if scenario is plain.scenario and not of_laws else plain,
     )
 
 
@@ -301,34 +262,35 @@ def _opened(
     try:
         chart = MapOption.popped(options, Path(name))
         scenario, function, chart = _scenario_of(module, options, chart, seed)
-        own = getattr(module, "control", None)
+        own, check = getattr(module, "control", None), getattr(module, "checks", None)
         if own is not None:
             checks.function("control", own, "the world")
-        check = getattr(module, "checks", None)
         if check is not None:
             checks.function("checks", check, "the record")
         scopes = _scopes_of(module)
     except Mars2dError as error:
         error.where = error.where or Path(name).name
         raise
-    summary = (module.__doc__ or "").strip().partition("\n")[0]
-    lies = Path(name).absolute() if isinstance(source, (str, Path)) else None
-    functions = {
-        key: value
-        for key, value in vars(module).items()
-        if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
-    }
-    said = Source(Path(name).name, lies, summary, check, function, functions, scopes)
+    said = Source(
+        Path(name).name,
+        Path(name).absolute() if isinstance(source, (str, Path)) else None,
+        (module.__doc__ or "").strip().partition("\n")[0],
+        check,
+        function,
+        {
+            key: value
+            for key, value in vars(module).items()
+            if inspect.isfunction(value) and value.__module__ == module.__name__ and key[0] != "_"
+        },
+        scopes,
+    )
     return Experiment(scenario, own if control is None else control, said), chart
 
 
 def _scopes_of(module: ModuleType) -> tuple[str | Callable[[Any], Any], ...]:
     """Return the items of a module's list ``scopes``: names of columns, and functions."""
-    given = getattr(module, "scopes", ())
     expected = "a list of columns, such as 'speed', and functions of the record"
-    if isinstance(given, (str, Mapping)) or not isinstance(given, Iterable):
-        raise wrong("scopes", given, expected)
-    scopes = tuple(given)
+    scopes = tuple(checks.items_of("scopes", getattr(module, "scopes", ()), expected))
     for k, each in enumerate(scopes):
         if not isinstance(each, str):
             checks.function(f"scopes[{k}]", each, "the record")
@@ -382,9 +344,8 @@ def _find(source: str | Path) -> Path:
         return known[str(source)]
     if path.exists():
         kind = "a folder" if path.is_dir() else "not a file"  # a pipe, which may never end
-        raise InputError(
-            f"{path}: {kind}; expected an experiment, a file that ends in .py or .toml"
-        )
+        expected = "an experiment, a file that ends in .py or .toml"
+        raise InputError(f"{path}: {kind}; expected {expected}")
     files = path.parent.iterdir() if path.parent.is_dir() else ()
     beside = [str(file) for file in files if file.suffix in (".py", ".toml")]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"
@@ -399,18 +360,13 @@ def _scenario_of(
 
     Options that the function takes are taken out, and so is the map.
     """
-    names = [name for name in vars(module) if not name.startswith("__")]
     if not hasattr(module, "scenario"):
-        close = difflib.get_close_matches("scenario", set(names) - {"Scenario"}, n=1)
-        hint = f"; it has a {close[0]!r}" if close else ""
+        meant = likely("scenario", {*vars(module)} - {"Scenario"})
         raise InputError(
-            f"has no `scenario`: an experiment's file needs `scenario = Scenario(...)`{hint}"
+            f"has no `scenario`: an experiment's file needs `scenario = Scenario(...)`{meant}"
         )
     scenario, function = module.scenario, None
-    if isinstance(scenario, type):
-        kind = scenario.__name__
-        raise InputError(f"scenario = {kind}: expected an object; write {kind}(...)")
-    if callable(scenario) and not isinstance(scenario, Scenario):
+    if callable(scenario) and not isinstance(scenario, (type, Scenario)):
         function, takes = scenario, inspect.signature(scenario).parameters
         if chart is not None and "map" in takes:
             options["map"] = chart.value_for(takes["map"].default)
@@ -418,37 +374,26 @@ def _scenario_of(
         if seed is not None and "seed" in takes:
             options.setdefault("seed", seed)
         scenario = _call_scenario(function, options)
-    if not isinstance(scenario, Scenario):
-        raise InputError(f"scenario = {shown(scenario)}: expected a Scenario, or a function of one")
+    checks.instance(Scenario, "Scenario(robots=[...]), or a function of one")("scenario", scenario)
     return scenario, function, chart
-
-
-def _set(scenario: Scenario, options: Mapping[str, Any], chart: MapOption | None) -> Scenario:
-    """Return the scenario with the options set, and on a map if one is given."""
-    return override(scenario, options) if chart is None else chart.override(scenario, options)
 
 
 def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any:
     """Call a scenario function with those of the options that are its parameters."""
     takes, numeric = inspect.signature(function).parameters, parameters.arguments_of(function)
     chosen = {name: options.pop(name) for name in list(options) if name in takes}
-    fields = {f.name for f in dataclasses.fields(Scenario)}
+    known_fields = [f.name for f in fields(Scenario)]
     for name in options:
-        if name.partition(".")[0] not in fields:
-            known = [*takes, *fields, *(f"map.{option}" for option in reading_options())]
+        if name.partition(".")[0] not in known_fields:
+            known = [*takes, *known_fields, *(f"map.{option}" for option in reading_options())]
             raise InputError(f"there is no option {name!r}{nearest(name, known)}")
-    missing = [
-        name
-        for name, p in takes.items()
-        if p.default is p.empty
-        and name not in chosen
-        and p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)
-    ]
-    if missing:
-        raise InputError(
-            f"scenario({', '.join(takes)}) needs {missing[0]!r}: give it a default, "
-            f"or set it with --set {missing[0]}=..."
-        )
+    for name, p in takes.items():
+        several = p.kind in (p.VAR_POSITIONAL, p.VAR_KEYWORD)
+        if p.default is p.empty and name not in chosen and not several:
+            raise InputError(
+                f"scenario({', '.join(takes)}) needs {name!r}: give it a default, "
+                f"or set it with --set {name}=..."
+            )
     for name, value in chosen.items():
         if name in numeric:
             numeric[name].check(f"scenario({name})", value)
@@ -458,9 +403,7 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
     try:
         return function(**chosen)
     except (Exception, SystemExit) as error:
-        problem: Mars2dError = InputError(described(error))
-        if isinstance(error, Mars2dError):
-            problem = error
+        problem = error if isinstance(error, Mars2dError) else InputError(described(error))
         code = getattr(function, "__code__", None)
         if code is not None and problem.where is None:
             unsaid = {k: v for k, v in chosen.items() if str(v) not in str(problem)}

@@ -6,16 +6,9 @@ import dataclasses
 from collections.abc import Collection
 from typing import Any
 
-from mars2d.bodies.props.base import Prop
 from mars2d.core.description import Description
 from mars2d.core.usercode import name_of
-from mars2d.scenario.changes import (
-    FREE,
-    FREE_OF_BODIES,
-    FREE_OF_JOINTS,
-    FREE_OF_ROBOTS,
-    check_same,
-)
+from mars2d.scenario.changes import FREE, FREE_OF_BODIES, FREE_OF_JOINTS, FREE_OF_ROBOTS, check_same
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
@@ -54,32 +47,7 @@ def check_alike(before: Scenario, after: Scenario) -> None:
 
     Laws may have changed, and what `mars2d.scenario.changes` allows.
     """
-    there = {addon.key: addon for addon in before.addons}
-    addons = [_recognised(there.get(addon.key), addon) for addon in after.addons]
-    changes: dict[str, Any] = {"addons": addons}
-    for name in ("robots", "props"):
-        parts = getattr(before, name), getattr(after, name)
-        if len(parts[0]) == len(parts[1]):
-            changes[name] = [_body(one, other) for one, other in zip(*parts, strict=True)]
-    for field in dataclasses.fields(Scenario):
-        if field.name not in changes:
-            one, other = getattr(before, field.name), getattr(after, field.name)
-            changes[field.name] = _recognised(one, other)
-    check_same(before, after.replace(**changes))
-
-
-def _recognised(before: Any, after: Any) -> Any:
-    return before if alike(before, after) else after
-
-
-def _body(before: Robot | Prop, after: Robot | Prop) -> Robot | Prop:
-    """Return a robot or prop as before in all fields that are alike, except its law."""
-    if type(before).__qualname__ != type(after).__qualname__:
-        return after
-    names = [f.name for f in dataclasses.fields(after) if f.name != "controller"]
-    return before.replace(
-        **{name: _recognised(getattr(before, name), getattr(after, name)) for name in names}
-    )
+    check_same(before, after, alike)
 
 
 def carried(fresh: Scenario, kept: Scenario, given: Collection[str | None] = ()) -> Scenario:
@@ -91,7 +59,7 @@ def carried(fresh: Scenario, kept: Scenario, given: Collection[str | None] = ())
     read = {addon.key: addon for addon in fresh.addons}
     return fresh.replace(
         **{name: getattr(kept, name) for name in WHOLE},
-        addons=[_recognised(read.get(a.key), a) if a.key in read else a for a in kept.addons],
+        addons=[read[a.key] if alike(read.get(a.key), a) else a for a in kept.addons],
         **{
             name: [
                 one.replace(**_different(one, other, one, free | _given(one, given)))

@@ -12,7 +12,6 @@ from math import isfinite
 import numpy as np
 
 from mars2d.bodies.constraints import (
-    Constraint,
     FixedDistance,
     MaxDistance,
     Pin,
@@ -73,20 +72,20 @@ def check_bodies(bodies: Sequence[Rigid], material: Mapping[str, str], max_overl
         _check_motion(body, min(MAX_SPEED, max_overlap / MIN_CROSSING))
     lightest = min(bodies, key=lambda body: body.inertia.mass)
     heaviest = max(bodies, key=lambda body: body.inertia.mass)
-    if heaviest.inertia.mass > MASS_RATIO * lightest.inertia.mass * (1 + 1e-12):
-        hint = _by_material(heaviest, lightest, material)
+    least, most = lightest.inertia.mass, heaviest.inertia.mass
+    if most > MASS_RATIO * least * (1 + 1e-12):
         raise InputError(
-            f"{heaviest.kind}.mass: {heaviest.name} has {heaviest.inertia.mass:g} kg and "
-            f"{lightest.name} {lightest.inertia.mass:g} kg; "
-            f"contacts hold a ratio of at most {MASS_RATIO:g}{hint}"
+            f"{heaviest.kind}.mass: {heaviest.name} has {most:g} kg and {lightest.name} {least:g} "
+            f"kg; contacts hold a ratio of at most {MASS_RATIO:g}"
+            + _by_material(heaviest, lightest, material)
         )
     thinnest = min(bodies, key=lambda body: body.shape.thickness)
     largest = max(bodies, key=lambda body: body.shape.bound[1])
-    if 2 * largest.shape.bound[1] > SIZE_RATIO * thinnest.shape.thickness:
+    long, thin = 2 * largest.shape.bound[1], thinnest.shape.thickness
+    if long > SIZE_RATIO * thin:
         raise InputError(
-            f"{largest.kind} {largest.name} is {2 * largest.shape.bound[1]:g} m long and "
-            f"{thinnest.kind} {thinnest.name} {thinnest.shape.thickness:g} m thin; "
-            f"contacts hold a ratio of at most {SIZE_RATIO:g}"
+            f"{largest.kind} {largest.name} is {long:g} m long and {thinnest.kind} {thinnest.name} "
+            f"{thin:g} m thin; contacts hold a ratio of at most {SIZE_RATIO:g}"
         )
 
 
@@ -132,18 +131,17 @@ def _check_motion(body: Rigid, fastest: float) -> None:
 
 def _by_material(heaviest: Rigid, lightest: Rigid, material: Mapping[str, str]) -> str:
     """Return how a mass that a material gives can be changed."""
-    if heaviest.name in material:
-        times = 1.05 * heaviest.inertia.mass / lightest.inertia.mass / MASS_RATIO
+    least, most = lightest.inertia.mass, heaviest.inertia.mass
+    if (made_of := material.get(heaviest.name)) is not None:
         return (
-            f". {heaviest.name} is of {material[heaviest.name]}: give its mass, "
-            f"or make its height {times:.2g} times smaller"
+            f". {heaviest.name} is of {made_of}: give its mass, or make its height "
+            f"{1.05 * most / least / MASS_RATIO:.2g} times smaller"
         )
-    if lightest.name in material:
-        return f". {lightest.name} is of {material[lightest.name]}: give its mass, or more height"
-    most, least = MASS_RATIO * lightest.inertia.mass, heaviest.inertia.mass / MASS_RATIO
+    if (made_of := material.get(lightest.name)) is not None:
+        return f". {lightest.name} is of {made_of}: give its mass, or more height"
     return (
-        f": set the mass of {heaviest.name} to {most:.3g} kg or less, "
-        f"or that of {lightest.name} to {least:.3g} kg or more"
+        f": set the mass of {heaviest.name} to {MASS_RATIO * least:.3g} kg or less, "
+        f"or that of {lightest.name} to {most / MASS_RATIO:.3g} kg or more"
     )
 
 
@@ -190,88 +188,60 @@ def check_ends(where: str, joint: Joint, names: Collection[str]) -> None:
     for field in ("a", "b"):
         name = getattr(joint, field)
         if name is not None and name not in names:
-            hint = nearest(name, names)
-            raise wrong(f"{where}.{field}", name, f"the name of a robot or prop{hint}")
+            near = nearest(name, names)
+            raise wrong(f"{where}.{field}", name, f"the name of a robot or prop{near}")
     if joint.a == joint.b:
         raise wrong(f"{where}.b", joint.b, f"another body than a, {joint.a!r}")
 
 
 def check_joint(where: str, attached: AttachedJoint, bodies: Sequence[Rigid]) -> None:
     """Refuse a joint that would pull its bodies at once, or too fast for the substeps."""
+    joint = attached.joint
     for field, index in (("a", attached.a), ("b", attached.b)):
-        anchor = getattr(attached.joint, f"anchor_{field}")
-        if index >= 0 and not norm(*anchor) <= MAX_ARM * bodies[index].shape.reach:
-            most = MAX_ARM * bodies[index].shape.reach
-            raise wrong(
-                f"{where}.anchor_{field}", anchor,
-                f"a point within {most:.4g} m of {bodies[index].name}'s centre of mass",
-            )  # fmt: skip
+        anchor, body = getattr(joint, f"anchor_{field}"), bodies[index]
+        if index >= 0 and norm(*anchor) > (most := MAX_ARM * body.shape.reach):
+            expected = f"a point within {most:.4g} m of {body.name}'s centre of mass"
+            raise wrong(f"{where}.anchor_{field}", anchor, expected)
+    apart, ends = attached.apart(bodies), _ends(attached, bodies)
     for constraint in attached.constraints:
-        _check_constraint(where, attached, constraint, bodies)
-
-
-def _check_constraint(
-    where: str, attached: AttachedJoint, constraint: Constraint, bodies: Sequence[Rigid]
-) -> None:
-    apart = attached.apart(bodies)
-    match constraint:
-        case Pin() if apart > 1e-6:
-            raise InputError(
-                f"{where}: its anchors, {_ends(attached, bodies)}, lie {apart:.3g} m apart at the "
-                "start; a hinge is one point"
-            )
-        case MaxDistance(length=length):
-            _check_length(where, attached, length, bodies, "at least that")
-        case FixedDistance(length=length):
-            _check_length(where, attached, length, bodies, "just that")
-        case SpringDamper(length=length):
-            _check_spring(where, attached, constraint, bodies)
-            speed = abs(apart - length) * attached.frequency(constraint, bodies)
+        match constraint:
+            case Pin() if apart > 1e-6:
+                raise InputError(
+                    f"{where}: its anchors, {ends}, lie {apart:.3g} m apart at the start; a hinge "
+                    "is one point"
+                )
+            case MaxDistance(length=length) | FixedDistance(length=length):
+                if length < MIN_LENGTH and getattr(joint, "length", None) is None:
+                    hint = "use a Hinge, or give a length"
+                    raise InputError(f"{where}: its ends start at one point; {hint}")
+                if length < MIN_LENGTH:
+                    expected = f"a number >= {MIN_LENGTH:g} [m]; or use a Hinge"
+                    raise wrong(f"{where}.length", length, expected)
+                rod = isinstance(constraint, FixedDistance)
+                least, most = length * (1 - 1e-9) - 1e-9, length * (1 + 1e-9) + 1e-9
+                if apart > most or (rod and apart < least):
+                    raise InputError(
+                        f"{where}.length = {length:g}: its ends, {ends}, start {apart:.6g} m "
+                        f"apart; expected {'just' if rod else 'at least'} that, or None"
+                    )
+            case SpringDamper(stiffness=stiffness) | TurningSpring(stiffness=stiffness):
+                quick = attached.frequency(constraint, bodies)
+                if not quick <= MAX_FREQUENCY:
+                    raise wrong(
+                        f"{where}.stiffness", stiffness,
+                        f"at most {stiffness * (MAX_FREQUENCY / quick) ** 2:.3g} for bodies as "
+                        f"light as these: they would swing at {quick:.3g} rad/s",
+                    )  # fmt: skip
+        if isinstance(constraint, SpringDamper):
+            speed = abs(apart - constraint.length) * quick
             if not (isfinite(speed) and speed <= MAX_SPEED):
                 raise wrong(
-                    f"{where}.rest_length", length,
+                    f"{where}.rest_length", constraint.length,
                     f"nearer to the {apart:.4g} m at the start: it would throw its bodies at "
                     f"{speed:.3g} m/s, and {MAX_SPEED:g} m/s is the most",
                 )  # fmt: skip
-        case TurningSpring():
-            _check_spring(where, attached, constraint, bodies)
 
 
 def _ends(attached: AttachedJoint, bodies: Sequence[Rigid]) -> str:
     a, b = ("({:.6g}, {:.6g})".format(*end) for end in attached.ends(bodies))
     return f"{a} and {b} in the world"
-
-
-def _check_length(
-    where: str, attached: AttachedJoint, length: float, bodies: Sequence[Rigid], least: str
-) -> None:
-    """Refuse a rope that does not reach from end to end, and a rod of another length."""
-    apart = attached.apart(bodies)
-    too_short = apart > length * (1 + 1e-9) + 1e-9
-    too_long = least == "just that" and apart < length * (1 - 1e-9) - 1e-9
-    if length < MIN_LENGTH:
-        if getattr(attached.joint, "length", None) is None:
-            raise InputError(f"{where}: its ends start at one point; use a Hinge, or give a length")
-        raise wrong(f"{where}.length", length, f"a number >= {MIN_LENGTH:g} [m]; or use a Hinge")
-    if too_short or too_long:
-        raise InputError(
-            f"{where}.length = {length:g}: its ends, {_ends(attached, bodies)}, start "
-            f"{apart:.6g} m apart; expected {least}, or None"
-        )
-
-
-def _check_spring(
-    where: str,
-    attached: AttachedJoint,
-    spring: SpringDamper | TurningSpring,
-    bodies: Sequence[Rigid],
-) -> None:
-    """Refuse a spring that swings too fast for the substeps."""
-    quick = attached.frequency(spring, bodies)
-    if not quick <= MAX_FREQUENCY:
-        most = spring.stiffness * (MAX_FREQUENCY / quick) ** 2
-        raise wrong(
-            f"{where}.stiffness", spring.stiffness,
-            f"at most {most:.3g} for bodies as light as these: they would swing at "
-            f"{quick:.3g} rad/s",
-        )  # fmt: skip

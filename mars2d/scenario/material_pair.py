@@ -65,7 +65,5 @@ def check_once(field: str, pairs: Sequence[MaterialPair]) -> None:
     """Refuse two pairs of the same materials."""
     for (i, one), (k, other) in combinations(enumerate(pairs), 2):
         if one.names == other.names:
-            raise InputError(
-                f"{field}[{k}]: {other.a!r} and {other.b!r} are also {field}[{i}]; expected each "
-                "pair once"
-            )
+            twice = f"{other.a!r} and {other.b!r} are also {field}[{i}]"
+            raise InputError(f"{field}[{k}]: {twice}; expected each pair once")

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arithmetic import norm, norms
+from mars2d.core.checks import items_of
 from mars2d.core.description import Description, entry, integer, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
 from mars2d.core.plane import WITHIN
@@ -69,28 +70,26 @@ def _checked(of: Callable[[Any, Float], Neighbours]) -> Callable[[Any, Float], N
         try:
             rows = [list(row) for row in found]
         except TypeError:
-            raise LawError(
-                f"{name} returned {shown(found)}: expected for each robot a list of its "
-                "neighbours' indices"
-            ) from None
+            expected = "expected for each robot a list of its neighbours' indices"
+            raise LawError(f"{name} returned {shown(found)}: {expected}") from None
         if len(rows) != n:
             raise LawError(f"{name} returned {len(rows)} lists: expected {n}, one for each robot")
-        return [_indices(f"{name} for robot {i}", i, row, n) for i, row in enumerate(rows)]
+        for i, row in enumerate(rows):
+            lists = f"{name} for robot {i} lists"
+            for j in row:
+                if not _whole(j) or not 0 <= j < n:
+                    raise LawError(f"{lists} {shown(j)}: expected an index from 0 to {n - 1}")
+            if i in row:
+                raise LawError(f"{lists} {i}: no robot is its own neighbour")
+            if len({*row}) < len(row):
+                raise LawError(f"{lists} {shown(row)}: expected each neighbour once")
+        return [[int(j) for j in row] for row in rows]
 
     return checked
 
 
-def _indices(name: str, robot: int, row: list[Any], robots: int) -> list[int]:
-    """Return a robot's neighbours as integers. Raises LawError for anything else."""
-    for j in row:
-        whole = isinstance(j, numbers.Integral) and not isinstance(j, bool)
-        if not whole or not 0 <= j < robots:
-            raise LawError(f"{name} lists {shown(j)}: expected an index from 0 to {robots - 1}")
-        if j == robot:
-            raise LawError(f"{name} lists {j}: no robot is its own neighbour")
-    if len(set(row)) < len(row):
-        raise LawError(f"{name} lists {shown(row)}: expected each neighbour once")
-    return [int(j) for j in row]
+def _whole(value: object) -> bool:
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
 class Everyone(Neighbourhood):
@@ -212,44 +211,32 @@ def _delaunay_edges(position: Float) -> list[tuple[int, int]]:
     if np.abs(x * y[far] - y * x[far]).max() <= FLAT * length**2:  # all on one line
         order = np.argsort(x * x[far] + y * y[far], kind="stable").tolist()
         return list(pairwise(order))
-    points = np.array([x, y]).T
-    triangles = Triangles(points)
-    edges = _without_flat(triangles.simplices, points, FLAT * length)
+    triangles = Triangles(np.array([x, y]).T)
+    edges = _without_flat(triangles, FLAT * length)
     # Robots in one place: all but one of them are left out of the triangles.
     return edges + [(i, k) for i, _, k in triangles.coplanar.tolist()]
 
 
-def _without_flat(simplices: NDArray[Any], points: Float, least: float) -> list[tuple[int, int]]:
-    """Return the edges of triangles (m, 3), without the long sides of flat ones at the rim.
+def _without_flat(triangles: Any, least: float) -> list[tuple[int, int]]:
+    """Return the edges of triangles, without the long sides of flat ones at the rim.
 
     By rounding, robots in a row get such triangles: their cells meet a million kilometres away.
     least: the smallest height of a triangle that is not flat, metres.
     """
-    owners: dict[tuple[int, int], set[int]] = {}
-    flat: dict[int, list[tuple[int, int]]] = {}  # their sides, the longest first
-    for t, (a, b, c) in enumerate(np.sort(simplices).tolist()):
-        (ax, ay), (bx, by), (cx, cy) = points[[a, b, c]].tolist()
-        sides = {
-            (a, b): norm(bx - ax, by - ay),
-            (b, c): norm(cx - bx, cy - by),
-            (a, c): norm(cx - ax, cy - ay),
-        }
-        for edge in sides:
-            owners.setdefault(edge, set()).add(t)
-        ordered = sorted(sides, key=sides.__getitem__, reverse=True)
-        height = abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / sides[ordered[0]]
-        if height <= least:
-            flat[t] = ordered
-    todo = list(flat)
-    while todo:
-        t = todo.pop()
-        if t in flat and owners[flat[t][0]] == {t}:
-            long, *others = flat.pop(t)
-            del owners[long]
-            for edge in others:
-                owners[edge].discard(t)
-                todo += owners[edge]
-    return list(owners)
+    corners = np.array(triangles.simplices)  # (m, 3)
+    sides = np.array([corners[:, [1, 2]], corners[:, [0, 2]], corners[:, [0, 1]]])  # opposite
+    (x, y), m = triangles.points.T[:, sides], range(len(corners))
+    lengths = norms(x[..., 1] - x[..., 0], y[..., 1] - y[..., 0])
+    long = lengths.argmax(axis=0)
+    ax, ay = triangles.points[corners[:, 0]].T
+    area = (x[0, :, 0] - ax) * (y[0, :, 1] - ay) - (x[0, :, 1] - ax) * (y[0, :, 0] - ay)
+    flat = np.abs(area) <= least * lengths[long, m]
+    beyond = triangles.neighbors[m, long]  # -1 at the rim
+    there = np.append(np.ones(len(corners), bool), False)
+    while (rim := flat & there[:-1] & ~there[beyond]).any():
+        there[:-1] &= ~rim
+    gone = {tuple(sorted(edge)) for edge in sides[long, m][~there[:-1]].tolist()}
+    return list({tuple(sorted(edge)) for edge in sides.reshape(-1, 2).tolist()} - gone)
 
 
 EXPECTED = (
@@ -277,26 +264,21 @@ def _of_matrix(name: str, value: Any) -> tuple[int, Edges]:
     n, columns = matrix.shape
     if n != columns or n == 0:
         raise InputError(f"{name}: a matrix {n} x {columns}: expected as many columns as rows")
-    for i, j in np.argwhere(~np.isfinite(matrix))[:1].tolist():
-        raise wrong(f"{name}[{i}][{j}]", matrix[i, j].item(), "a finite number, 0 for no edge")
+    if not np.isfinite(matrix).all():
+        raise wrong(name, value, "finite numbers, 0 for no edge")
     return _of_pairs(name, n, np.argwhere(matrix != 0).tolist())
 
 
 def _of_networkx(name: str, graph: Any) -> tuple[int, Edges]:
-    try:
-        nodes, edges = list(graph.nodes), [(i, j) for i, j in graph.edges()]
-        directed = bool(graph.is_directed())
-    except (TypeError, ValueError, AttributeError):  # of something that only looks like one
-        raise wrong(name, graph, EXPECTED) from None
-    n = len(nodes)
-    if not all(map(_whole, nodes)) or {int(v) for v in nodes} != {*range(n)} or n == 0:
+    nodes, edges = list(graph.nodes), [(i, j) for i, j in graph.edges()]
+    if not all(map(_whole, nodes)) or {*nodes} != {*range(len(nodes))}:
         raise InputError(
             f"{name}: its nodes are {shown(nodes)}: expected 0, 1, 2, ..., the robots' indices; "
             "networkx.convert_node_labels_to_integers makes them so"
         )
-    if not directed:
+    if not graph.is_directed():
         edges += [(j, i) for i, j in edges]
-    return _of_pairs(name, n, edges)
+    return _of_pairs(name, len(nodes), edges)
 
 
 def _of_pairs(name: str, nodes: Any, edges: Any) -> tuple[int, Edges]:
@@ -304,24 +286,16 @@ def _of_pairs(name: str, nodes: Any, edges: Any) -> tuple[int, Edges]:
     if n < 1:
         raise wrong(name, (nodes, edges), "at least one node")
     expected = f"a list of edges (i, j), with i and j from 0 to {n - 1}"
-    if isinstance(edges, (str, bytes, dict)) or not isinstance(edges, Iterable):
-        raise wrong(f"{name}: edges", edges, expected)
     found = set()
-    for edge in edges:
-        try:
-            i, j = edge
-        except (TypeError, ValueError):
-            raise wrong(f"{name}: edge", edge, expected) from None
-        if not (_whole(i) and _whole(j) and 0 <= i < n and 0 <= j < n):
+    for edge in items_of(f"{name}: edges", edges, expected):
+        pair = tuple(edge) if isinstance(edge, Iterable) else ()
+        if len(pair) != 2 or not all(_whole(i) and 0 <= i < n for i in pair):
             raise wrong(f"{name}: edge", edge, expected)
+        i, j = map(int, pair)
         if i == j:
             raise InputError(f"{name}: an edge from {i} to {j}: no robot is its own neighbour")
-        found.add((int(i), int(j)))
+        found.add((i, j))
     return n, tuple(sorted(found))
-
-
-def _whole(value: object) -> bool:
-    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
 class Graph(Neighbourhood):
@@ -378,14 +352,9 @@ def neighbourhood(name: str, value: object) -> Neighbourhood:
     if isinstance(value, type) and issubclass(value, Neighbourhood):
         example = WRITTEN.get(value.__name__, f"{value.__name__}(...)")
         raise InputError(f"{name} = {value.__name__}: expected an object; write {example}")
-    if isinstance(value, str) and "(" in value:
-        raise wrong(
-            name, value,
-            "an object, and this is text: --set can't make one. Give it in the experiment, and "
-            "change its fields by --set, as neighbours.range=3",
-        )  # fmt: skip
-    if isinstance(value, str) and value.strip().lower() in map(str.lower, WRITTEN):
-        raise wrong(name, value, f"an object; write {WRITTEN[value.strip().capitalize()]}")
+    if isinstance(value, str) and (kind := value.partition("(")[0].strip().capitalize()) in WRITTEN:
+        written = f"{WRITTEN[kind]} in the file; --set changes its fields, as neighbours.range=3"
+        raise wrong(name, value, f"an object; write {written}")
     if hasattr(value, "nodes") or isinstance(value, (np.ndarray, list, tuple)):
         raise wrong(name, value, "a rule; write Graph(...) of a graph")
     raise wrong(name, value, "a rule, such as Within(2.0), Nearest(3), Delaunay() or Graph(...)")

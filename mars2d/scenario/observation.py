@@ -53,10 +53,6 @@ class Observation:
         self.parts = tuple(parts)
         self.low: Float = np.array([x for part in parts for x in part.low])
         self.high: Float = np.array([x for part in parts for x in part.high])
-        self._readers = [
-            (_read_sensor if name.startswith(SENSED) else READERS[name], name, len(low))
-            for name, low, _ in parts
-        ]
         self._posed = any(not part.name.startswith(SENSED) for part in parts)
         self._least, self._most = self.low.astype(np.float32), self.high.astype(np.float32)
         self._missing: Float = np.where(np.isfinite(self.high), self.high, 0.0)
@@ -109,14 +105,19 @@ class Observation:
         """
         look = _Look(view) if self._posed else None
         row: list[float] = []
-        for read, name, size in self._readers:
-            values = read(view, name, look)
-            if len(values) != size:
+        for name, low, _ in self.parts:
+            values = _sensed(view, name) if name.startswith(SENSED) else READERS[name](look)
+            if len(values) != len(low):
                 raise InputError(
-                    f"{name} of {view.name} has {len(values)} numbers, expected {size}"
+                    f"{name} of {view.name} has {len(values)} numbers, expected {len(low)}"
                 )
             row += values
-        return self._bounded(row)
+        if not isfinite(sum(row)):
+            numbers = np.nan_to_num(np.array(row), nan=0.0, posinf=inf, neginf=-inf)
+            row = np.where(np.isposinf(numbers), self._missing, numbers).tolist()
+        bounded = np.array(row, np.float32)
+        np.maximum(bounded, self._least, out=bounded)
+        return np.minimum(bounded, self._most, out=bounded)
 
     def check(self, view: Any) -> None:
         """Raise InputError or LawError for a robot that can't be observed so, or may not see it."""
@@ -131,44 +132,33 @@ class Observation:
                 seen[part.name]()
         self(view)
 
-    def _bounded(self, row: list[float]) -> Row:
-        if not isfinite(sum(row)):
-            values = np.array(row)
-            values = np.where(np.isnan(values), 0.0, values)
-            row = np.where(np.isposinf(values), self._missing, values).tolist()
-        bounded = np.array(row, np.float32)
-        np.maximum(bounded, self._least, out=bounded)
-        return np.minimum(bounded, self._most, out=bounded)
-
     def to_json(self) -> list[dict[str, Any]]:
         """Return the parts as JSON, with None for a bound that is infinite."""
         return [
             {
-                "name": p.name,
-                "low": [_finite(x) for x in p.low],
-                "high": [_finite(x) for x in p.high],
+                "name": part.name,
+                "low": list(map(_finite, part.low)),
+                "high": list(map(_finite, part.high)),
             }
-            for p in self.parts
+            for part in self.parts
         ]
 
     @classmethod
     def of_json(cls, given: Any) -> Self:
         """Return the observation that `to_json` has described. Raises InputError for others."""
+        parts = []
         try:
-            parts = []
             for each in given:
-                low = [-inf if x is None else float(x) for x in each["low"]]
-                high = [inf if x is None else float(x) for x in each["high"]]
-                if len(low) != len(high):
-                    raise ValueError(each)  # noqa: TRY301
-                parts.append(Part(str(each["name"]), tuple(low), tuple(high)))
+                low = tuple(-inf if x is None else float(x) for x in each["low"])
+                high = tuple(inf if x is None else float(x) for x in each["high"])
+                parts.append(Part(str(each["name"]), low, high))
         except (TypeError, KeyError, ValueError) as error:
             raise InputError(f"its observation is {shown(json.dumps(given))}") from error
-        for part in parts:
-            if part.name not in READERS and not part.name.startswith(SENSED):
-                raise InputError(
-                    f"its observation has a part {part.name!r}{nearest(part.name, READERS)}"
-                )
+        for name, low, high in parts:
+            if len(low) != len(high):
+                raise InputError(f"its observation is {shown(json.dumps(given))}")
+            if name not in READERS and not name.startswith(SENSED):
+                raise InputError(f"its observation has a part {name!r}{nearest(name, READERS)}")
         return cls(parts)
 
 
@@ -231,48 +221,43 @@ class _Look:
         dx, dy = x - self.x, y - self.y
         return self.c * dx + self.s * dy, self.c * dy - self.s * dx
 
-    def others(self, each: int) -> list[float]:
-        """Return a row with a place for each other robot, and zeros in it."""
-        return [0.0] * (each * (len(self.xs) - 1))
+    def pose(self) -> list[float]:
+        """Return the robot's own pose."""
+        return [self.x, self.y, *self.ahead]
+
+    def positions(self, each: int = 2) -> list[float]:
+        """Return a row with the neighbours' positions, zeros for other robots.
+
+        each: 4 for their headings as well.
+        """
+        row = [0.0] * (each * (len(self.xs) - 1))
+        for j in self.world.neighbour_indices(self.me):
+            at = each * (j - (j > self.me))
+            row[at], row[at + 1] = self.place(self.xs[j], self.ys[j])
+            if each == 4:
+                row[at + 2], row[at + 3] = cosine_sine(self.thetas[j] - self.turn)
+        return row
+
+    def props(self) -> list[float]:
+        """Return the positions and headings of props."""
+        row: list[float] = []
+        for x, y, theta in self.world.prop_pose.T.tolist():
+            row += *self.place(x, y), *cosine_sine(theta - self.turn)
+        return row
 
 
-def _read_sensor(view: Any, name: str, look: Any) -> list[float]:  # noqa: ARG001
+def _sensed(view: Any, name: str) -> list[float]:
     key = name[len(SENSED) :]
     reading = getattr(view.sense, key)
-    if isinstance(reading, np.ndarray):
-        return reading.ravel().tolist()
     if isinstance(reading, (bool, int, float)):
         return [float(reading)]
     return _numbers_of(reading, f"{view.name}: sensor {key!r}").tolist()  # type: ignore[no-any-return]
 
 
-def _read_positions(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
-    row, me = look.others(2), look.me
-    for j in look.world.neighbour_indices(me):
-        at = 2 * (j - (j > me))
-        row[at], row[at + 1] = look.place(look.xs[j], look.ys[j])
-    return row
-
-
-def _read_poses(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
-    row, me = look.others(4), look.me
-    for j in look.world.neighbour_indices(me):
-        at, turned = 4 * (j - (j > me)), look.thetas[j] - look.turn
-        row[at : at + 4] = *look.place(look.xs[j], look.ys[j]), *cosine_sine(turned)
-    return row
-
-
-def _read_props(view: Any, name: str, look: _Look) -> list[float]:  # noqa: ARG001
-    row: list[float] = []
-    for x, y, theta in look.world.prop_pose.T.tolist():
-        row += *look.place(x, y), *cosine_sine(theta - look.turn)
-    return row
-
-
-READERS: Mapping[str, Callable[[Any, str, Any], list[float]]] = {
-    "pose": lambda view, name, look: [look.x, look.y, *look.ahead],  # noqa: ARG005
-    "positions": _read_positions,
-    "poses": _read_poses,
-    "props": _read_props,
+READERS: Mapping[str, Callable[[Any], list[float]]] = {
+    "pose": _Look.pose,
+    "positions": _Look.positions,
+    "poses": lambda look: look.positions(4),
+    "props": _Look.props,
 }
 """How the parts of an observation are read, besides sensors."""

@@ -1,21 +1,29 @@
-"""Parameters: numbers of a scenario function, of a law or of a body that can be set, by name."""
+"""Parameters: numbers of a scenario function, of laws and of bodies that can be set, by name."""
 
 from __future__ import annotations
 
 import dataclasses
 import inspect
 import numbers
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import floor, isfinite, log10
-from typing import Annotated, Any, get_origin, get_type_hints
+from pathlib import Path
+from typing import Annotated, Any, get_origin
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import Description, number, real, text, wrong
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, nearest
 from mars2d.core.hints import described
+from mars2d.core.usercode import name_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
+
+Law = Callable[[Any], Any]
+
+PREFIX = "laws."
+"""The beginning of the names of laws' parameters: ``laws.follow.gain``."""
 
 STEPS = 100
 """A slider has at least as many steps, unless its numbers are whole."""
@@ -65,12 +73,12 @@ class Argument:
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             usual = "" if self.default is None else f"; its default is {self.default}"
             raise wrong(name, value, f"a number{usual}")
-        if self.whole and self.bounds is not None and not isinstance(value, numbers.Integral):
-            raise wrong(
-                name, value, f"a whole number from {self.bounds.low:g} to {self.bounds.high:g}"
-            )
-        if self.bounds is not None:
-            self.bounds.check(name, value)
+        if self.bounds is None:
+            return
+        if self.whole and not isinstance(value, numbers.Integral):
+            low, high = self.bounds.low, self.bounds.high
+            raise wrong(name, value, f"a whole number from {low:g} to {high:g}")
+        self.bounds.check(name, value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,13 +135,15 @@ def arguments_of(function: Callable[..., Any]) -> dict[str, Argument]:
     Raises InputError for a Range in an annotation that can't be read, and for a default beyond it.
     """
     found = {}
-    for name, parameter in _signature(function).items():
-        default = parameter.default
-        bounds, kind = _annotation(function, name, parameter.annotation)
+    for name, argument in signature_of(function).items():
+        default, kind, bounds = argument.default, argument.annotation, None
+        if get_origin(kind) is Annotated:
+            bounds = next((each for each in kind.__metadata__ if isinstance(each, Range)), None)
+            kind = kind.__origin__
         if is_number(default):
             if bounds is not None:
                 bounds.check(f"the default of {_of(function, name)}", default)
-            whole = isinstance(default, numbers.Integral) and kind in (int, inspect.Parameter.empty)
+            whole = isinstance(default, numbers.Integral) and kind in (int, argument.empty)
             found[name] = Argument(default, whole, bounds)
         elif bounds is not None:
             found[name] = Argument(None, kind is int, bounds)
@@ -151,39 +161,26 @@ def _of(function: Callable[..., Any], name: str) -> str:
     return f"{getattr(function, '__name__', 'scenario')}({name})"
 
 
-def _signature(function: Callable[..., Any]) -> Mapping[str, inspect.Parameter]:
+def signature_of(function: Callable[..., Any]) -> dict[str, inspect.Parameter]:
+    """Return the parameters of a function, none of a compiled one; those in quotes are evaluated.
+
+    Raises InputError for a Range that can't be read; other annotations are the user's business.
+    """
     try:
-        return inspect.signature(function).parameters
-    except (TypeError, ValueError):  # of a compiled function
+        found = dict(inspect.signature(function).parameters)
+    except (TypeError, ValueError):
         return {}
-
-
-def _annotation(
-    function: Callable[..., Any], name: str, annotation: Any
-) -> tuple[Range | None, object]:
-    """Return the Range in an annotation, or None, and the kind of value that it states."""
-    if isinstance(annotation, str):
-        try:
-            annotation = _meant(annotation, getattr(function, "__globals__", {}))
-        except Exception as error:
-            if "Range" not in annotation:
-                return None, None  # the annotations of others are none of our business
-            raise InputError(
-                f"{_of(function, name)}: its annotation can't be read: {described(error)}"
-            ) from error
-    if get_origin(annotation) is not Annotated:
-        return None, annotation
-    bounds = (each for each in annotation.__metadata__ if isinstance(each, Range))
-    return next(bounds, None), annotation.__origin__
-
-
-def _meant(annotation: str, names: dict[str, Any]) -> Any:
-    """Return the value of an annotation in quotes, where these names are known."""
-
-    def annotated() -> None: ...
-
-    annotated.__annotations__ = {"it": annotation}
-    return get_type_hints(annotated, names, include_extras=True)["it"]
+    for name, each in found.items():
+        if isinstance(each.annotation, str):
+            try:
+                kind = eval(each.annotation, getattr(function, "__globals__", {}))
+            except Exception as error:
+                if "Range" in each.annotation:
+                    problem = f"its annotation can't be read: {described(error)}"
+                    raise InputError(f"{_of(function, name)}: {problem}") from error
+                kind = None
+            found[name] = each.replace(annotation=kind)
+    return found
 
 
 def of_arguments(
@@ -211,8 +208,8 @@ def of_body(scenario: Scenario, plain: Scenario, body: int) -> Iterator[Paramete
     index = body - len(scenario.robots)
     family, index = ("robots", body) if index < 0 else ("props", index)
     key = str(index) if set(str(part.name)) & set(".*") else part.name
-    defaults = dict(_numbers_of(usual))
-    for name, value in _numbers_of(part):
+    defaults = {name: value for name, value, _ in _numbers_of(usual)}
+    for name, value, unit in _numbers_of(part):
         default = defaults.get(name, value)
         low, high = (0.0, 1.0) if name == "restitution" else (0.0, 2 * default)
         if "friction" in name:
@@ -220,26 +217,117 @@ def of_body(scenario: Scenario, plain: Scenario, body: int) -> Iterator[Paramete
         elif name != "restitution":
             low = high / STEPS  # they can't be 0
         bounds = min(low, value), max(high, value)
-        yield Parameter(f"{family}.{key}.{name}", value, default, *bounds, _unit_of(part, name))
+        yield Parameter(f"{family}.{key}.{name}", value, default, *bounds, unit)
 
 
-def _numbers_of(part: Robot | Prop) -> Iterator[tuple[str, float]]:
-    """Yield the fields of a body that sliders set, as far as they are numbers."""
-    yield "mass", part.inertia.mass
-    yield "friction", float(part.surface.friction)
-    yield "restitution", float(part.surface.restitution)
+def _numbers_of(part: Robot | Prop) -> Iterator[tuple[str, float, str]]:
+    """Yield name, value and unit of the fields of a body that sliders set, if they are numbers."""
+    units = {f.name: str(f.metadata.get("unit", "")) for f in dataclasses.fields(part)}
+    yield "mass", part.inertia.mass, units["mass"]
+    yield "friction", float(part.surface.friction), units["friction"]
+    yield "restitution", float(part.surface.restitution), units["restitution"]
     if isinstance(part, Prop):
-        yield "ground_friction", part.ground_friction
+        yield "ground_friction", part.ground_friction, units["ground_friction"]
         return
-    for field in dataclasses.fields(part.drive):
-        value = getattr(part.drive, field.name)
-        if (field.name.startswith("max_") or field.name in BOUNDS) and is_number(value):
-            yield f"drive.{field.name}", value
+    for f in dataclasses.fields(part.drive):
+        value = getattr(part.drive, f.name)
+        if (f.name.startswith("max_") or f.name in BOUNDS) and is_number(value):
+            yield f"drive.{f.name}", value, str(f.metadata.get("unit", ""))
 
 
-def _unit_of(part: Robot | Prop, name: str) -> str:
-    """Return the unit of a field, such as ``mass`` or ``drive.max_force``."""
-    *within, last = name.split(".")
-    holder = part.drive if within and isinstance(part, Robot) else part
-    field = next(f for f in dataclasses.fields(holder) if f.name == last)
-    return str(field.metadata.get("unit", ""))
+class _Numbers:
+    """The numbers that can be set in a law, by name; none in an object or a compiled function."""
+
+    def __init__(self, law: Law | None) -> None:
+        self.values: dict[str, float] = {}
+        self._law = law if isinstance(law, partial) else partial(law or print)
+        function = self._law.func
+        if law is None or not inspect.isroutine(function) or not (takes := signature_of(function)):
+            return
+        given = inspect.signature(function).bind_partial(*self._law.args, **self._law.keywords)
+        self._places = [*given.arguments][: len(given.args)]
+        self._arguments = arguments_of(function)
+        found: dict[str, Any] = {name: each.default for name, each in self._arguments.items()}
+        found |= {**given.arguments, **given.kwargs}
+        subject = next((name for name in takes if name not in given.arguments), "")
+        self.values = {k: v for k, v in found.items() if is_number(v) and k != subject}
+
+    def argument(self, name: str) -> Argument:
+        """Return what is known of an argument."""
+        return self._arguments.get(name, Argument())
+
+    def law_with(self, name: str, value: Any) -> Law:
+        """Return the law with another value of an argument."""
+        args, keywords = list(self._law.args), self._law.keywords
+        if name not in self._places:
+            return partial(self._law.func, *args, **{**keywords, name: value})
+        args[self._places.index(name)] = value
+        return partial(self._law.func, *args, **keywords)
+
+
+def _named(laws: Sequence[Law | None]) -> Iterator[tuple[dict[str, str], _Numbers]]:
+    """Yield the numbers of each law, and their names by those of the options that set them.
+
+    A law `control` that is not the team's is called as its file.
+    """
+    for law in laws:
+        name = "" if law is None else name_of(law)
+        code = getattr(law.func if isinstance(law, partial) else law, "__code__", None)
+        if name == "control" and law is not laws[0] and code is not None:
+            name = Path(code.co_filename).stem
+        found = _Numbers(law)
+        yield {f"{PREFIX}{name}.{each}": each for each in found.values}, found
+
+
+def same(law: Law | None, other: Law | None) -> bool:
+    """Return whether two laws do the same, if all else in their files is the same.
+
+    Only for functions and partials can that be told, without variables of an outer function.
+    """
+    if law is other or law is None or other is None:
+        return law is other
+    one, two = (each if isinstance(each, partial) else partial(each) for each in (law, other))
+    codes = [getattr(each.func, "__code__", None) for each in (one, two)]
+    closed = any(getattr(each.func, "__closure__", None) for each in (one, two))
+    given = [*one.args, *one.keywords.values()]
+    plain = all(each is None or isinstance(each, (bool, int, float, str)) for each in given)
+    alike = codes[0] is not None and codes[0] == codes[1] and not closed and plain
+    return alike and (one.args, one.keywords) == (two.args, two.keywords)
+
+
+def of_laws(laws: Sequence[Law | None], plain: Sequence[Law | None]) -> Iterator[Parameter]:
+    """Yield the parameters of laws: that of the team first, then those of the robots.
+
+    plain: the same laws as their files have them. Arguments in which laws of one name differ have
+    no one value, and are left out.
+    """
+    found: dict[str, tuple[Argument, set[float], set[float]]] = {}
+    for (names, law), before in zip(_named(laws), map(_Numbers, plain), strict=True):
+        for option, name in names.items():
+            _, values, usuals = found.setdefault(option, (law.argument(name), set(), set()))
+            values.add(law.values[name])
+            usuals.add(before.values.get(name, law.values[name]))
+    for option, (argument, values, usuals) in found.items():
+        if len(values) == len(usuals) == 1:
+            yield Parameter.of(option, values.pop(), argument, usuals.pop())
+
+
+def laws_with(laws: Sequence[Law | None], options: Mapping[str, Any]) -> list[Law | None]:
+    """Return laws with other values of their arguments; that of the team is the first.
+
+    options: by names such as ``laws.follow.gain``. Robots that share a law share the new one.
+    Raises InputError for names that no law has, and values beyond a Range.
+    """
+    made: dict[tuple[int, str], Law] = {}
+    for option, value in options.items():
+        changed, known = list(laws), list[str]()
+        for i, (names, law) in enumerate(_named(laws)):
+            known += names
+            if option in names:
+                name = names[option]
+                law.argument(name).check(option, value)
+                changed[i] = made.setdefault((id(laws[i]), option), law.law_with(name, value))
+        if option not in known:
+            raise InputError(f"there is no option {option!r}{nearest(option, known)}")
+        laws = changed
+    return list(laws)

@@ -29,9 +29,8 @@ def _enclosed(addon: Addon) -> Addon:
         picture: Picture | None = getattr(addon, "picture", None) if named else None
     except InputError:
         return addon
-    if picture is None:
-        return addon
-    return addon.replace(**{name: picture.as_text(getattr(addon, name)) for name in named})
+    changes = {} if picture is None else {n: picture.as_text(getattr(addon, n)) for n in named}
+    return addon.replace(**changes) if changes else addon
 
 
 def of_record(plain: Any, missing: list[str]) -> Any:

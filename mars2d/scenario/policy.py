@@ -52,9 +52,8 @@ class Policy:
         options.intra_op_num_threads = options.inter_op_num_threads = 1  # the same bits everywhere
         options.log_severity_level = 4
         try:
-            content = file.read_bytes()
             self._session = onnxruntime.InferenceSession(
-                content, options, providers=["CPUExecutionProvider"]
+                file.read_bytes(), options, providers=["CPUExecutionProvider"]
             )
         except OSError as error:
             raise InputError(f"{file}: {one_line(error.strerror or error)}") from error
@@ -73,21 +72,19 @@ class Policy:
             (a, b), (c, d) = action["low"], action["high"]
             self.action = Action((float(a), float(b)), (float(c), float(d)))
             self.experiment, self.robot = str(given["experiment"]), str(given["robot"])
-            observed = given["observation"]
-        except (ValueError, TypeError, KeyError):
-            self._refuse(f"has metadata {KEY!r} that can't be read{hint}")
-        try:
-            self.observation = Observation.of_json(observed)
+            self.observation = Observation.of_json(given["observation"])
         except InputError as error:
             self._refuse(str(error))
-        inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
+        except (ValueError, TypeError, KeyError):
+            self._refuse(f"has metadata {KEY!r} that can't be read{hint}")
+        (taken, *more), made = self._session.get_inputs(), self._session.get_outputs()[0]
         size = len(self.observation.low)
-        if len(inputs) != 1 or inputs[0].type != "tensor(float)" or inputs[0].shape[-1] != size:
-            found = ", ".join(f"{each.type} {each.shape}" for each in inputs)
+        if more or taken.type != "tensor(float)" or taken.shape[-1] != size:
+            found = ", ".join(f"{each.type} {each.shape}" for each in (taken, *more))
             self._refuse(f"takes {found}; its metadata say one tensor(float) [1, {size}]")
-        if outputs[0].shape[-1] != 2:
-            self._refuse(f"returns {outputs[0].shape}, expected an action [1, 2]")
-        self._input = inputs[0].name
+        if made.shape[-1] != 2:
+            self._refuse(f"returns {made.shape}, expected an action [1, 2]")
+        self._input = taken.name
 
     def _refuse(self, why: str) -> NoReturn:
         raise InputError(f"{self.file}: {why}")

@@ -8,7 +8,8 @@ import textwrap
 from collections.abc import Sequence
 from typing import Any, Self
 
-from mars2d.core.description import Description, entry, real, wrong
+from mars2d.core.description import Description, entry, real, text, wrong
+from mars2d.core.description import number as checked_number
 from mars2d.core.errors import InputError, counted
 
 WIDTH = 80
@@ -21,36 +22,17 @@ MAX_ZEROS = 6
 """The most decimals of an exact 0."""
 
 
-def _line(name: str, value: object) -> str:
-    if not isinstance(value, str) or len(value.splitlines()) > 1:
-        raise wrong(name, value, "one line of text")
-    return value.strip()
-
-
 def _named(name: str, value: object) -> str:
-    text = _line(name, value)
-    if not text:
-        raise wrong(name, value, "what is predicted, in a few words")
-    return text
+    if not isinstance(value, str) or len(value.splitlines()) != 1:
+        raise wrong(name, value, "what is predicted, in one line of text")
+    return value.strip()
 
 
 def _measured(name: str, value: object) -> float:
     """Check a number that may be NaN or infinite: a measurement can fail."""
-    expected = "a number, or nan where nothing was measured"
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise wrong(name, value, expected)
-    try:
-        return float(value)
-    except OverflowError:
-        raise wrong(name, value, expected) from None
-
-
-def _tolerance(name: str, value: object) -> float:
-    expected = "a number >= 0, in the prediction's unit"
-    tolerance = real(name, value, expected)
-    if tolerance < 0:
-        raise wrong(name, value, expected)
-    return tolerance
+        raise wrong(name, value, "a number, or nan where nothing was measured")
+    return float(value)
 
 
 class Prediction(Description):
@@ -67,14 +49,11 @@ class Prediction(Description):
     name: str = entry(check=_named, kw_only=False, doc="the predicted quantity, in a few words")
     predicted: float = entry(check=real, kw_only=False, doc="the predicted number")
     measured: float = entry(check=_measured, kw_only=False, doc="the number found in the record")
-    tolerance: float = entry(
-        check=_tolerance, kw_only=False, doc="the largest allowed difference, in the same unit"
+    tolerance: float = checked_number(
+        low=0, kw_only=False, doc="the largest allowed difference, in the same unit"
     )
-    unit: str = entry(
-        default="",
-        check=_line,
-        kw_only=False,
-        doc="the unit of all three numbers; empty for counts and ratios",
+    unit: str = text(
+        default="", kw_only=False, doc="the unit of all three numbers; empty for counts and ratios"
     )
 
     @classmethod
@@ -91,11 +70,9 @@ class Prediction(Description):
         share = real("Prediction.within(percent)", percent, "a number > 0")
         if share <= 0:
             raise wrong("Prediction.within(percent)", percent, "a number > 0")
-        if real("Prediction.predicted", predicted) == 0:
-            raise InputError(
-                f"Prediction.within({name!r}): {share:g} % of a predicted 0 is 0; "
-                "write Prediction(...) with a tolerance"
-            )
+        if not real("Prediction.predicted", predicted):
+            hint = "write Prediction(...) with a tolerance"
+            raise InputError(f"Prediction.within({name!r}): {share:g} % of 0 is 0; {hint}")
         return cls(name, predicted, measured, abs(float(predicted)) * share / 100, unit)
 
     @property
@@ -108,13 +85,8 @@ class Prediction(Description):
 
         JSON has no NaN and infinities: a measured number of these is None.
         """
-        return {
-            "name": self.name,
-            "predicted": self.predicted,
-            "measured": self.measured if math.isfinite(self.measured) else None,
-            "tolerance": self.tolerance,
-            "ok": self.ok,
-        }
+        found = {key: value for key, value in vars(self).items() if key != "unit"} | {"ok": self.ok}
+        return found if math.isfinite(self.measured) else found | {"measured": None}
 
 
 def table(predictions: Sequence[Prediction]) -> str:
@@ -125,23 +97,16 @@ def table(predictions: Sequence[Prediction]) -> str:
     if not predictions:
         return ""
     rows = [("predicted", "measured", "tolerance", "", "")]
-    rows += [
-        (
-            number(p.predicted, p.tolerance),
-            number(p.measured, p.tolerance),
-            f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}",
-            p.unit,
-            "ok" if p.ok else "NOT OK",
-        )
-        for p in predictions
-    ]
+    for p in predictions:
+        numbers = number(p.predicted, p.tolerance), number(p.measured, p.tolerance)
+        tolerance = f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}"
+        rows.append((*numbers, tolerance, p.unit, "ok" if p.ok else "NOT OK"))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     room = max(WIDTH - sum(widths) - 2 * len(widths), 8)
     names = [[""], *(textwrap.wrap(p.name, room) for p in predictions)]
     first = max(len(line) for name in names for line in name)
     lines = []
-    for name, row in zip(names, rows, strict=True):
-        *above, last = name
+    for (*above, last), row in zip(names, rows, strict=True):
         cells = [cell.rjust(w) for cell, w in zip(row[:3], widths, strict=False)]
         cells += [row[3].ljust(widths[3]), row[4]]
         lines += [*above, "  ".join([last.ljust(first), *cells]).rstrip()]

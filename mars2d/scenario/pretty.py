@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+from mars2d.core.materials import Coefficient
 
 WIDTH = 100
 """Columns of a line."""
@@ -62,8 +64,19 @@ def _flat(node: Node) -> str:
     return node.opening + ", ".join(map(_flat, node.items)) + node.closing
 
 
-def numeral(value: float) -> str:
-    """Return a number, also one of numpy, as text that both read back bit for bit."""
+def plain(value: Any, none: str = "None") -> str:
+    """Return a number, a word or a material as text; numbers are read back bit for bit.
+
+    none: the text for None, with which Python's words for truth are written, else those of TOML.
+    """
+    if value is None:
+        return none
+    if isinstance(value, bool):
+        return str(value) if none == "None" else str(value).lower()
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, Coefficient):
+        return quoted(value.material)
     return repr(float(value) if isinstance(value, float) else int(value))
 
 

@@ -14,8 +14,8 @@ from mars2d.core.description import Description
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
 from mars2d.scenario.law_reference import Reference, seen_from
-from mars2d.scenario.options import settings_in_words
-from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
+from mars2d.scenario.options import options_in_words
+from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, plain, quoted
 from mars2d.scenario.registry import BASES
 from mars2d.scenario.scenario import Scenario
 
@@ -29,14 +29,14 @@ def as_python(
     scenario: Scenario,
     control: Law | None = None,
     folder: Path | str | None = None,
-    settings: Mapping[str, Any] | None = None,
+    options: Mapping[str, Any] | None = None,
 ) -> str:
     r"""Return the text of a Python file that makes a scenario, for `mars2d run`.
 
     Only values that differ from their defaults are written. Laws are loaded from their files, if
     they are functions at the top of these, or a functools.partial of one with plain values. Other
     code is left out, or replaced as in a loaded record, and named in a comment. control: the law of
-    the team. folder: the folder of the file; laws near it get relative paths. settings: the
+    the team. folder: the folder of the file; laws near it get relative paths. options: the
     parameters that were set, for a comment.
 
     >>> print(as_python(Scenario(title="Alone", stop_time=5.0)).partition("\n\n")[2])
@@ -52,8 +52,8 @@ def as_python(
         body.append(laid_out(_named("control = ", lister.law(control))))
     lost = [*missing, *(f"law {name_of(law)}" for law in lister.lost)]
     notes = [comment(f"{serialize.LOST}: {name}") for name in dict.fromkeys(lost)]
-    if settings:
-        notes.insert(0, comment(f"With {settings_in_words(settings)}"))
+    if options:
+        notes.insert(0, comment(f"With {options_in_words(options)}"))
     title = comment(kept.title)[2:][:MAX_TITLE].replace("\\", "/").replace('"', "'").strip()
     head = [f'"""{title or "A scenario."}"""', "", *lister.imports(), ""]
     return "\n".join([*head, *notes, *body]) + "\n"
@@ -93,12 +93,8 @@ class _Lister:
             return self.law(value)
         if isinstance(value, Description):
             return self.call(value)
-        if isinstance(value, str):
-            return quoted(value)
-        if value is None or isinstance(value, bool):
-            return repr(value)
-        if isinstance(value, (int, float)):
-            return numeral(value)
+        if not isinstance(value, (list, tuple)):
+            return plain(value)
         items = [self._plain(item) for item in value]
         if items and all(isinstance(item, (int, float)) for item in value):  # a point, a pose
             return Brackets("(", items, ",)" if len(items) == 1 else ")", filled=True)
@@ -137,12 +133,9 @@ class _Lister:
     def imports(self) -> list[str]:
         """Return the lines of imports."""
         modules = defaultdict(list)
-        lines = []
         for alias, (module, name) in self._names.items():
-            if alias == name:
-                modules[module].append(name)
-            else:
-                lines.append(f"from {module} import {name} as {alias}")
+            modules[module].append(name if alias == name else f"{name} as {alias}")
+        lines = []
         for module, names in modules.items():
             line = f"from {module} import {', '.join(sorted(names))}"
             broken = Brackets(f"from {module} import (", sorted(names), ")", filled=True)

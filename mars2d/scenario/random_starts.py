@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from math import pi
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,10 +44,8 @@ MARGIN = 1e-9
 @accepts({"type": "array", "items": {"type": "string"}})
 def _names(name: str, value: object) -> tuple[str, ...]:
     """Check a list of names, which may be empty."""
-    if isinstance(value, (tuple, list)) and not value:
-        return ()
-    found = checks.names(name, value, "names of robots and props, such as ['red', 'box0']")
-    return () if found is None else found
+    given = None if isinstance(value, (tuple, list)) and not value else value
+    return checks.names(name, given, "names of robots and props, such as ['red', 'box0']") or ()
 
 
 class RandomStarts(Description):
@@ -84,57 +82,42 @@ class RandomStarts(Description):
     )  # fmt: skip
 
 
-class Group(NamedTuple):
-    """The bodies that are placed together. where: the words for them in errors."""
+class Lottery:
+    """Places bodies at random in the room that walls, obstacles and other bodies leave.
 
-    where: str
-    starts: RandomStarts
-    bodies: list[Rigid]
-
-
-def groups_of(
-    field: str, starts: Sequence[RandomStarts], bodies: Sequence[Rigid], robots: int,
-    joined: Collection[str],
-) -> list[Group]:  # fmt: skip
-    """Return the bodies of each of the random starts.
-
-    field: the scenario's, for errors. robots: how many of the bodies, the first ones, are robots.
-    joined: the names of bodies that a joint ties. Raises InputError for a name that is not known,
-    occurs twice, or is tied.
-    """
-    known, before = {body.name: body for body in bodies}, dict[str, str]()
-    groups = []
-    for index, each in enumerate(starts):
-        where = f"{field}[{index}]"
-        names = each.bodies or [body.name for body in bodies[:robots]]
-        for name in names:
-            if name not in known:
-                hint = nearest(name, known)
-                raise InputError(f"{where}: there is no robot or prop {name!r}{hint}")
-            if name in before:
-                raise InputError(f"{where}: {name!r} is in {before[name]} already")
-            if name in joined:
-                raise InputError(f"{where}: a joint ties {name!r}; expected bodies without joints")
-            before[name] = where
-        groups.append(Group(where, each, [known[name] for name in names]))
-    return groups
-
-
-class Room:
-    """The room in which bodies may start.
-
-    workspace: the polygon for groups without an area, or None. on_exit: of the scenario.
-    obstacles: outlines. standing: bodies that have their poses.
+    field: the scenario's, for errors. starts: where which bodies start. bodies: all, the first of
+    which are the `robots` robots. joined: the names of bodies that a joint ties. Raises InputError
+    for a name that is not known, occurs twice, or is tied.
     """
 
     def __init__(
-        self, workspace: Outline | None, on_exit: str, obstacles: Sequence[Outline],
-        standing: Sequence[Rigid],
+        self, field: str, starts: Sequence[RandomStarts], bodies: Sequence[Rigid], robots: int,
+        joined: Collection[str], workspace: Outline | None, on_exit: str,
+        obstacles: Sequence[Outline],
     ) -> None:  # fmt: skip
-        self.workspace = workspace
+        known, before = {body.name: body for body in bodies}, dict[str, str]()
+        self._groups: list[tuple[str, RandomStarts, list[Rigid]]] = []
+        for index, each in enumerate(starts):
+            where = f"{field}[{index}]"
+            names = each.bodies or [body.name for body in bodies[:robots]]
+            for name in names:
+                if name not in known:
+                    near = nearest(name, known)
+                    raise InputError(f"{where}: there is no robot or prop {name!r}{near}")
+                if name in before:
+                    raise InputError(f"{where}: {name!r} is in {before[name]} already")
+                if name in joined:
+                    raise InputError(
+                        f"{where}: a joint ties {name!r}; expected bodies without joints"
+                    )
+                before[name] = where
+            if each.area is None and workspace is None:
+                raise InputError(f"{where}: expected an area, since the scenario has no workspace")
+            self._groups.append((where, each, [known[name] for name in names]))
+        standing = [body for body in bodies if body.name not in before]
+        self._workspace, self._walled = workspace, on_exit == "wall"
         bounded = workspace is not None and on_exit != "ignore"
         self._edge = np.array(workspace) if bounded else None
-        self._walled = on_exit == "wall"
         solid = lines_and_areas(obstacles)
         solid += [footprint(body) for body in standing if not body.is_disc]
         self._solid: shapely.STRtree | None = None
@@ -143,9 +126,61 @@ class Room:
 
             self._solid = shapely.STRtree(solid)
         discs = [body.bound for body in standing if body.is_disc]
-        self.taken = [(*middle, radius) for middle, radius in discs]
+        self._discs = [(*middle, radius) for middle, radius in discs]
 
-    def free(self, places: Points, reach: float) -> NDArray[np.bool_]:
+    def poses(self, seed: int) -> dict[str, Triple]:
+        """Return the poses that the bodies start with, by name.
+
+        A body that is no disc is kept as far away as the circle round its pose that holds it.
+        Raises InputError where no place is found.
+        """
+        rng = stream(seed, "random starts")
+        for _ in range(ROUNDS):
+            taken, poses = [*self._discs], dict[str, Triple]()
+            for where, starts, bodies in self._groups:
+                stuck = self._place(starts, bodies, taken, poses, rng)
+                if stuck is not None:
+                    why = f"{where}: found no place in {ROUNDS} rounds for {stuck.name!r}, which"
+                    why += f" needs {_reach(stuck):.3g} m round its pose"
+                    break
+            else:
+                return poses
+        raise InputError(f"{why}; expected a larger area, fewer bodies or a smaller least_distance")
+
+    def _place(
+        self, starts: RandomStarts, bodies: list[Rigid], taken: list[tuple[float, float, float]],
+        poses: dict[str, Triple], rng: np.random.Generator,
+    ) -> Rigid | None:  # fmt: skip
+        """Place bodies; return the one that finds no place, or None.
+
+        taken: x, y, radius of what is there already; what is placed is added there and to `poses`.
+        """
+        area = starts.area or self._workspace
+        assert area is not None
+        corners, first = np.array(area), len(taken)
+        xmin, xmax, ymin, ymax = bounds_of(area)
+        for body in bodies:
+            heading = rng.uniform(-pi, pi) if starts.heading is None else starts.heading
+            reach = _reach(body) + MARGIN
+            others = np.array(taken).reshape(-1, 3)
+            apart = others[:, 2] + reach
+            apart[first:] = np.maximum(apart[first:], starts.least_distance)
+            for _ in range(BATCHES):
+                u, v = rng.random((2, BATCH))
+                x, y = places = xmin + (xmax - xmin) * u, ymin + (ymax - ymin) * v
+                gaps = norms(x[:, None] - others[:, 0], y[:, None] - others[:, 1]) - apart
+                free = inside_polygon(x, y, corners) & (gaps >= 0).all(axis=1)
+                found = np.flatnonzero(free & self._free(places, reach))
+                if len(found):
+                    break
+            else:
+                return body
+            place = float(x[found[0]]), float(y[found[0]])
+            taken.append((*place, reach))
+            poses[body.name] = (*place, float(heading))
+        return None
+
+    def _free(self, places: Points, reach: float) -> NDArray[np.bool_]:
         """Return at which places (k,) no wall, obstacle or corner is within `reach` metres."""
         x, y = places
         free = np.ones(x.shape, bool)
@@ -159,66 +194,6 @@ class Room:
             hit, _ = self._solid.query(shapely.points(x, y), "dwithin", reach)
             free[hit] = False
         return free
-
-
-def drawn_poses(groups: Sequence[Group], room: Room, seed: int) -> dict[str, Triple]:
-    """Return the poses that the bodies of all groups start with, by name.
-
-    A body that is no disc is kept as far away as the circle round its pose that holds it. Raises
-    InputError where no place is found.
-    """
-    rng = stream(seed, "random starts")
-    for _ in range(ROUNDS):
-        taken, poses = list(room.taken), dict[str, Triple]()
-        for group in groups:
-            stuck = _place(group, room, taken, poses, rng)
-            if stuck is not None:
-                where = group.where
-                break
-        else:
-            return poses
-    assert stuck is not None
-    raise InputError(
-        f"{where}: found no place in {ROUNDS} rounds for {stuck.name!r}, which needs "
-        f"{_reach(stuck):.3g} m round its pose; expected a larger area, fewer bodies or a "
-        "smaller least_distance"
-    )
-
-
-def _place(
-    group: Group, room: Room, taken: list[tuple[float, float, float]],
-    poses: dict[str, Triple], rng: np.random.Generator,
-) -> Rigid | None:  # fmt: skip
-    """Place the bodies of a group; return the one that finds no place, or None.
-
-    taken: x, y, radius of what is there already; what is placed is added there and to `poses`.
-    """
-    where, starts, bodies = group
-    area = room.workspace if starts.area is None else starts.area
-    if area is None:
-        raise InputError(f"{where}: expected an area, since the scenario has no workspace")
-    corners, first = np.array(area), len(taken)
-    xmin, xmax, ymin, ymax = bounds_of(area)
-    for body in bodies:
-        heading = rng.uniform(-pi, pi) if starts.heading is None else starts.heading
-        reach = _reach(body) + MARGIN
-        others = np.array(taken).reshape(-1, 3)
-        apart = others[:, 2] + reach
-        apart[first:] = np.maximum(apart[first:], starts.least_distance)
-        for _ in range(BATCHES):
-            u, v = rng.random((2, BATCH))
-            x, y = places = xmin + (xmax - xmin) * u, ymin + (ymax - ymin) * v
-            gaps = norms(x[:, None] - others[:, 0], y[:, None] - others[:, 1]) - apart
-            free = inside_polygon(x, y, corners) & (gaps >= 0).all(axis=1)
-            found = np.flatnonzero(free & room.free(places, reach))
-            if len(found):
-                break
-        else:
-            return body
-        place = float(x[found[0]]), float(y[found[0]])
-        taken.append((*place, reach))
-        poses[body.name] = (*place, float(heading))
-    return None
 
 
 def _reach(body: Rigid) -> float:

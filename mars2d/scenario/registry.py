@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
@@ -62,8 +61,7 @@ def members(family: str) -> dict[str, type[Description]]:
 
     Those of MARS2D come first, then the usable ones of other packages; see `plugins`.
     """
-    others = {p.name: p.kind for p in plugins(family) if p.kind is not None}
-    return _own(family) | others
+    return _own(family) | {p.name: p.kind for p in plugins(family) if p.kind is not None}
 
 
 @cache
@@ -106,12 +104,9 @@ def package_of(family: str, kind: type[Description]) -> str | None:
 def _load(family: str, entry: EntryPoint) -> Plugin:
     package, version = _package(entry), entry.dist.version if entry.dist else ""
     base = getattr(importlib.import_module(FAMILIES[family]), BASES[family])
-    problem = ""
     try:
         kind = entry.load()
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:  # raised by the other package's code
+    except (Exception, SystemExit) as error:  # raised by the other package's code
         problem = f"{entry.value} can't be loaded: {described(error)}"
         return Plugin(family, entry.name, package, version, problem=problem)
     if not (isinstance(kind, type) and issubclass(kind, base)):
@@ -126,11 +121,7 @@ def _package(entry: EntryPoint) -> str:
 
 def _own(family: str) -> dict[str, type[Description]]:
     """Return MARS2D's own classes of a family by name."""
-    return {kind.__name__: kind for kind in _walk(family)}
-
-
-def _walk(family: str) -> Iterator[type[Description]]:
-    package = importlib.import_module(FAMILIES[family])
+    package, found = importlib.import_module(FAMILIES[family]), {}
     base = getattr(package, BASES[family])
     for info in sorted(pkgutil.iter_modules(package.__path__), key=lambda m: m.name):
         module = importlib.import_module(f"{FAMILIES[family]}.{info.name}")
@@ -140,7 +131,8 @@ def _walk(family: str) -> Iterator[type[Description]]:
             methods = (getattr(kind, name, None) for name in dir(kind))  # abstract in a Contest
             abstract = any(getattr(method, "__isabstractmethod__", False) for method in methods)
             if own and info.name != "base" and not abstract:
-                yield kind
+                found[name] = kind
+    return found
 
 
 def misspelt_groups() -> list[str]:

@@ -85,9 +85,7 @@ class Robot(Description):
         doc="distance of the centre of mass ahead of the centre of rotation",
     )  # fmt: skip
     sensors: Sequence[Sensor] = entry(
-        default=(),
-        check=checks.listing(Sensor, "Proximity(range=0.3)"),
-        doc="its sensors",
+        default=(), check=checks.listing(Sensor, "Proximity(range=0.3)"), doc="its sensors"
     )
     controller: Callable[[Any], Any] | None = entry(
         default=None,

@@ -27,19 +27,16 @@ def contest_of(scenario: Scenario, name: str) -> Contest:
     """
     contests = contests_of(scenario)
     if len(contests) != 1:
-        found = "has none" if not contests else f"has {len(contests)}"
+        found = f"{len(contests)}" if contests else "none"
         raise InputError(
             f"{name}: a game needs one add-on that says who has won, such as {REFEREE}; "
-            f"this experiment {found}"
+            f"this experiment has {found}"
         )
-    contest = contests[0]
-    if type(contest).outcome is Contest.outcome:
-        meant = likely("outcome", vars(type(contest)))
-        raise InputError(
-            f"{name}: {type(contest).__name__} has no outcome(record), which says who has won"
-            f"{meant}"
-        )
-    return contest
+    kind = type(contests[0])
+    if kind.outcome is Contest.outcome:
+        problem = f"{kind.__name__} has no outcome(record), which says who has won"
+        raise InputError(f"{name}: {problem}{likely('outcome', vars(kind))}")
+    return contests[0]
 
 
 def roles_of(scenario: Scenario) -> dict[str, tuple[int, ...]]:

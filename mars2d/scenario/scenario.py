@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import copy
 import numbers
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import floor, pi
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,13 +28,7 @@ from mars2d.scenario import limits, starts
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
-from mars2d.scenario.random_starts import (
-    Group,
-    RandomStarts,
-    Room,
-    drawn_poses,
-    groups_of,
-)  # fmt: skip
+from mars2d.scenario.random_starts import Lottery, RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.team_colors import team_colors
 
@@ -84,6 +78,8 @@ class Scenario(Description):
     inside an obstacle, inside each other or outside the workspace, polygons that cross themselves,
     numbers out of range.
     """
+
+    _repr_svg_: ClassVar[Callable[[Scenario], str]]  # a notebook's picture of it; see `mars2d`
 
     title: str = text(default="[Simulation]", doc="the title")
     robots: Sequence[Robot] = entry(
@@ -173,22 +169,15 @@ class Scenario(Description):
         )
         object.__setattr__(self, "robots", robots)
         object.__setattr__(self, "props", props)
-        checks.unique("Scenario.robots", [str(robot.name) for robot in robots])
-        names = [str(robot.name) for robot in robots] + [str(prop.name) for prop in props]
-        checks.unique("Scenario.robots and props", names)
+        checks.unique("Scenario.robots and props", [str(part.name) for part in (*robots, *props)])
         checks.unique("Scenario.addons", [addon.key for addon in self.addons])
         check_once("Scenario.material_pairs", self.material_pairs)
         self._check_only_ones()
+        step = f"sampling times of {self.sampling_time:g} s"
         if self.stop_time / self.sampling_time > ROW_LIMIT:
-            raise wrong(
-                "Scenario.stop_time", self.stop_time,
-                f"at most {ROW_LIMIT:g} sampling times of {self.sampling_time:g} s",
-            )  # fmt: skip
+            raise wrong("Scenario.stop_time", self.stop_time, f"at most {ROW_LIMIT:g} {step}")
         if self.command_delay / self.sampling_time > 1e6:
-            raise wrong(
-                "Scenario.command_delay", self.command_delay,
-                f"at most a million sampling times of {self.sampling_time:g} s",
-            )  # fmt: skip
+            raise wrong("Scenario.command_delay", self.command_delay, f"at most a million {step}")
         for robot in robots:
             for sensor in robot.sensors:
                 sensor.check_timing(f"{type(sensor).__name__} of {robot.name}", self.sampling_time)
@@ -205,12 +194,6 @@ class Scenario(Description):
             why = vars(kind).get("only_one")
             if why and sum(isinstance(addon, kind) for addon in self.addons) > 1:
                 raise InputError(f"Scenario.addons: two are {kind.__name__}, and {why}")
-
-    def _repr_svg_(self) -> str:
-        """Return a picture of the start, for a notebook."""
-        from mars2d.output.pages.notebook import scenario_svg
-
-        return scenario_svg(self)
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
@@ -233,10 +216,8 @@ class Scenario(Description):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
             where = f"{type(prop).__name__}.shape of {prop.name}"
             limits.check_centred(where, known_shape(where, shape))
-        of_material = {
-            str(p.name): p.material for p in self.props if p.mass is None and p.material is not None
-        }
-        limits.check_bodies(self.bodies, of_material, self.max_overlap)
+        made_of = {str(p.name): p.material for p in self.props if p.mass is None and p.material}
+        limits.check_bodies(self.bodies, made_of, self.max_overlap)
         drives = [robot.drive for robot in self.robots]
         limits.check_forces(self.bodies, drives, self.max_overlap)
 
@@ -269,20 +250,27 @@ class Scenario(Description):
         object.__setattr__(found, "random_starts", ())
         return found
 
+    def with_laws(self, laws: Sequence[Callable[[Any], Any] | None]) -> Self:
+        """Return the scenario with these laws of its robots; nothing else is checked again."""
+        found, robots = copy.copy(self), [copy.copy(robot) for robot in self.robots]
+        for robot, law in zip(robots, laws, strict=True):
+            object.__setattr__(robot, "controller", law)
+        object.__setattr__(found, "robots", tuple(robots))
+        return found
+
     @cached_property
-    def _lottery(self) -> tuple[list[Group], Room]:
-        """The bodies of `random_starts`, and the room for them."""
+    def _lottery(self) -> Lottery:
+        """Draws the poses of the bodies of `random_starts`."""
         of_props = [joint for prop in self.props for joint in prop.joints()]
         ends = {str(name) for joint in (*self.joints, *of_props) for name in (joint.a, joint.b)}
-        where, count = "Scenario.random_starts", len(self.robots)
-        groups = groups_of(where, self.random_starts, self.bodies, count, ends)
-        moved = {body.name for group in groups for body in group.bodies}
-        standing = [body for body in self.bodies if body.name not in moved]
-        return groups, Room(self.workspace, self.on_exit, self.obstacles, standing)
+        return Lottery(
+            "Scenario.random_starts", self.random_starts, self.bodies, len(self.robots), ends,
+            self.workspace, self.on_exit, self.obstacles,
+        )  # fmt: skip
 
-    def _start_at_random(self, lottery: tuple[list[Group], Room], seed: int) -> None:
+    def _start_at_random(self, lottery: Lottery, seed: int) -> None:
         """Give the bodies of `random_starts` the poses that follow from the seed."""
-        poses = drawn_poses(*lottery, seed)
+        poses = lottery.poses(seed)
         for field in ("robots", "props"):
             parts = [
                 part.replace(pose=poses[part.name]) if part.name in poses else part
@@ -293,14 +281,13 @@ class Scenario(Description):
 
     def _check_starts(self) -> None:
         """Refuse bodies that start outside the workspace, in an obstacle or in each other."""
-        obstacles = self.obstacles
+        overlap = self.max_overlap
         if self.workspace is not None and self.on_exit != "ignore":
             starts.check_in_workspace(self.bodies[: len(self.robots)], self.workspace)
         if self.workspace is not None and self.on_exit == "wall":
-            starts.check_off_walls(self.bodies, self.workspace, self.max_overlap)
-        if obstacles:
-            starts.check_off_obstacles(self.bodies, obstacles, self.max_overlap)
-        starts.check_apart(self.bodies, self.max_overlap, self.joined)
+            starts.check_off_walls(self.bodies, self.workspace, overlap)
+        starts.check_off_obstacles(self.bodies, self.obstacles, overlap)
+        starts.check_apart(self.bodies, overlap, self.joined)
 
     @cached_property
     def bodies(self) -> tuple[Rigid, ...]:
@@ -394,10 +381,10 @@ class Scenario(Description):
         for pair in self.material_pairs:
             if pair.names == names and pair.friction is not None:
                 return max(pair.friction, pair.static_friction or 0.0)
-        held = (
+        still = (
             s.friction if s.static_friction is None else s.static_friction for s in (one, other)
         )
-        return blended(self.friction_rule, *held)
+        return blended(self.friction_rule, *still)
 
     @cached_property
     def last_iteration(self) -> int:

@@ -56,17 +56,12 @@ def _table(kind: type[Description]) -> Schema:
             needed.append(field.name)
     twins = {twin: name for twin, (name, _) in kind.twins.items()}
     properties |= {twin: {"type": "number"} for twin in twins}
+    either = [[name, *(t for t in twins if twins[t] == name)] for name in needed]
     found = {"type": "object", "properties": properties, "additionalProperties": False}
-    required = [name for name in needed if name not in twins.values()]
-    either = [
-        {"anyOf": [{"required": [n]} for n in (name, *(t for t in twins if twins[t] == name))]}
-        for name in needed
-        if name not in required
-    ]
-    if required:
+    if required := [names[0] for names in either if len(names) == 1]:
         found["required"] = required
-    if either:
-        found["allOf"] = either
+    if several := [names for names in either if len(names) > 1]:
+        found["allOf"] = [{"anyOf": [{"required": [n]} for n in names]} for names in several]
     return found
 
 

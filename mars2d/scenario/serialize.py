@@ -79,7 +79,7 @@ def kind_of(plain: dict[str, Any]) -> type[Description] | None:
     if not isinstance(name, str):
         return None
     if "from" in plain and own in _OWN:
-        return plugin(_OWN[own].family, name, plain["from"])
+        return plugin(_OWN[own][1], name, plain["from"])
     return _kinds().get(name)
 
 
@@ -125,10 +125,10 @@ def from_description(value: Any) -> Any:
         for base in (Scenario, Robot, Animation):  # a derived class counts as one of them
             if isinstance(value, base):
                 return {"type": base.__name__, **_fields(value, base)}
-        name, own = next((n, own) for n, own in _OWN.items() if isinstance(value, own.base))
-        package = package_of(own.family, kind) if own.family else None
+        own, family = next((n, f) for n, (base, f) in _OWN.items() if isinstance(value, base))
+        package = package_of(family, kind) if family else None
         shipped = {} if package is None else {"from": package}
-        head = {"type": kind.__name__, "own": name, **shipped}
+        head = {"type": kind.__name__, "own": own, **shipped}
         return head | _fields(value) | _moving(value)
     if isinstance(value, (list, tuple)):
         return [from_description(item) for item in value]
@@ -168,28 +168,21 @@ def _moving(value: Description) -> dict[str, Any]:
     return {}
 
 
-class _Own(NamedTuple):
-    """A kind of parts of the user's own.
-
-    base: the class that they derive from. family: the family in which another package can ship one
-    by an entry point, if it can.
-    """
-
-    base: type[Description]
-    family: str = ""
-
-
-_OWN = {
-    "drive": _Own(Drive, "bodies"),
-    "prop": _Own(Prop, "props"),
-    "joint": _Own(Joint, "joints"),
-    "shape": _Own(Shape),
-    "add-on": _Own(Addon, "addons"),
-    "neighbourhood": _Own(Neighbourhood),
-    "controller": _Own(Controller, "controllers"),
-    "sensor": _Own(Description, "sensors"),
+_OWN: dict[str, tuple[type[Description], str]] = {
+    "drive": (Drive, "bodies"),
+    "prop": (Prop, "props"),
+    "joint": (Joint, "joints"),
+    "shape": (Shape, ""),
+    "add-on": (Addon, "addons"),
+    "neighbourhood": (Neighbourhood, ""),
+    "controller": (Controller, "controllers"),
+    "sensor": (Description, "sensors"),
 }
-"""The kinds of parts of the user's own, by their names in files."""
+"""The kinds of parts of the user's own, by their names in files.
+
+Each with the class that they derive from, and the family in which another package can ship one by
+an entry point, if it can.
+"""
 
 LOST = "This is code, which is not written down"
 """What files say about parts that they do not hold."""
@@ -223,9 +216,7 @@ def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
     Missing parts are replaced as by `to_scenario`.
     """
     kept, missing = to_scenario(from_description(scenario))
-    pairs = zip(kept.robots, scenario.robots, strict=True)
-    robots = [robot.replace(controller=original.controller) for robot, original in pairs]
-    return kept.replace(robots=robots), missing
+    return kept.with_laws([robot.controller for robot in scenario.robots]), missing
 
 
 def to_value(data: Any) -> Any:
@@ -250,11 +241,12 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         if shipped is not None:
             return shipped
     unread = ("type", "own", "from", "controller")
-    functions = [v["function"] for k, v in value.items() if k not in unread and _is_function(v)]
-    if functions and "own" not in value:
-        missing.append(f"{value['type']}, with its function {functions[0]}")
+    read = {name: each for name, each in value.items() if name not in unread}
+    lost = next((each["function"] for each in read.values() if _is_function(each)), "")
+    if lost and "own" not in value:
+        missing.append(f"{value['type']}, with its function {lost}")
         return _LEFT_OUT
-    fields = {k: _to_description(v, missing) for k, v in value.items() if k not in unread}
+    fields = {name: _to_description(each, missing) for name, each in read.items()}
     if "controller" in value and is_ready_made(kind_of(value["controller"] or {})):
         fields["controller"] = _to_description(value["controller"], missing)
     if "own" in value:
@@ -272,17 +264,13 @@ def _is_function(value: Any) -> bool:
 
 def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:
     """Return a part of another package; None if it is not installed, or has other fields now."""
-    kind = plugin(_OWN[value["own"]].family, value["type"], value["from"])
+    kind = plugin(_OWN[value["own"]][1], value["type"], value["from"])
     if kind is None:
         return None
     lost: list[str] = []
-    fields = {
-        f.name: _to_description(value[f.name], lost)
-        for f in dataclasses.fields(kind)
-        if f.name in value
-    }
+    known = [f.name for f in dataclasses.fields(kind) if f.name in value]
     try:
-        part = kind(**fields)
+        part = kind(**{name: _to_description(value[name], lost) for name in known})
     except Exception:  # another version's fields, or checks
         return None
     missing.extend(lost)
@@ -312,11 +300,9 @@ def _stand_in(family: str, fields: dict[str, Any]) -> Any:
         return Solid(fields["shape"], **_common(Prop, fields))
     if family == "shape":
         return Compound(fields["parts"])
-    if family == "neighbourhood":
-        return Everyone()
     if family == "add-on" and fields["obstacles"]:
         return Map(fields["obstacles"], **_common(Addon, fields))
-    return _LEFT_OUT
+    return Everyone() if family == "neighbourhood" else _LEFT_OUT
 
 
 def _common(base: type[Description], fields: dict[str, Any]) -> dict[str, Any]:

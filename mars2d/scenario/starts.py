@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mars2d.bodies.rigid import Rigid
-from mars2d.core.arithmetic import norms
+from mars2d.core.arithmetic import norm, norms
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, distance_to_ring, lines_and_areas, outside_polygon
 
@@ -33,17 +34,15 @@ def check_off_walls(bodies: Sequence[Rigid], workspace: Outline, overlap: float)
     """Refuse bodies that start in or beyond the wall round the workspace."""
     corners = np.array(workspace)
     discs = [body for body in bodies if body.is_disc]
-    if discs:
-        x, y = np.array([body.bound[0] for body in discs]).T
-        gaps = distance_to_ring(x, y, corners)
-        outside = outside_polygon(x, y, corners)
-        for body, gap, out in zip(discs, gaps.tolist(), outside.tolist(), strict=True):
-            radius = body.bound[1]
-            if out or gap < radius - _allowed(body, overlap):
-                raise InputError(
-                    f"{_pose(body)}: starts in the workspace's wall, "
-                    f"{gap:.3g} m from its centre; its radius is {radius:g} m"
-                )
+    x, y = np.array([body.bound[0] for body in discs]).reshape(-1, 2).T
+    gaps, outside = distance_to_ring(x, y, corners), outside_polygon(x, y, corners)
+    for body, gap, out in zip(discs, gaps.tolist(), outside.tolist(), strict=True):
+        radius = body.bound[1]
+        if out or gap < radius - _allowed(body, overlap):
+            raise InputError(
+                f"{_pose(body)}: starts in the workspace's wall, "
+                f"{gap:.3g} m from its centre; its radius is {radius:g} m"
+            )
     if len(discs) == len(bodies):
         return
     import shapely
@@ -58,26 +57,30 @@ def check_off_obstacles(
     bodies: Sequence[Rigid], outlines: Sequence[Outline], overlap: float
 ) -> None:
     """Refuse bodies that start inside an obstacle, or cut into one."""
-    if not outlines:
-        return
-    import shapely
-
-    shapes = lines_and_areas(outlines)
-    tree = shapely.STRtree(shapes)
     for body in bodies:
-        middle, radius = body.bound
-        center = shapely.Point(middle)
-        if body.is_disc:
-            found = tree.query(center, "dwithin", radius - _allowed(body, overlap))
-        else:
-            found = tree.query(_core(body, overlap), "intersects")
-        for k in sorted(found):
-            solid = len(outlines[k]) > 2 and shapes[k].contains(center)
+        for k in cut_by(body, tuple(outlines), overlap):
+            x, y = np.array([body.bound[0]]).T
+            solid = len(outlines[k]) > 2 and not outside_polygon(x, y, np.array(outlines[k]))[0]
             hint = " (if it is a room, draw it as walls of two points)" if solid else ""
             raise InputError(
                 f"{_pose(body)}: starts {'inside' if solid else 'in contact with'} obstacle {k}, "
                 f"{shown(outlines[k], 80)}{hint}"
             )
+
+
+def cut_by(body: Rigid, outlines: tuple[Outline, ...], overlap: float) -> list[int]:
+    """Return the obstacles, by index, that a body cuts deeper than an overlap, metres."""
+    if not outlines:
+        return []
+    import shapely
+
+    middle, radius = body.bound
+    if body.is_disc:
+        room = radius - _allowed(body, overlap)
+        found = _tree(outlines).query(shapely.Point(middle), "dwithin", room)
+    else:
+        found = _tree(outlines).query(_core(body, overlap), "intersects")
+    return sorted(found.tolist())
 
 
 def check_apart(
@@ -89,7 +92,6 @@ def check_apart(
     """
     centers = np.array([body.bound[0] for body in bodies])
     radii = np.array([body.bound[1] for body in bodies])
-    allowed = min(_allowed(body, overlap) for body in bodies)
     # Sweep along the longer side: who comes later than the reach is too far away.
     along = centers[:, np.argmax(np.ptp(centers, axis=0))]
     order = np.argsort(along, kind="stable")
@@ -97,25 +99,21 @@ def check_apart(
     for place, i in enumerate(order):
         others = order[place + 1 : ends[place]]
         gaps = norms(*(centers[others] - centers[i]).T) - radii[others] - radii[i]
-        for k in np.flatnonzero(gaps < -allowed):
+        for k in np.flatnonzero(gaps < 0):
             a, b = sorted((int(i), int(others[k])))
-            if (a, b) in joined:
-                continue
-            depth = _depth(bodies[a], bodies[b], float(-gaps[k]), overlap)
-            if depth > 0:
+            if (a, b) not in joined and (deep := depth(bodies[a], bodies[b], overlap)):
                 raise InputError(
                     f"{_pose(bodies[a])} and of {bodies[b].name} = {bodies[b].pose}: "
-                    f"they start {depth:.3g} m inside each other"
+                    f"they start {deep:.3g} m inside each other"
                 )
 
 
-def _depth(a: Rigid, b: Rigid, of_bounds: float, overlap: float) -> float:
-    """Return about how deep two bodies overlap, metres; 0 if no deeper than is allowed.
-
-    of_bounds: the overlap of the circles around them.
-    """
+def depth(a: Rigid, b: Rigid, overlap: float) -> float:
+    """Return about how deep two bodies overlap, metres; 0 if no deeper than is allowed."""
     if a.is_disc and b.is_disc:
-        return of_bounds
+        ((ax, ay), one), ((bx, by), other) = a.bound, b.bound
+        deep = one + other - norm(bx - ax, by - ay)
+        return deep if deep > min(_allowed(a, overlap), _allowed(b, overlap)) else 0.0
     import shapely
 
     common = shapely.intersection(_core(a, overlap), footprint(b))
@@ -128,14 +126,21 @@ def footprint(body: Rigid) -> shapely.Geometry:
     """Return the ground that a body covers at the start."""
     import shapely
 
-    parts = []
-    for rim in body.shape.rims:
-        points = [body.to_world(point) for point in rim.points]
-        if len(points) == 1:
-            parts.append(shapely.Point(points[0]).buffer(rim.radius, quad_segs=SMOOTH))
-        else:
-            parts.append(shapely.Polygon(points))
-    return shapely.union_all(parts)
+    return shapely.union_all(
+        [
+            shapely.Point(body.to_world(points[0])).buffer(radius, quad_segs=SMOOTH)
+            if len(points) == 1
+            else shapely.Polygon([body.to_world(point) for point in points])
+            for points, radius in body.shape.rims
+        ]
+    )
+
+
+@lru_cache(maxsize=4)
+def _tree(outlines: tuple[Outline, ...]) -> shapely.STRtree:
+    import shapely
+
+    return shapely.STRtree(lines_and_areas(outlines))
 
 
 def _core(body: Rigid, overlap: float) -> shapely.Geometry:

@@ -17,14 +17,13 @@ from mars2d.core.description import Check, Description, wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.core.files import atomic_write, file_beside
 from mars2d.core.hints import described
-from mars2d.core.materials import Coefficient
 from mars2d.core.picture import holds_pixels, image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
 from mars2d.scenario.code_file import law_in
 from mars2d.scenario.controllers import Controller
 from mars2d.scenario.law_reference import Reference, seen_from
-from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, numeral, quoted
+from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, plain, quoted
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
@@ -36,14 +35,14 @@ FORMAT = 1
 MAX_BYTES = 5_000_000
 """The size of the largest file."""
 
-MAX_PARTS = 10_000
-"""The most parts in one list."""
-
 SCHEMA_FILE = "mars2d.schema.json"
 """The file beside a scenario in which editors look for its JSON Schema; see `mars2d schema`."""
 
 NONE = "none"
 """The text that stands for None."""
+
+HEADS = ("format", "control")
+"""The keys of a file that are no fields of its scenario."""
 
 Law = Callable[[Any], Any]
 
@@ -67,11 +66,7 @@ def save_scenario(
     if path.suffix.lower() != SUFFIX:
         raise InputError(f"{path}: a scenario is saved as {SUFFIX}, this ends in {path.suffix!r}")
     writer = _Writer(path.parent)
-    try:
-        text = writer.text(scenario, path.name, control).encode()
-    except UnicodeEncodeError as error:
-        line = shown(error.object[: error.end].rpartition("\n")[2])
-        raise InputError(f"{path}: half a character can't be written, in {line}") from None
+    text = writer.text(scenario, path.name, control).encode(errors="replace")
     with atomic_write(path) as file:
         file.write(text)
     return tuple(dict.fromkeys(writer.missing))
@@ -111,36 +106,32 @@ class _Writer:
         for name in sorted(fields, key=lambda field: field != "name"):
             value, place = fields[name], places.get(name)
             if place is None or value is None:
-                lines.append(self._line(part, name, value))
+                law = callable(value) and not serialize.is_ready_made(type(value))
+                lines.append(self._law(name, value) if law else self._line(part, name, value))
             elif place.many:
                 for i, item in enumerate(value):
                     below += ["", f"[[{path}{name}]]", *_type(place, item)]
                     below += self._table(item, f"{path}{name}.", i)
+            elif len(line := self._line(part, name, value)) <= WIDTH and (path or "{" not in line):
+                lines.append(line)
             else:
-                line = f"{name} = {laid_out(self._in_line(place, value), width=MAX_BYTES)}"
-                if len(line) <= WIDTH and (path or "{" not in line):
-                    lines.append(line)
-                else:
-                    below += ["", f"[{path}{name}]", *_type(place, value)]
-                    below += self._table(value, f"{path}{name}.")
+                below += ["", f"[{path}{name}]", *_type(place, value)]
+                below += self._table(value, f"{path}{name}.")
         return lines + below
 
     def _line(self, part: Description, name: str, value: Any) -> str:
-        """Return the line of a field, or the lines."""
-        if callable(value):
-            return self._law(name, value)
+        """Return the line of a field, or the lines of a long list."""
         node = self._node(part, name, value)
-        if isinstance(node, Brackets):
-            return laid_out(node._replace(opening=f"{name} = {node.opening}"))
-        return f"{name} = {node}"
+        if isinstance(node, str):
+            return f"{name} = {node}"
+        wide = MAX_BYTES if node.opening == "{ " else WIDTH  # a table has one line
+        return laid_out(node._replace(opening=f"{name} = {node.opening}"), width=wide)
 
     def _law(self, field: str, law: Law | str) -> str:
         """Return the line that names a law, or a comment that says why it is missing."""
         if isinstance(law, str):
             Reference.read(field, law)
             return f"{field} = {quoted(law)}"
-        if isinstance(law, Controller) and serialize.is_ready_made(type(law)):
-            return f"{field} = {laid_out(self._in_line(READY_MADE, law), width=MAX_BYTES)}"
         found = Reference.of(law)
         if found is None:
             self.missing.append(f"law {name_of(law)}")
@@ -148,45 +139,30 @@ class _Writer:
             return comment(f"law: {name_of(law)} can't be written down; {hint}")
         return f"{field} = {quoted(f'{seen_from(found.file, self.folder)}:{found.name}')}"
 
-    def _in_line(self, place: Place, part: Description) -> Node:
-        """Return a part as a table in one line; as its type alone if no field has been changed."""
-        places = serialize.parts_of(type(part))
-        items: list[Node] = [*_type(place, part)]
-        for name, value in serialize.changed(part).items():
-            inner = places.get(name)
-            if inner is None or value is None:
-                node = self._node(part, name, value)
-            elif inner.many:
-                node = Brackets("[", [self._in_line(inner, item) for item in value], "]")
-            else:
-                node = self._in_line(inner, value)
-            items.append(Brackets(f"{name} = ", [node], ""))
-        if items == [*_type(place, part)]:
-            return quoted(type(part).__name__)
-        return Brackets("{ ", items, " }")
-
     def _node(self, part: Description, name: str, value: Any) -> Node:
-        """Return the value of a field that holds no parts."""
+        """Return the value of a field."""
+        place = serialize.parts_of(type(part)).get(name, Place(Description))
         check = type(part).__dataclass_fields__[name].metadata.get("check")
         if check is image_file and value is not None and Path(value).is_absolute():
             return quoted(seen_from(value, self.folder))
-        return self._plain(value)
+        return self._plain(value, place)
 
-    def _plain(self, value: Any) -> Node:
-        """Return a plain value in TOML."""
-        if value is None:
-            return quoted(NONE)
-        if isinstance(value, bool):
-            return str(value).lower()
-        if isinstance(value, Coefficient):
-            return quoted(value.material)
-        if isinstance(value, (int, float)):
-            return numeral(value)
-        if isinstance(value, str):
-            return quoted(value)
-        if isinstance(value, Description):  # in another package's part
-            return self._in_line(Place(Description), value)
-        return Brackets("[", [self._plain(item) for item in value], "]", filled=True)
+    def _plain(self, value: Any, place: Place) -> Node:
+        """Return a value in TOML; a part as a table in one line, or as its type if that says all.
+
+        place: where it stands.
+        """
+        if isinstance(value, Description):
+            head: list[Node] = [*_type(place, value)]
+            fields = serialize.changed(value).items()
+            items: list[Node] = [
+                Brackets(f"{k} = ", [self._node(value, k, v)], "") for k, v in fields
+            ]
+            return Brackets("{ ", head + items, " }") if items else quoted(type(value).__name__)
+        if isinstance(value, (list, tuple)):
+            of_parts = any(isinstance(item, Description) for item in value)
+            return Brackets("[", [self._plain(v, place) for v in value], "]", filled=not of_parts)
+        return plain(value, quoted(NONE))
 
 
 def _type(place: Place, part: Description) -> list[str]:
@@ -209,10 +185,7 @@ def read(path: str | Path) -> tuple[Scenario, Law | None]:
     if path.suffix.lower() != SUFFIX:
         raise InputError(f"{path}: expected a scenario, a file that ends in {SUFFIX}")
     text = _text(path)
-    try:
-        return _Reader(path, text).scenario(_parsed(path, text))
-    except RecursionError:
-        raise InputError(f"{path}: lists and tables lie in each other too deeply") from None
+    return _Reader(path, text).scenario(_parsed(path, text))
 
 
 def _text(path: Path) -> str:
@@ -235,16 +208,14 @@ def _parsed(path: Path, text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except ValueError as error:  # also of a number with too many digits
-        message, place, found = str(error).partition(" (at ")
-        if not place:
-            raise _at(path.name, "a number has too many digits") from None
-        number = re.match(r"line (\d+)", found)
+        message, _, place = str(error).partition(" (at ")
+        number = re.match(r"line (\d+)", place)
         if number is None:
-            raise _at(f"{path.name}, at its end", message) from None
+            raise _at(f"{path.name}, at its end" if place else path.name, message) from None
         line = text.split("\n")[int(number[1]) - 1].strip()
-        problem = f"{message}: {shown(line)[1:-1]}" if line else message
         hint = HINT if PYTHON.search(line) else ""
-        raise _at(f"{path.name}, line {number[1]}", problem + hint) from None
+        problem = f"{message}: {shown(line)[1:-1]}{hint}" if line else message
+        raise _at(f"{path.name}, line {number[1]}", problem) from None
 
 
 PYTHON = re.compile(r"=\s*\(|\b(True|False|None)\b")
@@ -279,10 +250,10 @@ class _Reader:
         return scenario, None if control is None else self._law("control", control, "the world")
 
     def _check_format(self, data: dict[str, Any]) -> None:
-        if "format" not in data:
+        found = data.get("format")
+        if found is None:
             raise _at(self.path.name, f"no scenario: the first line should be format = {FORMAT}")
-        found = data["format"]
-        if isinstance(found, bool) or not isinstance(found, int) or found < 1:
+        if type(found) is not int or found < 1:
             raise self._wrong("format", found, str(FORMAT))
         if found > FORMAT:
             problem = f"format = {found}: newer than this MARS2D, which reads {FORMAT}"
@@ -345,7 +316,11 @@ class _Reader:
         if field.name == "controller" and issubclass(kind, Robot):
             return self._controller(at, value)
         if check is image_file and isinstance(value, str) and not holds_pixels(value):
-            return self._image(value)
+            try:
+                beside = self.path.absolute().parent / value
+                return str(beside) if beside.is_file() else value
+            except OSError:  # such as a name that is too long
+                return value
         return self._plain(value, at)
 
     def _parts(self, place: Place, value: Any, at: str) -> Any:
@@ -355,18 +330,7 @@ class _Reader:
             raise _at(self._where(*_split(at)), problem)
         if not isinstance(value, list):
             return value  # such as robots = 5, or refused later
-        if len(value) > MAX_PARTS:
-            problem = f"{_split(at)[1]}: expected at most {MAX_PARTS}, not {len(value)}"
-            raise _at(self._where(*_split(at)), problem)
         return [self._part(place, item, f"{at}[{i}]") for i, item in enumerate(value)]
-
-    def _image(self, name: str) -> str:
-        """Return the path of an image, with its folder if it lies beside the file."""
-        beside = self.path.absolute().parent / name
-        try:
-            return str(beside) if beside.is_file() else name
-        except OSError:  # such as a name that is too long
-            return name
 
     def _plain(self, value: Any, at: str) -> Any:
         """Return a value of lists, text and numbers; a table with a type becomes a part."""
@@ -410,10 +374,6 @@ class _Reader:
             place = place[: max(place.rfind("."), place.rfind("["), 0)]
         line = f"line {self._lines[place]}" if place else ""
         return ", ".join(filter(None, [self.path.name, line, table]))
-
-
-HEADS = ("format", "control")
-"""The keys of a file that are no fields of its scenario."""
 
 
 def _inside(at: str, name: str) -> str:

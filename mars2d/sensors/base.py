@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core import checks
-from mars2d.core.arithmetic import cosines_sines
-from mars2d.core.delay import steps_until
+from mars2d.core.arithmetic import cosines_sines, steps_until
 from mars2d.core.description import (
     Check,
     Schema,

@@ -75,7 +75,7 @@ class _Progress:
         """Do a run and take all measures, even if some of them raise."""
         experiment = opened(job)
         self.code = code_of(experiment, job.code)
-        record = recorded(experiment, job.options, job.seed, job.records)
+        record = recorded(experiment, job.records)
         self.digest = record.digest
         for name, measure in measures_of(job.measures, experiment).items():
             try:
@@ -97,7 +97,7 @@ def probed(job: Job) -> Experiment:
 
     def probe() -> Experiment:
         experiment = opened(job)
-        open_world(experiment, job.seed)
+        open_world(experiment)
         return experiment
 
     return _within(job.time_limit, probe)

@@ -33,21 +33,19 @@ def kept_as(code: str, options: Mapping[str, Any], seed: int, folder: str) -> Pa
     return Path(folder, hashlib.sha256(repr(decides).encode()).hexdigest()[:NAME_DIGITS] + ".npz")
 
 
-def recorded(
-    experiment: Experiment, options: Mapping[str, Any], seed: int, folder: str = ""
-) -> Record:
+def recorded(experiment: Experiment, folder: str = "") -> Record:
     """Return the record of a run: the one that is kept in the folder, or that of a run made now.
 
     folder: where the record is kept from then on; if empty, it is not.
     """
     if not folder:
-        return simulate(experiment, seed).record
-    file = kept_as(code_of_run(experiment), options, seed, folder)
+        return simulate(experiment).record
+    file = kept_as(code_of_run(experiment), experiment.options, experiment.seed or 0, folder)
     if file.is_file():
         try:
             return dataclasses.replace(load(file), scenario=experiment.scenario)
         except InputError:
             file.unlink()  # it is broken: the run is made again
-    record = simulate(experiment, seed).record
+    record = simulate(experiment).record
     record.save(file)
     return record

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, counted, one_line, shown
 from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
-from mars2d.scenario.options import parse_setting
+from mars2d.scenario.options import parse_option
 from mars2d.study.measures import UNITS
 from mars2d.study.units import name_and_unit, unit_of_field, with_unit
 
@@ -352,7 +352,7 @@ def cell(value: Any) -> str:
 
 def value_in(text: str) -> Any:
     """Return the value in a cell: a Python literal, or else a word."""
-    return parse_setting(f"_={text}")[1]
+    return parse_option(f"_={text}")[1]
 
 
 def word_cell(text: str) -> str:

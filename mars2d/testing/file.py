@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 import inspect
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from types import ModuleType
@@ -14,38 +14,42 @@ from mars2d.addons.base import Addon
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.deadline import Deadline
 from mars2d.core.description import Description
+from mars2d.core.errors import InputError
 from mars2d.core.usercode import name_of
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.testing.addon import addon_findings
-from mars2d.testing.controller import controller_findings, is_of_a_team
-from mars2d.testing.drive import drive_findings
-from mars2d.testing.finding import Finding
-from mars2d.testing.sensor import sensor_findings
+from mars2d.testing.addon import check_addon
+from mars2d.testing.controller import check_controller, code_of, is_of_a_team
+from mars2d.testing.drive import check_drive
+from mars2d.testing.finding import CheckError, Finding
+from mars2d.testing.sensor import check_sensor
 
-FAMILIES: tuple[tuple[str, type[Description], str], ...] = (
-    ("drive", Drive, "twist"),
-    ("sensor", Sensor, "read"),
-    ("add-on", Addon, ""),
+FAMILIES: tuple[tuple[str, type[Description], str, Callable[..., tuple[Finding, ...]]], ...] = (
+    ("drive", Drive, "twist", check_drive),
+    ("sensor", Sensor, "read", check_sensor),
+    ("add-on", Addon, "", check_addon),
 )
-"""The families of parts: name, base, and the method that each of them must have."""
-
-MAX_OBJECTS = 3
-"""How many different objects of one class in a scenario are tried, at most."""
+"""The families of parts: name, base, the method that each must have, and what checks it."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A part or law to be tried: its name, where it is tried, and the function that tries it.
+    """A part or law to be tried: its name, where it is tried, and the checker of it.
 
     untried: why it can't be tried; then `findings` returns nothing.
     """
 
     name: str
     where: str
-    findings: Callable[[], tuple[Finding, ...]] = tuple
+    check: Callable[[], tuple[Finding, ...]] = tuple
     untried: str = ""
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Try it, and return what is wrong, and hints."""
+        try:
+            return self.check()
+        except CheckError as error:
+            return error.findings
 
 
 def trials(
@@ -58,14 +62,15 @@ def trials(
     kinds = [k for k in vars(module).values() if isinstance(k, type) and issubclass(k, Description)]
     own = [kind for kind in dict.fromkeys(kinds) if kind.__module__ == module.__name__]
     sensors: list[Sensor] = []
-    for family, base, method in FAMILIES:
+    for family, base, method, check in FAMILIES:
         for kind in own:
             lacks = method and getattr(kind, method, None) is getattr(base, method)
             derived = any(other is not kind and issubclass(other, kind) for other in own)
             if issubclass(kind, base) and not (lacks and derived):
-                yield from _of_class(f"{family} {kind.__name__}", kind, experiment, deadline)
-                if issubclass(kind, Sensor) and not (lacks or _required(kind)):
-                    sensors.append(kind())
+                yield from _of_class(family, kind, experiment, partial(check, deadline=deadline))
+                if issubclass(kind, Sensor) and not lacks:
+                    with suppress(InputError):  # of a field without a default
+                        sensors.append(kind())
     if experiment is not None:
         yield from _of_experiment(experiment, deadline)
         return
@@ -74,70 +79,48 @@ def trials(
             arguments = list(inspect.signature(function).parameters)
             if name == "control" or (arguments in (["robot"], ["world"]) and name[0] != "_"):
                 where = "of a team" if is_of_a_team(function) else "of a robot"
-                trial = partial(controller_findings, function, sensors=sensors, deadline=deadline)
+                trial = partial(check_controller, function, sensors=sensors, deadline=deadline)
                 yield Case(f"law {name}", f"{where}, in a small world", trial)
 
 
 def _of_class(
-    name: str, kind: type[Description], experiment: Experiment | None, deadline: Deadline | None
+    family: str,
+    kind: type[Description],
+    experiment: Experiment | None,
+    check: Callable[..., tuple[Finding, ...]],
 ) -> Iterator[Case]:
     """Yield the trials of the objects of a class in the scenario, or of one with its defaults."""
-    parts = [] if experiment is None else _parts(experiment.scenario)
-    used = list({repr(part): part for part in parts if type(part) is kind}.values())
-    for part in used[:MAX_OBJECTS]:
-        title = name if len(used) == 1 else f"{name.partition(' ')[0]} {part!r}"
-        yield _trial(title, part, experiment, deadline)
+    name, used, inside = f"{family} {kind.__name__}", {}, check
+    if experiment is not None:
+        scenario = experiment.scenario
+        parts = [part for robot in scenario.robots for part in (robot.drive, *robot.sensors)]
+        used = {repr(each): each for each in (*parts, *scenario.addons) if type(each) is kind}
+        inside = partial(check, scenario=scenario, control=experiment.control)
+    for part in used.values():
+        title = name if len(used) == 1 else f"{family} {part!r}"
+        if family == "drive":
+            yield Case(title, "in a small world", partial(check, part))
+        else:
+            yield Case(title, "in its scenario", partial(inside, part))
     if used:
         return
-    required = _required(kind)
-    if required:
-        verb = "has no default" if len(required) == 1 else "have no defaults"
-        fields = " and ".join(f"{kind.__name__}.{field}" for field in required)
-        where = "no object is in the scenario" if experiment else "the file has no scenario"
-        yield Case(name, "", untried=f"not tried: {fields} {verb}, and {where}")
-        return
-    yield _trial(name, kind(), None, deadline)
-
-
-def _trial(name: str, part: Any, experiment: Experiment | None, deadline: Deadline | None) -> Case:
-    """Return the trial of a part, in the file's own scenario if there is one."""
-    if isinstance(part, Drive):
-        return Case(name, "in a small world", partial(drive_findings, part, deadline=deadline))
-    findings = sensor_findings if isinstance(part, Sensor) else addon_findings
-    if experiment is None:
-        return Case(name, "in a small world", partial(findings, part, deadline=deadline))
-    scenario, control = experiment.scenario, experiment.control
-    trial = partial(findings, part, scenario=scenario, control=control, deadline=deadline)
-    return Case(name, "in its scenario", trial)
+    try:
+        yield Case(name, "in a small world", partial(check, kind()))
+    except InputError as error:
+        yield Case(name, "", untried=f"not tried, since no object is in a scenario: {error}")
 
 
 def _of_experiment(experiment: Experiment, deadline: Deadline | None) -> Iterator[Case]:
     """Yield the laws of a scenario; equal code is tried once."""
     scenario, control = experiment.scenario, experiment.control
-    trial = partial(controller_findings, scenario=scenario, deadline=deadline)
+    trial = partial(check_controller, scenario=scenario, deadline=deadline)
     if control is not None:
         yield Case(f"law {name_of(control)}", "of the team", partial(trial, control, team=True))
     laws: dict[Any, tuple[Callable[[Any], Any], list[str]]] = {}
     for robot in scenario.robots:
         law = robot.controller
         if law is not None:
-            code = getattr(inspect.unwrap(law), "__code__", law)
-            laws.setdefault(code, (law, []))[1].append(str(robot.name))
+            laws.setdefault(code_of(law), (law, []))[1].append(str(robot.name))
     for law, robots in laws.values():
         where = f"of {', '.join(robots[:3])}{', ...' if len(robots) > 3 else ''}"
         yield Case(f"law {name_of(law)}", where, partial(trial, law, control=control, team=False))
-
-
-def _parts(scenario: Scenario) -> list[Any]:
-    """Return the parts of a scenario that can be tried."""
-    sensors = [sensor for robot in scenario.robots for sensor in robot.sensors]
-    return [*(robot.drive for robot in scenario.robots), *sensors, *scenario.addons]
-
-
-def _required(kind: type[Description]) -> list[str]:
-    missing = dataclasses.MISSING
-    return [
-        field.name
-        for field in dataclasses.fields(kind)
-        if field.init and field.default is missing and field.default_factory is missing
-    ]

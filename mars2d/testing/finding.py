@@ -9,6 +9,8 @@ from typing import Literal
 
 from mars2d.core.errors import InputError, counted
 
+_NUMBER = re.compile(r"[-+]?(\d[\d.]*(e[-+]?\d+)?|\binf\b|\bnan\b)")
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -20,9 +22,6 @@ class Finding:
     kind: Literal["wrong", "hint"]
     text: str
     untried: bool = False
-
-
-_NUMBER = re.compile(r"[-+]?(\d[\d.]*(e[-+]?\d+)?|\binf\b|\bnan\b)")
 
 
 class CheckError(InputError):
@@ -38,9 +37,10 @@ class CheckError(InputError):
 
 
 class Report:
-    """Collects findings; of those that differ only in numbers, the first is kept."""
+    """Collects findings about what has a title; of those that differ only in numbers, the first."""
 
-    def __init__(self) -> None:
+    def __init__(self, title: str) -> None:
+        self._title = title
         self._findings: dict[str, Finding] = {}
 
     def wrong(self, text: str, *, untried: bool = False) -> None:
@@ -56,13 +56,9 @@ class Report:
         """Whether nothing wrong has been found so far."""
         return not any(finding.kind == "wrong" for finding in self._findings.values())
 
-    @property
-    def findings(self) -> tuple[Finding, ...]:
-        """All findings; first those that are wrong."""
-        return tuple(sorted(self._findings.values(), key=lambda finding: finding.kind == "hint"))
-
-
-def judge(name: str, findings: tuple[Finding, ...]) -> None:
-    """Raise CheckError if anything is wrong."""
-    if any(finding.kind == "wrong" for finding in findings):
-        raise CheckError(name, findings)
+    def hints(self) -> tuple[Finding, ...]:
+        """Return the hints; raise CheckError if anything is wrong."""
+        found = sorted(self._findings.values(), key=lambda finding: finding.kind == "hint")
+        if not self.sound:
+            raise CheckError(self._title, found)
+        return tuple(found)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Sequence
-from functools import partial
 from math import pi
 from typing import Any
 
@@ -16,171 +14,117 @@ from mars2d.core.deadline import Deadline
 from mars2d.core.errors import shown
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
-from mars2d.core.usercode import called
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.testing.finding import Finding, judge
-from mars2d.testing.subject import ControlLaw, Placed, Subject, own_methods, with_methods
-from mars2d.testing.trial import changed, contents, shepherd, small_world, untouchable
+from mars2d.sensors.sensing import Device
+from mars2d.testing.finding import Finding
+from mars2d.testing.subject import KEEP, Subject
+from mars2d.testing.trial import ControlLaw, Placed, looker, small_world
 from mars2d.world.world import World
 
 
-def check_sensor(sensor: Sensor, *, scenario: Scenario | None = None) -> None:
-    """Try a sensor, and raise CheckError, which lists everything that is wrong with it.
-
-    The sensor runs for 50 control steps on the robots of a small world with walls, an obstacle and
-    a box, or on those of a `scenario`. The check reports invalid readings, random numbers from
-    shared generators, changes to the world, and readings that differ with the same seed.
-
-    >>> from mars2d.sensors import Proximity
-    >>> check_sensor(Proximity(range=1.0))
-    """
-    judge(f"sensor {type(sensor).__name__}", sensor_findings(sensor, scenario=scenario))
-
-
-def sensor_findings(
+def check_sensor(
     sensor: Sensor,
     *,
     scenario: Scenario | None = None,
     control: ControlLaw | None = None,
     deadline: Deadline | None = None,
 ) -> tuple[Finding, ...]:
-    """Return the findings of `check_sensor`, including hints.
+    """Try a sensor; return hints, and raise CheckError, which lists all that is wrong with it.
 
-    control: the law of the scenario's team. deadline: the limit of each control step.
+    The sensor runs for 50 control steps on the robots of a small world with walls, an obstacle and
+    a box, or on those of a `scenario`, whose team has the law `control`. The check reports invalid
+    readings, random numbers from shared generators, changes to the world, and readings that differ
+    with the same seed. deadline: the limit of each control step.
+
+    >>> from mars2d.sensors import Proximity
+    >>> check_sensor(Proximity(range=1.0))
+    ()
     """
     checks.instance(Sensor, "Proximity(range=1)")("check_sensor(sensor)", sensor)
-    subject = _Subject(sensor)
+    subject = Subject("sensor", sensor, "rng, the sensor's own stream", KEEP)
     if type(sensor).read is Sensor.read:
-        subject.report.wrong(
+        subject.wrong(
             f"{subject.name} has no method read: write read(self, robot, world, rng), which "
             "returns the perfect reading"
         )
-    elif subject.check_methods(sensor, Sensor) and subject.check_fields(sensor, Sensor):
-        with deadline or Deadline() as limit:
-            place = partial(subject.placed, scenario, control)
-            done = subject.first_run(place, limit, subject.draw, small=scenario is None)
-            if done is not None:
-                subject.check_repeatable(*done, (f"sensor {sensor.key} ",))
-                subject.conclude()
-    return subject.report.findings
+    elif subject.check_part(sensor, Sensor):
+        looks = _Looks(sensor, subject)
+        subject.check_runs(
+            lambda: _placed(sensor, scenario, control),
+            deadline,
+            small=scenario is None,
+            looker=looker(on_step=looks.read, on_sensed=looks.draw),
+            own=(f"sensor {sensor.key} ",),
+        )
+    return subject.hints()
 
 
-class _Subject(Subject):
-    """The sensor on trial, and the observations so far."""
+def _placed(sensor: Sensor, scenario: Scenario | None, control: ControlLaw | None) -> Placed:
+    """Return the scenario for the trial, and the law of its team."""
+    read = sensor.replace(recorded=True)  # so that it is read even if no law asks
+    if scenario is None:
+        return small_world([read], sampling_time=1 / (sensor.rate or 10)), None
+    carried = any(sensor in robot.sensors for robot in scenario.robots)
+    robots = [
+        robot.replace(sensors=[*(s for s in robot.sensors if s.key != sensor.key), read])
+        if sensor in robot.sensors or not carried
+        else robot
+        for robot in scenario.robots
+    ]
+    return scenario.replace(robots=robots), control
 
-    def __init__(self, sensor: Sensor) -> None:
-        self.sensor, self.kind = sensor, type(sensor)
-        stream, label = "rng, the sensor's own stream", f"sensor {sensor.key!r}"
-        super().__init__(self.kind.__name__, stream, label=label)
-        self._drawn = 0
-        self._unstable = False
 
-    def placed(self, scenario: Scenario | None, control: ControlLaw | None) -> Placed:
-        """Return the scenario for the trial, and the law of its team."""
-        key, witness = self.sensor.key, self._witness()
-        if scenario is None:
-            rate = self.sensor.rate
-            tick = 0.1 if rate is None else 1 / (rate * max(1, round(10 / rate)))
-            return small_world([witness], sampling_time=tick), shepherd
-        carried = any(self.sensor in robot.sensors for robot in scenario.robots)
-        robots = [
-            robot.replace(sensors=[*(s for s in robot.sensors if s.key != key), witness])
-            if self.sensor in robot.sensors or not carried
-            else robot
-            for robot in scenario.robots
-        ]
-        return scenario.replace(robots=robots), control
+class _Looks:
+    """Looks at the answers of a sensor's methods during a run."""
 
-    def _witness(self) -> Sensor:
-        """Return the sensor with methods that check what they do."""
+    def __init__(self, sensor: Sensor, subject: Subject) -> None:
+        self._sensor, self._kind, self._subject = sensor, type(sensor), subject
 
-        def read(live: Sensor, robot: Any, world: Any, rng: np.random.Generator) -> Any:
-            if self.tried:
-                return self.kind.read(live, robot, world, rng)
-            before, stream = untouchable(robot.world), copy.deepcopy(rng)
-            with self.calling(f"{self.name}.read"):
-                reading = self.kind.read(live, robot, world, rng)
-            self._unchanged("read", before, robot.world)
-            self._acceptable(reading)
-            try:
-                twin = copy.deepcopy(live)
-            except Exception:  # whatever a user's object raises
-                return reading
-            again = self.kind.read(twin, robot, world, stream)
-            self._unstable |= contents(again) != contents(reading)
-            return reading
+    def _devices(self, world: World) -> list[Device]:
+        devices = world.simulation.sensing.devices
+        return [each for each in devices if type(each.described) is self._kind]
 
-        def follow(method: str) -> Callable[..., None]:
-            def following(live: Sensor, robot: Any, world: Any, rng: np.random.Generator) -> None:
-                before = untouchable(robot.world)
-                with self.calling(f"{self.name}.{method}"):
-                    getattr(self.kind, method)(live, robot, world, rng)
-                self._unchanged(method, before, robot.world)
-
-            return following
-
-        own = {"on_start", "on_step"}.intersection(own_methods(self.sensor, Sensor))
-        methods = {"read": read} | {name: follow(name) for name in own}
-        witness = with_methods(self.sensor, methods)
-        witness.__dict__["recorded"] = True  # so that it is read even if no law asks
-        return witness
+    def read(self, world: World) -> None:
+        """Call `read` once more, just before the world does, and look at what it returns."""
+        with self._subject.looking(self._sensor, "read", world):
+            for device in self._devices(world):
+                rng = copy.deepcopy(device.rng)
+                self._check_reading(device.sensor.read(device.view, device.world, rng))
 
     def draw(self, world: World) -> None:
         """Draw as window and figures do, by the frozen sensor of the scenario."""
-        if self.kind.draw is Sensor.draw:
+        if self._kind.draw is Sensor.draw:
             return
-        for i, reading in world.frame.readings.get(self.sensor.key, ()):
-            if any(isinstance(s, self.kind) for s in world.scenario.robots[i].sensors):
-                scene, before = Scene(), untouchable(world)
-                where, color = f"{self.name}.draw", world.scenario.colors[i]
-                with self.calling(where), called(where, self.kind.draw):
-                    self.kind.draw(self.sensor, scene, world.pose[:, i], reading, color)
-                self._unchanged("draw", before, world)
-                self.check_finite(scene, where)
-                self._drawn += len(scene.shapes)
+        scene = Scene()
+        with self._subject.looking(self._sensor, "draw", world):
+            for each in self._devices(world):
+                if each.reading is not None:
+                    color = world.scenario.colors[each.robot]
+                    self._sensor.draw(scene, world.pose[:, each.robot], each.reading, color)
+        self._subject.check_finite(scene, "draw")
 
-    def _unchanged(self, method: str, before: dict[str, bytes], world: World) -> None:
-        what = changed(before, world)
-        if what:
-            self.report.wrong(
-                f"{self.name}.{method} changes {what} (at {world.time:g} s): a sensor only looks. "
-                f"{self.keep}, and draw from rng"
-            )
-
-    def _acceptable(self, reading: Any) -> None:
+    def _check_reading(self, reading: Any) -> None:
         """Report a value that the sensor's quantities can't have; the recorder refuses the rest."""
         try:
             values = np.asarray(reading)
         except ValueError:  # rows of different lengths
             return
-        quantities: Sequence[Quantity] = self.kind.quantities
+        name, quantities = self._subject.name, self._kind.quantities
         if values.dtype.kind not in "bifu" or not values.size:
             return
         if len(quantities) > 1 and (not values.ndim or values.shape[-1] != len(quantities)):
             names = ", ".join(quantity.name for quantity in quantities)
-            self.report.wrong(
-                f"{self.name}.read returned numbers of shape {values.shape}, but {self.name}"
-                f".quantities has {len(quantities)} ({names}): the last axis must have one entry "
-                "for each"
+            self._subject.wrong(
+                f"{name}.read returned numbers of shape {values.shape}, but {name}.quantities has "
+                f"{len(quantities)} ({names}): the last axis must have one entry for each"
             )
             return
         for k, quantity in enumerate(quantities):
             column = values if len(quantities) == 1 else values[..., k]
-            problem = _out_of_range(column, quantity, getattr(self.sensor, "range", None))
+            problem = _out_of_range(column, quantity, getattr(self._sensor, "range", None))
             if problem:
-                self.report.wrong(f"{self.name}.read returned {problem}")
-
-    def conclude(self) -> None:
-        """Report findings that need the whole run."""
-        if self._unstable and not self.shares:
-            self.report.wrong(
-                f"{self.name}.read gives another reading when it is called twice at the same "
-                "instant: how often it is called depends on the rate and on the laws. Changes over "
-                "time belong in on_step, which is called once a control step"
-            )
-        if self.kind.draw is not Sensor.draw and not self._drawn:
-            self.report.hint(f"{self.name}.draw drew nothing in the whole trial")
+                self._subject.wrong(f"{name}.read returned {problem}")
 
 
 def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> str:

@@ -14,8 +14,7 @@ from mars2d.output.controls import CONTROLS
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.law_parameters import PREFIX
-from mars2d.scenario.parameters import Parameter
+from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.window.buttons import draw_icon
 from mars2d.window.dock import Panel
 from mars2d.window.slider import ValueSlider

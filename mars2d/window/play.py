@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -61,7 +60,7 @@ class Result:
 class Play:
     """A game in a window. Without seats, people still choose their roles.
 
-    game: its name and settings, for the scores.
+    game: its name and options, for the scores.
     """
 
     def __init__(self, player: Player, director: Director, memory: Memory, game: str) -> None:
@@ -234,15 +233,19 @@ def _news(before: Tally, won: bool | None, time: float | None) -> str:
     return ""
 
 
-def game_of(experiment: Experiment, settings: Mapping[str, Any]) -> str:
-    """Return the name under which the scores of a game are kept: with other settings, another one.
+def game_of(experiment: Experiment) -> str:
+    """Return the name under which the scores of a game are kept: with other options, another one.
+
+    Another seed may begin elsewhere. How it is drawn does not count.
 
     >>> from mars2d.scenario.experiment import open_experiment
-    >>> game_of(open_experiment("corner_game"), {"mu": 0.8})
+    >>> game_of(open_experiment("corner_game", {"mu": 0.8}))
     'corner_game, mu = 0.8'
     """
+    options = {k: v for k, v in experiment.options.items() if k.partition(".")[0] != "animation"}
+    options |= {"seed": experiment.seed} if experiment.seed else {}
     path = experiment.source.path
     name = experiment.scenario.title if path is None else str(path.absolute())
     if path is not None and path in examples().values():
         name = path.stem
-    return ", ".join([name, *(f"{key} = {value}" for key, value in sorted(settings.items()))])
+    return ", ".join([name, *(f"{key} = {value}" for key, value in sorted(options.items()))])

@@ -11,7 +11,6 @@ from mars2d.core.checks import items_of
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, Mars2dError, shown
 from mars2d.core.interrupt import interrupts
-from mars2d.core.streams import check_seed
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import robots_named
@@ -55,7 +54,7 @@ def run(
     """
     if stop_time is not None:
         options = {**(options or {}), "stop_time": stop_time}
-    speed, seed = playback_speed("speed", speed), check_seed(seed)
+    speed = playback_speed("speed", speed)
     opened = open_experiment(experiment, options, control, seed)
     watchers = _called(watchers)
     driven = robots_named(opened.scenario, human, "human =")
@@ -65,9 +64,9 @@ def run(
             if driven or _wants_window(speed, show):
                 from mars2d.window.show import show_experiment
 
-                result = show_experiment(opened, speed, seed, watchers, humans=driven, log=log)
+                result = show_experiment(opened, speed, watchers, humans=driven, log=log)
             else:
-                result = simulate(opened, seed, speed, watchers, log).record
+                result = simulate(opened, speed, watchers, log).record
         except (Mars2dError, Interrupted) as error:
             if target is not None and error.record is not None:
                 _keep(error, error.record, target, log)

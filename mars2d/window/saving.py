@@ -49,12 +49,12 @@ class Saver:
         self,
         scenario: Scenario,
         control: Callable[[Any], Any] | None,
-        settings: Mapping[str, Any] | None = None,
+        options: Mapping[str, Any] | None = None,
     ) -> None:
         """Save a scenario as a Python file; see `save_python`."""
 
         def save() -> str:
-            path, copied = save_python(scenario, _here(), self._stem, control, settings)
+            path, copied = save_python(scenario, _here(), self._stem, control, options)
             return f"scenario: {path}{', and on the clipboard' if copied else ''}"
 
         self._try(save)
@@ -162,14 +162,14 @@ def save_python(
     folder: Path,
     stem: str,
     control: Callable[[Any], Any] | None = None,
-    settings: Mapping[str, Any] | None = None,
+    options: Mapping[str, Any] | None = None,
 ) -> tuple[Path, bool]:
     """Write a scenario as Python under a free name, and copy it to the clipboard if there is one.
 
-    control: the law of the team. settings: the parameters that were set, for a comment. Returns the
+    control: the law of the team. options: the parameters that were set, for a comment. Returns the
     path, and whether the clipboard has the text.
     """
-    text = as_python(scenario, control, folder, settings)
+    text = as_python(scenario, control, folder, options)
     path = free_name(folder, stem, ".py")
     with _removed_on_failure(path), atomic_write(path) as file:
         file.write(text.encode(errors="replace"))

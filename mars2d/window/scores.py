@@ -64,7 +64,7 @@ class Tally:
 class Scores:
     """The tallies of one game, by role, in a file of the memory of windows.
 
-    game: its name and settings: with other settings it is another game.
+    game: its name and options: with other options it is another game.
     """
 
     def __init__(self, memory: Memory, game: str) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.interrupt import interrupts
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 def show_experiment(
     experiment: Experiment,
     speed: float | str,
-    seed: int = 0,
     watchers: Sequence[Watcher] = (),
     preferences: Preferences | None = None,
     humans: Sequence[int] = (),
@@ -39,7 +38,6 @@ def show_experiment(
     asks: bool = False,
     viewpoint: Viewpoint | None = None,
     play: bool = False,
-    settings: Mapping[str, Any] | None = None,
 ) -> Record:
     """Run an experiment in a window until it is closed, and return the record.
 
@@ -48,8 +46,7 @@ def show_experiment(
     log: writes each control step to a file; it is closed at the end. asks: whether the window asks
     before it closes if a run that hands have changed is to be saved. viewpoint: where the window
     looks, and where it has looked in the end. play: whether people may choose their roles in a
-    game. settings: in which the experiment differs from its file; scores are kept for each. Raises
-    InputError without a display, and the error of a law after the window is closed.
+    game. Raises InputError without a display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
     from mars2d.window.memory import Memory
@@ -59,7 +56,7 @@ def show_experiment(
     source: Timeline | None = None
     kept = interrupts(kept=lambda: None if source is None else source.record)
     with kept, log or nullcontext():
-        source = Timeline(experiment, seed, watchers, log)
+        source = Timeline(experiment, watchers, log)
         memory = Memory()
         window = Window(source, speed, memory.size, preferences or memory.preferences())
         window.dock.open(memory.panels)
@@ -68,8 +65,7 @@ def show_experiment(
             window.viewpoint.look_as(viewpoint)
         drivers = list(humans) or _to_be_driven(experiment)
         if drivers or play:
-            known = game_of(experiment, {**(settings or {}), **_seeded(seed)})
-            window.play(memory, known, drivers[:MOST_PEOPLE])
+            window.play(memory, game_of(experiment), drivers[:MOST_PEOPLE])
         else:
             window.say_who_stands_still()
         try:
@@ -112,15 +108,9 @@ def _to_be_driven(experiment: Experiment) -> list[int]:
     return [i for i, robot in enumerate(robots) if isinstance(robot.controller, ByHand)]
 
 
-def _seeded(seed: int) -> dict[str, int]:
-    """Return the seed as a setting: another one may begin elsewhere."""
-    return {"seed": seed} if seed else {}
-
-
 def show_comparison(
     opened: Callable[[str], Experiment],
     speed: float | str,
-    seed: int = 0,
     preferences: Preferences | None = None,
 ) -> dict[str, Record]:
     """Run an experiment with each physics, side by side in a window until it is closed.
@@ -133,7 +123,7 @@ def show_comparison(
     from mars2d.window.memory import Memory
     from mars2d.window.trio import Trio
 
-    memory, trio = Memory(), Trio(opened, seed)
+    memory, trio = Memory(), Trio(opened)
     CompareWindow(trio, speed, memory.size, preferences or memory.preferences()).run()
     return trio.records
 

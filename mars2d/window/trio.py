@@ -29,11 +29,9 @@ class Trio:
     opened: returns the experiment of a physics, with laws that share nothing with the others'.
     """
 
-    def __init__(self, opened: Callable[[str], Experiment], seed: int = 0) -> None:
+    def __init__(self, opened: Callable[[str], Experiment]) -> None:
         """Build the three worlds; no law has been asked yet."""
-        self.timelines: Mapping[str, Timeline] = {
-            mode: Timeline(opened(mode), seed) for mode in MODES
-        }
+        self.timelines: Mapping[str, Timeline] = {mode: Timeline(opened(mode)) for mode in MODES}
         self.row = 0
         self._before: dict[str, Frame] = {}  # the frames a row earlier, after going on by one
         self._measure_anew()

@@ -537,7 +537,7 @@ class Window(PlayerWindow):
         if timeline is None:
             self.saver.python(scenario, None)
         else:
-            self.saver.python(scenario, timeline.world.control, timeline.settings)
+            self.saver.python(scenario, timeline.world.control, timeline.options)
 
     def _show_parameters(self) -> None:
         """Open the panel of parameters, or close it."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.communication import Burst, Communication
-from mars2d.core.delay import steps_until
+from mars2d.core.arithmetic import steps_until
 from mars2d.core.errors import LawError, nearest, shown
 from mars2d.record.message import (
     LOST,

@@ -47,7 +47,6 @@ class RealTime:
 
 def simulate(
     experiment: Experiment,
-    seed: int = 0,
     speed: float | str = "max",
     watchers: Sequence[Watcher] = (),
     log: Log | None = None,
@@ -69,7 +68,7 @@ def simulate(
     try:
         noted = interrupts(kept=lambda: None if world is None else world.record)
         with noted as check, log or nullcontext(), deadline:
-            world = open_world(experiment, seed, every, Column if log is None else log.storage)
+            world = open_world(experiment, every, Column if log is None else log.storage)
             try:
                 while not world.over:
                     world.step()
@@ -97,21 +96,25 @@ def simulate(
 
 
 def open_world(
-    experiment: Experiment, seed: int, watchers: Sequence[Watcher] = (), storage: Storage = Column
+    experiment: Experiment,
+    watchers: Sequence[Watcher] = (),
+    storage: Storage = Column,
+    record: bool = True,
 ) -> World:
     """Return the world of an experiment, which calls the watchers at each control step.
 
-    storage: makes the columns of its record. Raises InputError, which names the file.
+    storage, record: see `World`. Raises InputError, which names the file.
     """
     try:
         return World(
             experiment.scenario,
             experiment.control,
-            seed,
+            experiment.seed or 0,
             filename=experiment.source.name,
             watch=watch_by(watchers),
             storage=storage,
-            settings=experiment.options,
+            options=experiment.options,
+            record=record,
         )
     except InputError as error:
         error.where = error.where or experiment.source.name or None

@@ -149,7 +149,7 @@ class Operator:
         scenario: Scenario,
         control: Callable[[Any], Any] | None = None,
         moved: Mapping[int, tuple[float, float, float]] | None = None,
-        settings: Mapping[str, Any] | None = None,
+        options: Mapping[str, Any] | None = None,
         given: frozenset[str | None] = frozenset(),
     ) -> None:
         """Go on with another scenario, see `World.change`.
@@ -165,7 +165,7 @@ class Operator:
         stays = not moved and scenario.surfaces == world.scenario.surfaces
         moves_on = stays and moves_alike(world.scenario, scenario)
         changed = scenario if stays else with_poses(scenario, start.state[:, :3].T)
-        made = tuple((settings or {}).items())
+        made = tuple((options or {}).items())
         where = tuple(moved.items())
         self.log.append(Change(world.iteration, scenario, where, control, made, given))
         world.go_on(changed, control, None if moves_on else start)
@@ -236,8 +236,8 @@ class Operator:
         if isinstance(intervention, Place):
             self.place(intervention.body, intervention.pose)
         elif isinstance(intervention, Change):
-            moved, settings = dict(intervention.moved), dict(intervention.settings)
-            self.change(intervention.scenario, intervention.control, moved, settings)
+            moved, options = dict(intervention.moved), dict(intervention.options)
+            self.change(intervention.scenario, intervention.control, moved, options)
         elif isinstance(intervention, Steer):
             self._note(intervention)
         else:
@@ -276,7 +276,7 @@ class Operator:
         """Let a spring act on a body."""
         fx, fy, torque = self._spring(pull, pose, velocity)
         self._force[pull.body] = norm(fx, fy)
-        if not engine.bears(pull.body, norm(fx, fy), abs(torque)):
+        if not engine.withstands(pull.body, norm(fx, fy), abs(torque)):
             engine.pull(pull.body, (fx, fy), torque)
 
     def _spring(self, pull: Pull, pose: Float, velocity: Float) -> tuple[float, float, float]:

@@ -6,6 +6,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from operator import attrgetter
 from time import perf_counter
 
 import numpy as np
@@ -46,8 +47,8 @@ class Track:
     def interventions(self, row: int) -> list[Intervention]:
         """Return the interventions at a row, in order."""
         log = self.world.operator.log[: self.done]
-        first = bisect_left(log, row, key=_row)
-        return log[first : bisect_right(log, row, key=_row)]
+        first = bisect_left(log, row, key=attrgetter("row"))
+        return log[first : bisect_right(log, row, key=attrgetter("row"))]
 
 
 class Past:
@@ -58,8 +59,8 @@ class Past:
     it did before, else empty.
     """
 
-    def __init__(self, experiment: Experiment, seed: int) -> None:
-        self._experiment, self._seed = experiment, seed
+    def __init__(self, experiment: Experiment) -> None:
+        self._experiment = experiment
         self._start, self._options = experiment.scenario, experiment.options
         self.waiting: list[World] = []
         self.driven: set[int] = set()
@@ -69,7 +70,7 @@ class Past:
 
     def with_laws_of(self, experiment: Experiment) -> Past:
         """Return the past of the same run, in which no world waits, for laws read again."""
-        past = Past(experiment, self._seed)
+        past = Past(experiment)
         past._start, past._options, past.driven = self._start, self._options, self.driven
         past._cost, past._opening = self._cost, self._opening
         return past
@@ -149,7 +150,7 @@ class Past:
         """Return a world at the start of this run, with the laws of an experiment read again."""
         scenario = carried(experiment.scenario, self._start)
         begun = replace(experiment, scenario=scenario, options=self._options)
-        return open_world(begun, self._seed)
+        return open_world(begun)
 
     def _open(self) -> World:
         """Let another world wait at the start, in place of another if there are many."""
@@ -218,10 +219,6 @@ class Past:
             )
 
 
-def _row(intervention: Intervention) -> int:
-    return intervention.row
-
-
 def _redo(track: Track, world: World) -> None:
     """Repeat the interventions of a world's present row, unless they were repeated already."""
     row, log = world.iteration, world.operator.log
@@ -230,7 +227,7 @@ def _redo(track: Track, world: World) -> None:
     for intervention in track.interventions(row):
         if isinstance(intervention, Change):
             scenario = carried(world.scenario, intervention.scenario, intervention.given)
-            moved, settings = dict(intervention.moved), dict(intervention.settings)
-            world.operator.change(scenario, world.control, moved, settings, intervention.given)
+            moved, options = dict(intervention.moved), dict(intervention.options)
+            world.operator.change(scenario, world.control, moved, options, intervention.given)
         else:
             world.operator.redo(intervention)

@@ -56,11 +56,11 @@ class Simulation(State):
         seed: int,
         filename: str,
         storage: Storage | None,
-        settings: Mapping[str, Any],
+        options: Mapping[str, Any],
     ) -> None:
         """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
         self.declared, scenario = scenario, scenario.started(seed)
-        super().__init__(scenario, seed, storage, settings)
+        super().__init__(scenario, seed, storage, options)
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
         self.engine_seconds = 0.0

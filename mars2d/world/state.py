@@ -95,11 +95,11 @@ class State(Uncopied):
         scenario: Scenario,
         seed: int,
         storage: Storage | None,
-        settings: Mapping[str, Any],
+        options: Mapping[str, Any],
     ) -> None:
         """Put the bodies where they start.
 
-        storage: makes the columns of the record; None: nothing is recorded. settings: that the
+        storage: makes the columns of the record; None: nothing is recorded. options: that the
         record states.
         """
         self.scenario = scenario
@@ -110,9 +110,9 @@ class State(Uncopied):
         self.broken_off = False
         self.storage = storage
         self.recorder = (
-            Unrecorded(scenario, settings=settings)
+            Unrecorded(scenario, options=options)
             if storage is None
-            else Recorder(scenario, storage, versions, settings)
+            else Recorder(scenario, storage, versions, options)
         )
         self.history = History(self.recorder)
         self.addons = Addons()

@@ -80,7 +80,7 @@ class Around:
         """Return the length of a ray to the first surface, metres; inf if none is hit."""
         _check_look("start", start, "length", length)
         _check_all("angle", angle)
-        return float(self._space.rays.distances(start, np.array([angle]), length, ignore)[0])
+        return self._space.rays.length(start, angle, length, ignore)
 
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
         """Return the lengths of rays at angles (k,), metres; inf where nothing is hit."""

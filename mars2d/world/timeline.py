@@ -49,7 +49,7 @@ class Timeline:
     outside of the world, such as writing a file, are. So no world is made before somebody has gone
     back for the first time.
 
-    experiment: its laws, as its file was last read, and its scenario. seed: of all random streams.
+    experiment: its laws, as its file was last read, and its scenario.
     watchers: called at each control step. log: writes each row of the present branch to a file.
 
     world: at the newest row. row: the present one. branches: the worlds of the other branches, the
@@ -69,11 +69,9 @@ class Timeline:
     def __init__(
         self,
         experiment: Experiment,
-        seed: int = 0,
         watchers: Sequence[Watcher] = (),
         log: Log | None = None,
     ) -> None:
-        self._seed = seed
         self._log = log
         self._watchers = watchers
         self._earlier: list[dict[str, Any]] = []  # runs in which hands did something
@@ -95,9 +93,9 @@ class Timeline:
 
     def _begin(self, experiment: Experiment) -> None:
         """Build the world of an experiment whose laws have not been asked yet."""
-        self.world = open_world(experiment, self._seed, self._watchers)
+        self.world = open_world(experiment, self._watchers)
         self.experiment = experiment
-        self._past = Past(experiment, self._seed)
+        self._past = Past(experiment)
         self.branches = []
         self.row = 0
         self.remark = ""
@@ -159,9 +157,9 @@ class Timeline:
         return replace(_closed(self.world), branches=tuple(_closed(world) for world in others))
 
     @property
-    def settings(self) -> dict[str, Any]:
+    def options(self) -> dict[str, Any]:
         """The options that hold at the newest row of the present branch, by name."""
-        return settings_of(self.world)
+        return options_of(self.world)
 
     @property
     def touched(self) -> bool:
@@ -282,7 +280,7 @@ class Timeline:
         world = self.branch(progress)
         log = [*world.operator.log]
         try:
-            if settings_of(world) != self.experiment.options:  # they were set later than this row
+            if options_of(world) != self.experiment.options:  # they were set later than this row
                 self._change_to(self.experiment, world)
             act(world)
         except InputError:
@@ -312,7 +310,7 @@ class Timeline:
         self._past.forget_from(row)
         self.remark = ""
         experiment, past = self.experiment, self._past
-        held = settings_of(self.world, done)
+        held = options_of(self.world, done)
         if held != experiment.options:
             experiment = experiment.with_options(held)
             past = past.with_laws_of(experiment)
@@ -393,14 +391,14 @@ class Timeline:
         return "in effect from now on; R runs it from the start"
 
     def _change_to(self, experiment: Experiment, world: World) -> None:
-        """Change a world where an experiment differs from the one whose settings it has."""
-        before, held = self.experiment, settings_of(world)
+        """Change a world where an experiment differs from the one whose options it has."""
+        before, held = self.experiment, options_of(world)
         if held != before.options:
             before = before.with_options(held)
         wanted = merged(before.scenario, experiment.scenario, world.scenario)
         made = {k: v for k, v in experiment.options.items() if k not in held or held[k] != v}
         if self.row or wanted != world.scenario or made:
-            world.change(wanted, world.control, settings=made)  # so the record tells of it
+            world.change(wanted, world.control, options=made)  # so the record tells of it
 
     def _adopt(self, world: World) -> None:
         """Go on with a world at the present row; the one before becomes a branch.
@@ -437,7 +435,7 @@ class Timeline:
         if other not in self.branches:
             self._show_run(other)
             return
-        experiment, held = self.experiment, settings_of(other)
+        experiment, held = self.experiment, options_of(other)
         if held != experiment.options:
             self.experiment = experiment.with_options(held)
             self._past = self._past.with_laws_of(self.experiment)
@@ -489,13 +487,13 @@ class _Line:
         return min((row for _, row in rest), default=NEVER)
 
 
-def settings_of(world: World, done: int | None = None) -> dict[str, Any]:
+def options_of(world: World, done: int | None = None) -> dict[str, Any]:
     """Return the options that hold at the newest row of a world; done: after so many changes."""
-    settings = dict(world.recorder.settings)
+    options = dict(world.recorder.options)
     for each in world.operator.log[:done]:
         if isinstance(each, Change):
-            settings.update(each.settings)
-    return settings
+            options.update(each.options)
+    return options
 
 
 def _closed(world: World) -> Record:

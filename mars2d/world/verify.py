@@ -20,6 +20,7 @@ from mars2d.record.interventions import Change, Intervention, Steer
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import MOVING
+from mars2d.world.loop import open_world
 from mars2d.world.record import Record
 from mars2d.world.world import World
 
@@ -94,7 +95,7 @@ def ask_again(
             f"record: {first[1] or 'none'} instead of {first[0] or 'none'}"
         )
     scenario = _as_long(experiment.scenario, record)
-    world = World(scenario, experiment.control, record.seed, filename=experiment.source.name)
+    world = open_world(replace(experiment, scenario=scenario, seed=record.seed))
     by_hand = dict.fromkeys(range(len(scenario.robots)), False)
     found: list[Departure] = []
 
@@ -119,9 +120,8 @@ def _decides(row: int, record: Record, asked: NDArray[np.float64], laws: list[in
     """Return the difference between the commands that laws ask for and those of a row."""
     before = record.command[row]
     others = [i for i in laws if not _same(asked[:, i], before[:, i])]
-    (one, *more), how = others, ""
-    if more:
-        how = f", and so of {counted(len(more), 'other')}"
+    one, *more = others
+    how = f", and so of {counted(len(more), 'other')}" if more else ""
     told = [f"({v:g}, {w:g})" for v, w in (asked[:, one], before[:, one])]
     if told[0] == told[1]:
         told = [f"({v!r}, {w!r})" for v, w in (asked[:, one].tolist(), before[:, one].tolist())]

@@ -32,7 +32,7 @@ class World(WorldView):
     world; a robot's own controller overrides its column. seed: of all random streams. filename:
     the experiment's file, for the record. watch: called with the world once a control step, between
     sensing and control: to draw, to wait, to count. storage: what keeps the columns of the record,
-    in memory or, with `mars2d.record.columns.Scratch`, in files. settings: the options that the
+    in memory or, with `mars2d.record.columns.Scratch`, in files. options: the options that the
     experiment was opened with, for the record. record: False keeps no record, as learners want;
     `world.history` is empty then.
 
@@ -49,12 +49,12 @@ class World(WorldView):
         filename: str = "",
         watch: Watcher | None = None,
         storage: Storage = Column,
-        settings: Mapping[str, Any] | None = None,
+        options: Mapping[str, Any] | None = None,
         record: bool = True,
     ) -> None:
         kept = storage if record else None
         super().__init__(
-            Simulation(_checked(scenario), check_seed(seed), filename, kept, dict(settings or {}))
+            Simulation(_checked(scenario), check_seed(seed), filename, kept, dict(options or {}))
         )
         self.watch = watch
         self._begin(control)
@@ -80,7 +80,7 @@ class World(WorldView):
             before.seed if seed is None else check_seed(seed),
             before.filename,
             before.storage,
-            before.recorder.settings,
+            before.recorder.options,
         )
         self.watch = before.watch
         self._begin(before.control)
@@ -115,18 +115,18 @@ class World(WorldView):
         scenario: Scenario,
         control: Callable[[World], Any] | None = None,
         moved: Mapping[int, tuple[float, float, float]] | None = None,
-        settings: Mapping[str, Any] | None = None,
+        options: Mapping[str, Any] | None = None,
     ) -> None:
         """Go on with another scenario from now on: other obstacles, masses, friction, drives, laws.
 
         Bodies stay where they are, and laws that are the same keep what they remember. control: the
         law of the team from now on, `world.control` for the one that it has. moved: poses of bodies
-        that are put elsewhere with it, by index in `Scenario.bodies`. settings: the parameters that
+        that are put elsewhere with it, by index in `Scenario.bodies`. options: the parameters that
         make the difference, for the record. Raises InputError where a change in `scenario` needs a
         new start, such as another robot, sensor or sampling time, and where a body would be in an
         obstacle.
         """
-        self._simulation.operator.change(scenario, control, moved, settings)
+        self._simulation.operator.change(scenario, control, moved, options)
 
     def fork(self, *, laws: bool = True) -> World:
         """Return an independent world that goes on from this instant; see `WorldView.fork`."""

@@ -700,8 +700,8 @@ def test_pictures_show_messages_and_without_any_nothing_changes():
 
 
 def run(name: str, seed: int = 0, **options):
-    experiment = open_experiment(name, options)
-    record = simulate(experiment, seed).record
+    experiment = open_experiment(name, options, seed=seed)
+    record = simulate(experiment).record
     return {p.name: p for p in experiment.source.checks(record)}, record
 
 

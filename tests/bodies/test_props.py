@@ -7,8 +7,7 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from mars2d import Holonomic, Robot, Unicycle
-from mars2d.addons import Map
+from mars2d import Robot, Unicycle
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Compound, Disc
@@ -52,25 +51,6 @@ def test_props_glide_as_the_formula_says(sampling_time):
         assert np.abs(world.prop_pose - expected).max() < EXACT
 
 
-def test_a_sliding_box_stops_after_v_squared_over_2_mu_g():
-    world = endless([IDLE], [Box(velocity=(2, 0, 0), ground_friction=0.4)])
-    drive(world, [[0], [0]], 2)
-    assert world.prop_pose[0, 0] == pytest.approx(4 / (2 * 0.4 * GRAVITY), abs=EXACT)
-    assert not world.prop_velocity.any()
-
-
-def test_a_spinning_puck_stops_after_its_angular_momentum_over_the_torque_of_the_floor():
-    puck = Puck(diameter=0.3, mass=2, velocity=(0, 0, 10), ground_friction=0.2)
-    world = endless([IDLE], [puck], sampling_time=0.01)
-    # torque mu m g 2/3 r against the moment m r^2 / 2
-    stop = 10 * (0.15**2 / 2) / (0.2 * GRAVITY * 2 / 3 * 0.15)
-    drive(world, [[0], [0]], stop)
-    assert 0 < world.prop_velocity[2, 0] < 10 * 0.011 / stop
-    world.step([[0], [0]])
-    assert world.prop_velocity[2, 0] == 0
-    assert world.prop_pose[2, 0] == pytest.approx(10 * stop / 2, abs=EXACT)
-
-
 @each_case("sampling_time", [0.05, 0.5, 2.0])
 def test_props_glide_exactly_while_others_near_them_push_and_cause_substeps(sampling_time):
     # Two robots press against each other; two pucks pass on either side, a few millimetres off.
@@ -86,23 +66,6 @@ def test_props_glide_exactly_while_others_near_them_push_and_cause_substeps(samp
         expected = np.transpose([glided(prop, world.time) for prop in pucks])
         assert np.abs(world.prop_pose - expected).max() < EXACT
     assert set(world.record.contacts[["a", "b"]].tolist()) == {(0, 1)}
-
-
-def test_props_glide_exactly_when_others_are_thrown_further_than_was_thought_possible():
-    heavy = Robot(pose=(-2.3, 0, 0), mass=10, restitution=1, drive=Holonomic())
-    light = Robot(pose=(0, 0, 0), restitution=1, drive=Holonomic())
-    far = [
-        Puck(pose=(0, 20, 0), velocity=(1, 0, 0), ground_friction=0.02),
-        Bar(pose=(0, 9, 0), velocity=(-0.5, 0.5, 0), ground_friction=0.01),
-        Ball(pose=(0, -9, 0), velocity=(0.3, 0.2, 1)),
-    ]
-    wall = Map([[(2.3, -2), (2.3, 2)]])
-    world = endless([heavy, light], far, addons=[wall], sampling_time=2.0)
-    for _ in range(5):
-        world.step([[0.5, -0.5], [0, 0]])
-        expected = np.transpose([glided(prop, world.time) for prop in far])
-        assert np.abs(world.prop_pose - expected).max() < EXACT
-    assert len(world.record.contacts) > 0
 
 
 # -- pushing --------------------------------------------------------------------------------
@@ -135,25 +98,14 @@ def threshold(robots, prop: Prop, low: float, high: float) -> float:
     return (low + high) / 2
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("force", "prop", "x"),
-    [
-        (5, Box(), -0.351),
-        pytest.param(5, Box(mass=2.5), -0.351, marks=pytest.mark.nightly),
-        (3, Puck(), -0.251),
-        pytest.param(4, Solid(ELL), -0.371, marks=pytest.mark.nightly),
-    ],
-    ids=["box", "heavy box", "puck", "ell"],
-)
+@each_case(("force", "prop", "x"), [(5, Box(mass=2.5), -0.351), (4, Solid(ELL), -0.371)])
 def test_a_prop_moves_up_to_the_friction_that_the_force_overcomes(force, prop, x):
     robot = Robot(pose=(x, 0, 0), drive=Unicycle(max_force=force), friction=0)
     mu = force / (prop.inertia.mass * GRAVITY)
     assert threshold([robot], prop, 0.8 * mu, 1.3 * mu) == pytest.approx(mu, rel=0.02)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("count", [2, 3])
+@each_case("count", [2, 3])
 def test_the_forces_of_several_robots_on_one_box_add_up(count):
     robots = [
         Robot(pose=(-0.351, 0.35 * (i - (count - 1) / 2), 0), drive=Unicycle(max_force=2))
@@ -187,36 +139,12 @@ def test_the_effort_of_pushing_a_box_is_mu_m_g_over_the_force(mu):
     assert world.effort[0] == pytest.approx(mu * GRAVITY / 5, rel=2e-3)
 
 
-def test_the_effort_is_nothing_in_free_motion_and_all_when_stalled():
-    world = endless([Robot(pose=(-0.5, 0, 0))], [Box(ground_friction=1)])
-    world.step([[0.2], [0.1]])
-    assert world.effort.tolist() == [0]
-    drive(world, [[0.2], [0]], 5)
-    assert world.effort[0] == pytest.approx(1, abs=1e-9)
-    assert abs(world.prop_velocity[0, 0]) < 1e-9
-
-
-def test_a_box_that_is_pushed_beside_its_centre_turns():
-    world = endless([Robot(pose=(-0.4, 0.1, 0))], [Box()])
-    drive(world, [[0.2], [0]], 3)
-    assert world.prop_pose[2, 0] < -0.3
-
-
 def test_a_box_pushed_at_both_ends_alike_keeps_its_heading():
     robots = [Robot(pose=(-0.4, y, 0)) for y in (-0.4, 0.4)]
     world = endless(robots, [Box(width=1.2, ground_friction=0.6)])
     drive(world, [[0.2, 0.2], [0, 0]], 5)
     assert abs(world.prop_pose[2, 0]) < 0.01  # the solver takes one contact after the other
     assert world.prop_pose[0, 0] > 0.8
-
-
-def test_a_box_stays_where_it_is_left():
-    world = endless([Robot(pose=(-0.4, 0.05, 0))], [Box()])
-    drive(world, [[0.2], [0]], 2)
-    drive(world, [[-0.2], [0]], 1)
-    before = world.prop_pose
-    drive(world, [[-0.2], [0]], 5)
-    assert np.array_equal(world.prop_pose, before)
 
 
 def test_a_gate_opens_to_its_limit_and_lets_a_robot_past():

@@ -11,7 +11,6 @@ from PIL import Image
 
 import mars2d
 from mars2d.cli import command_line as cli
-from tests.cases import each_case
 
 HEAD_ON = """
 from math import pi
@@ -27,21 +26,6 @@ scenario = Scenario(
 
 def control(world):
     return [[0.5, 0.5], [0.0, 0.0]]
-"""
-
-COUNTING = """
-from mars2d import Robot, Scenario
-
-scenario = Scenario(robots=[Robot(pose=(0, 0, 0))], sampling_time=0.1, stop_time=1.0)
-calls = 0
-
-
-def control(world):
-    global calls
-    calls += 1
-    while True:
-        yield [[0.01 * calls], [0.0]]
-        calls += 1
 """
 
 FAILS_IN_IDEAL = """
@@ -76,6 +60,7 @@ def written(code, name="walk.py"):
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_without_more_it_makes_a_picture_and_a_film_and_says_where(compare):
     code, out, err = compare(written(HEAD_ON))
     assert (code, err) == (0, "")
@@ -127,22 +112,6 @@ def test_the_runs_are_those_of_each_physics_alone(compare):
     assert not Path("mars2d_compare").exists()
 
 
-def test_robots_that_meet_end_elsewhere_with_each_physics(compare):
-    """With ideal physics each goes on for 2 m; the others stand in each other's way."""
-    _, out, _ = compare(written(HEAD_ON), "--json")
-    contact, stop, ideal = json.loads(out)["runs"]
-    assert contact["drift_max"] == contact["drift_mean"] == 0.0
-    assert ideal["drift_max"] > 0.5
-    assert ideal["digest"] != contact["digest"] != stop["digest"]
-    assert ideal["collisions"] >= 1
-
-
-def test_laws_start_anew_for_each_run(compare):
-    _, out, _ = compare(written(COUNTING), "--json")
-    runs = json.loads(out)["runs"]
-    assert [row["drift_max"] for row in runs] == pytest.approx([0, 0, 0], abs=1e-9)
-
-
 def test_options_hold_for_all_runs(compare):
     code, out, _ = compare(
         "follow_the_leader", "--stop-time", 2, "--set", "followers=2", "--set", "sampling_time=0.5",
@@ -161,40 +130,6 @@ def test_options_hold_for_all_runs(compare):
     assert duration == pytest.approx(500, abs=90)
 
 
-def test_a_film_can_be_an_mp4(compare):
-    av = pytest.importorskip("av")
-    code, out, _ = compare(written(HEAD_ON), "--video", "a.mp4", "--speed", 8)
-    assert code == 0
-    assert out.endswith("film:    a.mp4\n")
-    with av.open("a.mp4") as film:
-        stream = film.streams.video[0]
-        assert (stream.width, stream.height) == (1280, 720)
-    assert not Path("mars2d_compare").exists()
-
-
-@each_case(
-    "arguments, expected",
-    [
-        (["no_such_thing"], "no_such_thing: there is no such file or example"),
-        (["random_walk", "--figure", "a.jpg"], "--figure a.jpg: expected a name that ends in"),
-        (["random_walk", "--figure", "no/a.png"], "--figure no/a.png: there is no folder no"),
-        (["random_walk", "--video", "a.avi"], "--video a.avi: expected a name that ends in"),
-        (["random_walk", "--speed", "0"], "'0': expected a number > 0"),
-        (["random_walk", "--speed", "max"], "'max': expected a number > 0"),
-        (["random_walk", "--seed", "-1"], "seed = -1: expected a whole number"),
-        (["random_walk", "--set", "physics=stop"], "compare runs each physics"),
-        (["random_walk", "--set", "diametr=1"], "there is no option 'diametr'"),
-        (["random_walk", "--stop-time", "-1"], "stop_time"),
-    ],
-)
-def test_what_can_not_be_done_is_told_in_one_line(compare, arguments, expected):
-    code, out, err = compare(*arguments)
-    assert (code, out) == (2, "")
-    assert expected in err
-    assert err.count("\n") == 1
-    assert list(Path().iterdir()) == []
-
-
 def test_a_law_that_fails_says_with_which_physics(compare):
     code, out, err = compare(written(FAILS_IN_IDEAL), "--figure", "a.png")
     assert (code, out) == (2, "")
@@ -202,10 +137,3 @@ def test_a_law_that_fails_says_with_which_physics(compare):
     assert "too ideal" in err
     assert err.count("\n") == 1
     assert not Path("a.png").exists()
-
-
-def test_a_folder_that_can_not_be_made_is_told(compare):
-    Path("mars2d_compare").write_text("in the way", encoding="utf-8")
-    code, out, err = compare("random_walk")
-    assert (code, out) == (2, "")
-    assert "mars2d_compare: can't be made" in err

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -94,52 +93,3 @@ def test_what_can_not_be_done_is_one_line_and_leaves_no_file(plot, tmp_path, arg
     assert message in said
     assert said.count("\n") == 0
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_folder_where_nothing_can_be_written_is_refused(plot, tmp_path):
-    folder = tmp_path / "closed"
-    folder.mkdir(mode=0o500)
-    if os.access(folder, os.W_OK):
-        pytest.skip("who runs this may write anywhere")
-    code, said = plot("--figure", "closed/a.png")
-    assert (code, said) == (
-        2, f"mars2d: --figure closed/a.png: nothing can be written in {folder}"
-    )  # fmt: skip
-
-
-def test_characters_that_no_font_has_are_named_in_one_line(plot, tmp_path):
-    scenario = Scenario(title="中文 🤖 \ue123", robots=1, stop_time=1)
-    record = mars2d.run(scenario, control=lambda world: [[0.3], [0.3]])
-    path = record.save(tmp_path / "odd.npz")
-    code, said = plot(record=path)
-    assert code == 0
-    printed, told = said.splitlines()
-    assert printed == "odd_paths.png"
-    assert told.startswith("mars2d: no font has '")
-    assert told.endswith("'\\ue123': boxes stand for them") or "'\\ue123', " in told
-
-
-def test_an_experiment_is_to_be_run_first(plot):
-    for name, record in (("walk.py", "walk"), ("room.toml", "room"), ("head_on", "head_on")):
-        code, said = plot(record=name)
-        assert code == 2
-        assert said.endswith(f"run it first: mars2d run {name} --record {record}.npz")
-
-
-def test_what_is_no_record_is_refused(plot, tmp_path):
-    (tmp_path / "a.npz").write_bytes(b"no record")
-    assert plot(record="a.npz") == (2, "mars2d: a.npz: not a record of MARS2D, or damaged")
-    code, said = plot(record="b.npz")
-    assert code == 2
-    assert "there is no such file" in said
-
-
-def test_a_record_of_no_rows_is_refused_for_every_kind(plot, tmp_path):
-    world = mars2d.World(Scenario(robots=1), lambda world: [[0], [0]])
-    world.record.save(tmp_path / "none.npz")
-    for kind in KINDS:
-        extra = ["--at", "0"] if kind == "snapshots" else []
-        code, said = plot(kind, *extra, record="none.npz")
-        assert code == 2
-        assert "the record has no rows" in said
-    assert [path.name for path in tmp_path.iterdir()] == ["none.npz"]

@@ -4,10 +4,9 @@ from math import pi
 
 import numpy as np
 
-from mars2d import Car, Holonomic, Robot, Scenario, Unicycle
+from mars2d import Holonomic, Robot, Scenario, Unicycle
 from mars2d.cli.command_line import main
 from mars2d.cli.remarks import Bounds, before
-from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
 from tests.cases import each_case
@@ -23,11 +22,6 @@ def test_a_pose_in_degrees_is_remarked(theta):
 @each_case("theta", [0, pi, -3 * pi, 7, 14.0, np.radians(90), 20 * pi, 44.9])
 def test_a_pose_in_radians_is_not(theta):
     assert [*before(Experiment(Scenario(robots=[Robot(pose=(0, 0, theta))])))] == []
-
-
-@each_case("name", sorted(examples()))
-def test_no_example_looks_like_degrees(name):
-    assert [*before(open_experiment(name))] == []
 
 
 def remarks(drive, command, steps=20):
@@ -57,28 +51,12 @@ def test_commands_within_the_bounds_and_a_few_beyond_are_not(drive, command):
     assert remarks(drive, command) == []
 
 
-def test_just_over_half_is_most():
-    (told,) = remarks(Unicycle(max_linear_speed=0.5), lambda t: (2.0 if t < 1.05 else 0.2, 0.0))
-    assert told.startswith("52% of the commands of red were cut")
-
-
 def test_commands_that_look_like_degrees_a_second_are_told():
     told = remarks(Unicycle(max_linear_speed=0.5), lambda t: (0.1, 90))
     assert told[0] == (
         "red was given omega = 90 rad/s, 14.3 turns; if degrees are meant, write np.radians(90)"
     )
     assert len(remarks(Unicycle(max_linear_speed=100), lambda t: (0.1, 45))) == 1
-
-
-def test_speeds_of_other_kinds_are_no_angles():
-    assert remarks(Holonomic(max_linear_speed=100.0), lambda t: (45.0, 0.0), 2) == []
-    assert "degrees" not in " ".join(remarks(Car(max_linear_speed=0.5), lambda t: (45.0, 0.1)))
-
-
-def test_a_file_that_cannot_be_read_is_no_error():
-    made = {}
-    exec("def law(robot):\n    return robot.sense.proximity < 1, 0", made)
-    assert [*before(Experiment(Scenario(robots=[Robot(controller=made["law"])])))] == []
 
 
 def test_check_lists_them_as_hints(tmp_path, monkeypatch, capsys):
@@ -89,14 +67,6 @@ def test_check_lists_them_as_hints(tmp_path, monkeypatch, capsys):
     )
     assert main(["check", "walk.py"]) == 0
     assert "hint        red starts at theta = 90 rad, 14.3 turns" in capsys.readouterr().out
-
-
-def test_several_robots_are_one_line():
-    bounds = Bounds()
-    robots = [Robot(pose=(k, 0, 0), controller=lambda robot: (3, 0)) for k in range(4)]
-    simulate(Experiment(Scenario(robots=robots, stop_time=1)), watchers=[bounds])
-    (told,) = bounds.remarks()
-    assert told.startswith("100% of the commands of robot0, and most of those of 3 other robots")
 
 
 def test_calls_that_would_wait_are_named_with_their_lines(tmp_path):

@@ -4,17 +4,9 @@ import math
 import sys
 
 import numpy as np
-import pytest
 
-from mars2d.core.arrays import locked, sealed, within
+from mars2d.core.arrays import sealed, within
 from tests.cases import each_case
-
-
-def test_a_locked_array_is_the_same_one_and_can_not_be_written():
-    array = np.zeros(3)
-    assert locked(array) is array
-    with pytest.raises(ValueError, match="read-only"):
-        array[0] = 1.0
 
 
 @each_case("kind", [float, bool, [("a", np.int32), ("b", float, (2,))]])

@@ -66,19 +66,6 @@ def test_permissions_and_symbolic_links_stay(tmp_path) -> None:
     assert (tmp_path / "other.csv").stat().st_mode & 0o777 == 0o640
 
 
-def test_a_link_that_points_at_itself_is_refused(tmp_path) -> None:
-    link = tmp_path / "run.csv"
-    link.symlink_to(link)
-    with pytest.raises(InputError, match=r"run\.csv: can't be written: Too many levels of symb"):
-        write(link)
-
-
-def test_a_name_may_be_as_long_as_the_system_allows(tmp_path) -> None:
-    target = tmp_path / ("n" * 251 + ".npz")
-    mars2d.run(Scenario(stop_time=1)).save(target)
-    assert len(mars2d.load(target)) == 11
-
-
 @each_case("suffix", [".npz", ".mcap"])
 def test_a_pipe_is_refused_before_the_run(tmp_path, suffix) -> None:
     pipe = tmp_path / f"run{suffix}"
@@ -89,14 +76,6 @@ def test_a_pipe_is_refused_before_the_run(tmp_path, suffix) -> None:
     with pytest.raises(InputError, match="this is a pipe or a device; expected a file"):
         mars2d.run(Scenario(stop_time=1), record=pipe)
     assert pipe.is_fifo()
-
-
-def test_a_device_stays_a_device(tmp_path) -> None:
-    link = tmp_path / "run.csv"
-    link.symlink_to(os.devnull)
-    with pytest.raises(InputError, match="this is a pipe or a device"):
-        write(link)
-    assert Path(os.devnull).is_char_device()
 
 
 def test_a_file_that_grows_has_one_writer(tmp_path) -> None:
@@ -112,32 +91,6 @@ def test_a_file_that_grows_has_one_writer(tmp_path) -> None:
     assert path.read_bytes() == b"onetwo"
     growing(path, afresh=True).close()
     assert path.read_bytes() == b""
-
-
-def test_a_log_is_written_by_one_run_at_a_time(tmp_path) -> None:
-    pytest.importorskip("mcap")
-    path = tmp_path / "run.mcap"
-    told = []
-
-    def control(world):
-        if world.iteration == 5:
-            told.append(mars("run", "random_walk", "--headless", "--record", path))
-        return 0.1, 0.2
-
-    record = mars2d.run(Scenario(stop_time=1), control=control, record=path)
-    assert told[0].returncode == 2
-    assert f"{path}: another process is writing to it" in told[0].stderr
-    assert mars2d.load(path).digest == record.digest
-
-
-def test_a_file_that_grows_is_not_replaced_by_others(tmp_path) -> None:
-    path = tmp_path / "rows"
-    with growing(path) as file:
-        with pytest.raises(InputError, match="rows: another process is writing to it"):
-            write(path)
-        with atomic_write(path, file) as whole:
-            whole.write(b"by its writer")
-    assert path.read_bytes() == b"by its writer"
 
 
 def test_no_record_is_saved_over_a_log_that_a_run_writes(tmp_path) -> None:

@@ -1,7 +1,7 @@
 """Nothing that ends the process, hangs it or lies gets through to the engine.
 
-Each test runs its inputs in a child process, with and without Python's own asserts: an abort would
-take the tests with it. All inputs go through the public constructors, or come out of laws.
+Each test runs its inputs in a child process without Python's own asserts: an abort would take the
+tests with it. All inputs go through the public constructors, or come out of laws.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def attempt(code):
 """
 
 
-def outcomes(child, cases: list[str], flags: tuple[str, ...] = ()) -> dict:
+def outcomes(child, cases: list[str], *flags: str) -> dict:
     """Return what became of each case; ends with the case at which the process died, if it did."""
     code = PRELUDE + USERS + f"\nfor case in {cases!r}:\n"
     result = child(code + "    print(json.dumps([case, attempt(case)]), flush=True)", *flags)
@@ -100,17 +100,13 @@ ROWS = {
     "force, torque and speed of a drive": [
         *fields("go(Robot(drive=Unicycle(max_force=@)))", "0", "1e7"),
         *fields("go(Robot(drive=Unicycle(max_torque=@)))", "0", "1e7"),
-        *fields("go(Robot(drive=Holonomic(max_force=@)))", "0"),
-        *fields("go(Robot(drive=Holonomic(max_linear_speed=@)))", "0", "1e9"),
         *fields("go(Robot(drive=Unicycle(wheel_semiaxis=@)))", "0", "1e-300"),
         "go(Robot(mass=1e-6, drive=Unicycle(max_force=1e6)))",
     ],
     "wheels, steering, acceleration and noise of a drive": [
         *fields("go(Robot(drive=Differential(wheel_radius=@)))", "0", "1e-300", "1e9"),
-        *fields("go(Robot(drive=Differential(wheel_semiaxis=@)))", "0", "1e-300"),
         *fields("go(Robot(drive=Car(wheelbase=@)))", "0", "1e-300", "1e9"),
         *fields("go(Robot(drive=Car(max_steering=@)))", "0", "1.6"),
-        *fields("go(Robot(drive=Car(max_steering_rate=@)))", "0", without=("None",)),
         *fields("go(Robot(drive=Unicycle(max_acceleration=@)))", "0", without=("None",)),
         *fields("go(Robot(drive=Unicycle(noise=@)))", "1e9"),
         *fields("go(Robot(drive=Unicycle(dead_time=@)))", "1e300"),
@@ -127,11 +123,6 @@ ROWS = {
         *fields("go(Robot(pose=(@, 0, 0)))", "1e7", without=("-1.0",)),
         *fields("go(Robot(pose=(0, 0, @)))", "1e300", without=("-1.0",)),
         "go(Robot(pose=None))",
-        "go(Robot(pose=()))",
-        "go(Robot(pose=(0, 0, 0, 0)))",
-        "go(Robot(pose='000'))",
-        "go(Robot().at(nan, 0))",
-        "go(Robot(), options=1)",
     ],
     "geometry": [
         *fields("go(addons=[Map([[(1, 1), (@, 0)]])])", "1e7", without=("-1.0",)),
@@ -140,38 +131,19 @@ ROWS = {
         "go(addons=[Map([[(1, 1), (1.5, 1), (2, 1)]])])",  # collinear
         "go(addons=[Map([[(1, 1), (1.5, 1), (1.5, 1), (1, 2)]])])",  # repeated
         "go(addons=[Map([[(1, 1), (2, 2), (2, 1), (1, 2)]])])",  # crossing itself
-        "go(addons=[Map([[(1, 1)]])])",
-        "go(addons=[Map([(1, 1), (2, 2)])])",
         "go(addons=[Map(None)])",
-        "go(addons=[Map()])",
         "go(addons=Map([[(1, 1), (1, 0)]]))",
-        "go(addons=[Map])",
         "go(workspace=[(0, 0), (1, 1)])",
         "go(workspace=[(-2, -2), (2, 2), (2, -2), (-2, 2)])",
-        "go(workspace=5)",
-    ],
-    "masses that contacts cannot hold": [
-        "go(Robot(mass=1), Robot(pose=(1, 0, 0), mass=10.1))",
-        "go(Robot(mass=1e-6), Robot(pose=(1, 0, 0), mass=1e6))",
     ],
     "starts in other bodies": [
         "go(Robot(), Robot())",
         "go(Robot(), Robot(pose=(0.29, 0, 0)))",
-        "go(Robot(diameter=1e-3), Robot(diameter=1e-3))",
         "go(Robot(), Robot(), max_overlap=1.0)",
         "go(Robot(center_offset=0.1), Robot(center_offset=-0.1, pose=(0.2, 0, 3.14159)))",
         "go(Robot(), addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])",
-        "go(Robot(diameter=1e-3), addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])",
         "go(Robot(), addons=[Map([[(0.1, -1), (0.1, 1)]])])",
         "go(Robot(pose=(1.9, 0, 0)))",
-        "go(Robot(pose=(3, 0, 0)))",
-        "go(Robot(pose=(3, 0, 0)), on_exit='stop')",
-    ],
-    "thousands of bodies in one place": [
-        "go(*[Robot()] * 5000)",
-        "go(robots=5000)",
-        "go(robots=10**9)",
-        "Scenario(robots=10000)",
     ],
     "shapes": [
         *fields("go(Robot(shape=Disc(@)))", "0", "1e-9", "1e4"),
@@ -184,13 +156,9 @@ ROWS = {
                 "SQUARE + SQUARE[:1] * 2", "[(0, 0), (1, 0), (1, 0), (0, 1)]"),
         *fields("Compound(@)", "[]", "Disc(0.2)", "[Disc]", "[Disc(0.1)] * 65"),
         *fields("go(Robot(shape=@))", "Disc", "SQUARE", "Shape()", without=("None",)),
-        "go(Robot(shape=Disc(0.2), diameter=0.4))",
-        "go(Robot(shape=Polygon(SQUARE), center_offset=0.2))",
-        "go(Robot(shape=Compound([Disc(0.1), Shape()])))",
         "go(Robot(shape=Compound([Disc(1e-3), Disc(1e-3).moved(1e6, 0)])), workspace=None)",
         "go(Robot(shape=Polygon(SQUARE).moved(1, 1)), Robot(pose=FAR, mass=11))",
         "Polygon(SQUARE).moved(1e7, 0)", "Disc(1).moved(nan, 0)",
-        "Compound([Disc(1)]).moved(inf, 0)",
     ],
     "moments": [
         *fields("go(Robot(moment=@))", "0", "1e-300", "1e300", "1", "1e-6", without=("None",)),
@@ -230,10 +198,6 @@ ROWS = {
         *fields("push(Gate(pose=FAR, damping=@))", "1e9"),
         *fields("push(Solid(@, pose=FAR))", "SQUARE", "Polygon(BOW)", "Polygon", "Box()",
                 "Shape()"),
-        "push(Solid(pose=FAR))", "push(Prop(pose=FAR))", "push(Box)", "push(Robot(pose=FAR))",
-        "push(Box(pose=FAR, color='bleu'))", "push(Box(pose=FAR, name=5))",
-        "push(Box(pose=FAR, lenght=1))", "push(Box(pose=FAR, shape=Disc(1)))",
-        "go(Robot(), props=None)", "go(Robot(), props=Box(pose=FAR))", "go(Robot(), props=5)",
         "go(Robot(), physics='contacts', props=[Box(pose=FAR)])",
     ],
     "bodies too large beside too thin ones": [
@@ -241,19 +205,11 @@ ROWS = {
         " workspace=None)"),
         "go(Robot(shape=Polygon([(-500, 0), (500, 0), (0, 0.1)]), mass=1), workspace=None)",
     ],
-    "names": [
-        "push(Box(pose=FAR, name='a'), Ball(pose=(1, -1), name='a'))",
-        "push(Box(pose=FAR, name='robot'), Ball(pose=(1, -1), name='robot'))",
-        "go(Robot(name='a'), props=[Box(pose=FAR, name='a')])",
-    ],
     "props that start in something": [
         "push(Box())", "push(Box(pose=(0.3, 0)))",
         "push(Box(pose=(1, 0)), Box(pose=(1.3, 0, 0.1)))",
-        "push(Gate(pose=(0.4, 0)))", "push(Ball(pose=(1, 1)), Ball(pose=(1, 1)))",
-        "push(Box(pose=(1.9, 0)))", "push(Box(pose=(1.75, 1.75, 0.8)))", "push(Box(pose=(5, 0)))",
         "push(Box(pose=FAR), addons=[Map([[(1.1, -1), (1.1, 2)]])])",
         "push(Box(pose=FAR), addons=[Map([[(0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (0.5, 1.5)]])])",
-        "push(Bar(pose=(-1, 1)), addons=[Map([[(-1.1, 0.98), (-1, 0.98), (-1, 1.02)]])])",
         "push(Solid(Polygon([(0, 0), (1, 0), (1, 1)]), pose=FAR), Puck(pose=(1.1, 0.9)))",
         "push(Solid(Compound([Disc(0.2), Disc(0.2).moved(1, 0)]), pose=FAR), Puck(pose=(1.5, 1)))",
         "go(Robot(shape=Polygon(SQUARE)), Robot(shape=Polygon(SQUARE), pose=(0.1, 0.1, 0.5)))",
@@ -266,9 +222,7 @@ ROWS = {
         *fields("tie(Spring(a='robot0', b='box0', rest_length=@))", "1e7", "1e5",
                 without=("None",)),
         *fields("tie(Spring(a='robot0', b='box0', stiffness=@))", "0", "1e7", "1e6"),
-        *fields("tie(Spring(a='robot0', b='box0', damping=@))", "1e7"),
         *fields("tie(Hinge(a='robot0', stiffness=@))", "1e7", "1e5"),
-        *fields("tie(Hinge(a='robot0', damping=@))", "1e7"),
         *fields("tie(Hinge(a='robot0', limits=@))", "(1, 2)", "(nan, 1)", "(0, 0, 0)", "(1e9, 2)",
                 without=("None",)),
         *fields("tie(Rope(a=@, b='box0'))", "'nobody'", "'box0'", "'world'", "''", "0"),
@@ -280,9 +234,6 @@ ROWS = {
         "tie(Rope(a='robot0', anchor_b=(0, 0)))",  # both ends at one point
         "tie(Rod(a='robot0', b='robot1', anchor_a=(1, 0)))",
         "tie(Hinge(a='robot0', b='box0'))", "tie(Hinge(a='robot0', anchor_b=(0.1, 0)))",
-        "tie(Rope())", "tie(Rope('robot0', 'box0'))", "tie(Rope(a='robot0', c='box0'))",
-        "tie(Joint(a='robot0', b='box0'))", "tie(Box(pose=FAR))", "tie(Rope)", "tie(None)",
-        "go(Robot(), joints=None)", "go(Robot(), joints=Rope(a='robot0', anchor_b=(1, 0)))",
         # what light bodies would need no end of substeps for
         ("go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), joints=[Spring(a='robot0',"
         " anchor_b=(1, 0), stiffness=1e6)])"),
@@ -298,23 +249,14 @@ ROWS = {
     ],
     "lists and words": [
         "go(robots=None)", "Scenario(robots=[])", "Scenario(robots=0)", "Scenario(robots=-1)",
-        "Scenario(robots=True)", "Scenario(robots='3')", "Scenario(robots=[None])",
-        "Scenario(robots=[Robot])", "Scenario(robots=Robot())", "Scenario(robots={})",
-        "Scenario(robot=[Robot()])", "Scenario(Robot())", "Scenario(on_exit='Wall')",
-        "Scenario(physics='none')", "Scenario(title=None)", "Scenario(animation=None)",
         "Scenario(addons=None)", "Scenario(addons=[1])", "Robot(sensors=Proximity(range=1))",
         "Robot(sensors=[Proximity])", "Robot(sensors=[Map([])])", "Robot(drive=Unicycle)",
-        "Robot(drive=None)", "Robot(controller=5)", "Robot(controller=lambda: 0)",
         "Robot(controller=lambda a, b: 0)", "Robot(sees='all')", "Robot(name=5)",
-        "Robot(radius=-1)", "Robot(radius='a')", "Robot(radius=1, diameter=2)",
-        "Robot(color='bleu')", "Proximity()", "Proximity(range=0)", "Proximity(range=nan)",
         "Proximity(range=1, field_of_view=7)", "Proximity(range=1, name='a b')",
         "Animation(playback_speed=np.array([1, 2]))", "Animation(playback_speed=nan)",
-        "Animation(playback_speed=huge)", "Animation(playback_speed=-1)",
         "Scenario(robots=[Robot(name='a'), Robot(name='a', pose=(1, 0, 0))])",
         "Robot(sensors=[Proximity(range=1), Proximity(range=2)])",
         "World(None)", "World(Scenario)", "World(Scenario(), seed=-1)",
-        "World(Scenario(), seed=1.5)", "World(Scenario(), control=5)",
         "World(Scenario(), control=lambda: 0)",
     ],
     "the commands of a robot's law": [
@@ -325,11 +267,6 @@ ROWS = {
             "map(float, '12')",
         )),
         "own(lambda robot: 1 / 0)",
-        "own(lambda robot: robot.pos)",
-        "own(lambda robot: robot.sense.proximty)",
-        "own(lambda robot: undefined)",
-        "own(lambda robot: exit())",
-        "own(lambda robot: robot.rng.uniform('a'))",
     ],
     "the commands of a team's law": [
         *(f"go(Robot(), Robot(pose=(1, 0, 0)), law=lambda world: {value})" for value in (
@@ -339,8 +276,6 @@ ROWS = {
             "np.zeros((2, 2, 1))", "np.zeros((3, 2))", "np.zeros((2, 2), bool)", "object()",
         )),
         "go(commands=[[nan], [0]])",
-        "go(commands=[1, 2, 3])",
-        "go(commands='12')",
         "go(commands=[[10**400], [0]])",
     ],
 }  # fmt: skip
@@ -351,57 +286,29 @@ USERS = """
 from mars2d.bodies.rigid import Inertia, Surface
 class NanMap(Addon):
     def obstacles(self): return [[(nan, 0), (1, 1)]]
-class CrossingMap(Addon):
-    def obstacles(self): return [[(1, 1), (2, 2), (2, 1), (1, 2)]]
-class Nothing(Addon):
-    def obstacles(self): return None
 class Fails(Addon):
     def on_start(self, world): raise KeyError("x")
-class FailsLater(Addon):
-    def on_step(self, world): 1 / (world.iteration - 2)
 class FailsAtTheEnd(Addon):
     def on_stop(self, world): raise OSError("x")
 class Steps(Addon):
     def on_step(self, world): world.step()
-class Broken(Sensor):
-    def read(self, robot, world, rng): raise RuntimeError("x")
-class Text(Sensor):
-    def read(self, robot, world, rng): return "near"
 class Grows(Sensor):
     def read(self, robot, world, rng): return np.zeros(int(10 * world.time) + 1)
-class StepsInside(Sensor):
-    def read(self, robot, world, rng): return world.step()
 class NoRead(Sensor):
     pass
 class NanDrive(Unicycle):
     def twist(self, command): return np.full((3, command.shape[1]), nan)
-class InfDrive(Unicycle):
-    def twist(self, command): return np.full((3, command.shape[1]), inf)
 class LightDrive(Unicycle):
     def twist(self, command): return np.full((3, command.shape[1]), 3e8)
 class ShortDrive(Unicycle):
     def twist(self, command): return np.zeros((2, command.shape[1]))
-class NanLimit(Unicycle):
-    def saturate(self, command): return command * nan
-class BadDrive(Unicycle):
-    def saturate(self, command): raise ZeroDivisionError
 class NoDrive(Drive):
     pass
 def stepping(world):
     world.step()
     return [[0], [0]]
-def stepping_once(world):
-    if world.iteration == 1:
-        world.step([[0], [0]])
-    return [[0], [0]]
 def writes_pose(world):
     world.pose[0] = nan
-    return [[0], [0]]
-def sets_pose(world):
-    world.pose = world.pose * nan
-    return [[0], [0]]
-def writes_command(world):
-    world.command[0] = nan
     return [[0], [0]]
 def writes_history(world):
     world.history.pose[0] = nan
@@ -414,11 +321,6 @@ def changes_scenario(world):
     return [[0], [0]]
 def exits(robot):
     raise SystemExit(3)
-def recurses(robot):
-    return recurses(robot)
-def fails_later(robot):
-    yield 0, 0
-    raise ValueError("later")
 def yields_nan(robot):
     while True:
         yield nan, 0
@@ -427,9 +329,6 @@ class NoShape(Prop):
 class NanShape(Prop):
     @property
     def shape(self): return Disc(nan)
-class TextShape(Prop):
-    @property
-    def shape(self): return "round"
 class OwnShape(Prop):
     @property
     def shape(self): return Odd()
@@ -442,87 +341,43 @@ class BesideIt(Prop):
 class NanMass(Box):
     @property
     def inertia(self): return Inertia(nan, 1.0)
-class NanMoment(Box):
-    @property
-    def inertia(self): return Inertia(1.0, nan)
-class NegativeMass(Box):
-    @property
-    def inertia(self): return Inertia(-1.0, 1.0)
 class NanSurface(Box):
     @property
     def surface(self): return Surface(nan, 0.5)
-class Bouncier(Box):
-    @property
-    def surface(self): return Surface(0.5, 2.0)
-class FailingMass(Box):
-    @property
-    def inertia(self): return 1 / 0
 class FailingJoints(Box):
     def joints(self): return 1 / 0
-class NoJoints(Box):
-    def joints(self): return None
 class TiedToNobody(Box):
     def joints(self): return [Rope(a=self.name, b="nobody")]
-class Own(Joint):
-    pass
 class Negative(Addon):
     friction: float = -1.0
-    def obstacles(self): return [[(1, 1), (1, 0)]]
-class BouncyNan(Addon):
-    restitution: float = nan
-    def obstacles(self): return [[(1, 1), (1, 0)]]
-class Unannotated(Addon):
-    friction = -1.0
-    restitution = nan
     def obstacles(self): return [[(1, 1), (1, 0)]]
 """
 
 
 OWN = [
-    *(
-        f"go(addons=[{name}()])"
-        for name in (
-            "NanMap", "CrossingMap", "Nothing", "Fails", "FailsLater", "Steps",
-            "Negative", "BouncyNan", "Unannotated",
-        )
-    ),
+    *(f"go(addons=[{name}()])" for name in ("NanMap", "Fails", "Steps", "Negative")),
     "go(addons=[FailsAtTheEnd()], stop_time=1)",
     *(
         f"go(Robot(), props=[{name}(pose=(1, 1))])"
-        for name in (
-            "NoShape", "NanShape", "TextShape", "OwnShape", "BesideIt", "NanMass", "NanMoment",
-            "NegativeMass", "NanSurface", "Bouncier", "FailingMass", "FailingJoints",
-            "NoJoints", "TiedToNobody",
-        )
+        for name in ("NoShape", "NanShape", "OwnShape", "BesideIt")
     ),
-    "go(Robot(), joints=[Own(a='robot0')])",
+    *(
+        f"go(Robot(), props=[{name}(pose=(1, 1))])"
+        for name in ("NanMass", "NanSurface", "FailingJoints", "TiedToNobody")
+    ),
     "go(Robot(shape=Odd()))",
-    *(
-        f"go(Robot(sensors=[{name}()]))"
-        for name in ("Broken", "Text", "Grows", "StepsInside", "NoRead")
-    ),
-    *(
-        f"go(Robot(drive={name}()))"
-        for name in ("NanDrive", "InfDrive", "LightDrive", "ShortDrive", "NanLimit",
-                     "BadDrive", "NoDrive")
-    ),
-    *(
-        f"go(law={name})"
-        for name in ("stepping", "stepping_once", "writes_pose", "sets_pose",
-                     "writes_command", "writes_history", "changes_scenario")
-    ),
-    *(
-        f"own({name})"
-        for name in ("writes_own_pose", "exits", "recurses", "fails_later", "yields_nan")
-    ),
-]  # fmt: skip
+    *(f"go(Robot(sensors=[{name}()]))" for name in ("Grows", "NoRead")),
+    *(f"go(Robot(drive={name}()))" for name in ("NanDrive", "LightDrive", "ShortDrive", "NoDrive")),
+    *(f"go(law={name})" for name in ("stepping", "writes_pose", "changes_scenario")),
+    "go(law=writes_history)",
+    *(f"own({name})" for name in ("writes_own_pose", "exits", "yields_nan")),
+]
 """What users write themselves, in place of laws and parts of ours."""
 
 
-@pytest.mark.parametrize("flags", [(), pytest.param(("-O",), marks=pytest.mark.slow)])
-def test_what_would_abort_lie_or_hang_is_an_input_error(child, flags):
+def test_what_would_abort_lie_or_hang_is_an_input_error(child):
     cases = [*itertools.chain(*ROWS.values()), *OWN]
-    passed = {k: v for k, v in outcomes(child, cases, flags).items() if v != "InputError"}
+    passed = {k: v for k, v in outcomes(child, cases, "-O").items() if v != "InputError"}
     assert passed == {}
 
 

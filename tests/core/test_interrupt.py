@@ -32,12 +32,6 @@ def test_a_block_that_holds_it_back_raises_it_at_its_end(capfd):
     assert capfd.readouterr().err == "mars2d: one moment: saving run.npz\n"
 
 
-def test_an_error_at_the_end_of_a_block_that_holds_it_back_comes_first():
-    with pytest.raises(ZeroDivisionError), interrupts(held=""):
-        press()
-        raise ZeroDivisionError
-
-
 def test_the_innermost_block_counts():
     with interrupts(held=""), pytest.raises(KeyboardInterrupt), interrupts():
         press()

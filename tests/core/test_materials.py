@@ -39,11 +39,6 @@ def test_the_product_of_two_surfaces_is_the_friction_of_the_pair(a, b, low, high
     assert low <= MATERIALS[a].friction * MATERIALS[b].friction <= high
 
 
-def test_glass_bounces_better_than_steel_and_steel_better_than_cardboard():
-    bounces = [MATERIALS[name].restitution for name in ("glass", "steel", "wood", "cardboard")]
-    assert bounces == sorted(bounces, reverse=True)
-
-
 @each_case(("check", "quantity", "high"), CHECKS)
 def test_a_surface_takes_a_number_or_a_materials_name(check, quantity, high):
     for value in (0, 0.5, high):
@@ -51,15 +46,6 @@ def test_a_surface_takes_a_number_or_a_materials_name(check, quantity, high):
         assert type(check("Robot.x", value)) is float
     for name, found in MATERIALS.items():
         assert check("Robot.x", name) == getattr(found, quantity)
-
-
-@each_case(("check", "quantity", "high"), CHECKS)
-@each_case("value", [-0.1, 1000.5, float("nan"), float("inf"), None, True, [0.5]])
-def test_anything_else_is_refused_with_what_was_expected(check, quantity, high, value):
-    with pytest.raises(InputError) as error:
-        check("Robot.x", value)
-    assert str(error.value).startswith(f"Robot.x = {value}: expected a number >= 0 and <= {high}")
-    assert "or a material's name" in str(error.value)
 
 
 @each_case("check", [surface_friction, surface_restitution, material])
@@ -78,10 +64,3 @@ def test_an_unknown_material_gets_the_nearest_name_or_all(check, value, hint):
     with pytest.raises(InputError, match=hint) as error:
         check("Box.material", value)
     assert str(error.value).startswith("Box.material = ")
-
-
-def test_a_material_may_be_left_out_but_is_no_number():
-    assert material("Box.material", None) is None
-    assert material("Box.material", "ice") == "ice"
-    with pytest.raises(InputError, match="a material's name, or None"):
-        material("Box.material", 3)

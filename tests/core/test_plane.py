@@ -9,7 +9,6 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mars2d.core import plane
-from tests.cases import each_case
 
 
 @given(st.floats(-1e4, 1e4))
@@ -18,10 +17,6 @@ def test_wrapped_angles_are_the_same_angle_in_minus_pi_to_pi(angle):
     assert -np.pi < wrapped <= np.pi
     turns = (angle - wrapped) / (2 * np.pi)
     assert turns == pytest.approx(round(turns), abs=1e-9)
-
-
-def test_pi_stays_pi_and_minus_pi_becomes_it():
-    assert plane.wrap([np.pi, -np.pi]).tolist() == [np.pi, np.pi]
 
 
 coordinates = st.floats(-10, 10)
@@ -46,29 +41,12 @@ def test_the_inside_of_a_concave_polygon_leaves_its_notch_out():
     assert plane.inside_polygon(x, y, notched).tolist() == [True, False]
 
 
-def test_bounds_are_in_the_order_of_mars():
-    assert plane.bounds_of([(1, 5), (-2, 7), (0, 6)]) == (-2, 1, 5, 7)
-
-
-def test_an_outline_of_two_is_a_wall_and_of_more_a_ring():
-    a, b, c = (0.0, 0.0), (1.0, 0.0), (0.0, 1.0)
-    assert plane.edges_of((a, b)) == [(a, b)]
-    assert plane.edges_of((a, b, c)) == [(a, b), (b, c), (c, a)]
-
-
 @given(st.floats(1e-6, 1e6))
 def test_a_grid_step_is_the_next_of_1_2_and_5_times_a_power_of_ten(wanted):
     steps = [k * 10.0**power for power in range(-7, 8) for k in (1, 2, 5)]
     assert plane.grid_step(wanted) == pytest.approx(
         min(step for step in steps if step >= wanted * (1 - 1e-9)), rel=1e-12
     )
-
-
-@each_case("wanted", [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 1e-3, 2e-5])
-def test_a_grid_step_of_1_2_or_5_stays(wanted):
-    assert plane.grid_step(wanted) == pytest.approx(wanted, rel=1e-12)
-    assert plane.grid_step(wanted * (1 + 1e-10)) == pytest.approx(wanted, rel=1e-12)  # rounded
-    assert plane.grid_step(wanted * (1 + 1e-8)) > wanted * 1.5
 
 
 segments = st.tuples(coordinates, coordinates, coordinates, coordinates)
@@ -91,20 +69,3 @@ def test_the_distance_to_a_ring_counts_all_its_edges_from_both_sides():
     x, y = np.array([[5, 1], [3, 3], [1, 3.5], [-1, 2], [0.25, 1], [3, 1.75]]).T
     distances = plane.distance_to_ring(x, y, L_SHAPE)
     assert distances.tolist() == [1, 1, 0.5, 1, 0.25, 0.25]
-
-
-def test_outside_a_polygon_is_neither_in_it_nor_on_its_boundary():
-    x, y = np.array([[1, 1], [4, 1], [4 + 5e-10, 1], [4 + 2e-9, 1], [3, 3], [0, 4]]).T
-    outside = plane.outside_polygon(x, y, L_SHAPE)
-    assert outside.tolist() == [False, False, False, True, True, False]
-    assert plane.outside_polygon(x[:3], y[:3], L_SHAPE).tolist() == [False, False, False]
-
-
-def test_a_rectangle_goes_counter_clockwise_from_its_lower_left():
-    assert plane.rectangle(1, 2, 3, 5) == ((1, 3), (2, 3), (2, 5), (1, 5))
-
-
-def test_two_vertices_are_a_line_to_shapely_and_more_an_area():
-    line, area = plane.lines_and_areas([((0, 0), (3, 4)), ((0, 0), (2, 0), (0, 2))])
-    assert (line.geom_type, line.length) == ("LineString", 5)
-    assert (area.geom_type, area.area) == ("Polygon", 2)

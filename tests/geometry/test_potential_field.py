@@ -32,10 +32,10 @@ def test_the_force_is_minus_the_gradient_of_the_potential(x, y, gx, gy):
 
 
 def test_the_force_has_no_jumps_on_a_way_round_a_box():
-    goal, turns = (5.0, 3.0), np.linspace(0, 2 * np.pi, 20_001)
+    goal, turns = (5.0, 3.0), np.linspace(0, 2 * np.pi, 5_001)
     way = np.column_stack([1.3 + 0.9 * np.cos(turns), 0.2 + 1.1 * np.sin(turns)])
     forces = np.array([ROOM.force(at, goal) for at in way])
-    assert np.abs(np.diff(forces, axis=0)).max() < 0.02
+    assert np.abs(np.diff(forces, axis=0)).max() < 0.08
 
 
 def test_far_from_walls_the_goal_pulls_in_proportion_and_then_with_one_force():
@@ -150,11 +150,6 @@ def test_it_needs_waypoints():
     assert not scene.shapes
 
 
-def test_outside_of_a_world_there_is_no_force():
-    with pytest.raises(InputError, match=r"world\.addons\.potential_field"):
-        PotentialField().force(0)
-
-
 def test_a_robot_without_waypoints_has_no_force():
     with pytest.raises(LawError, match="robot 0 has no waypoints"):
         World(
@@ -178,13 +173,6 @@ def test_theory_shows_arrows_to_the_goal_of_now_and_a_cross_at_the_trap():
     assert reached == 1
     assert all(line.points.mean(axis=0) == pytest.approx(end) for line in lines)
     assert len(lines) == 4  # two strokes, each with a rim
-
-
-def test_no_cross_is_drawn_where_all_arrive():
-    free = scenario(Waypoints([[(0, 3), (4, 3)]]))
-    scene = Scene()
-    free.addons[2].theory(scene, World(free).frame)
-    assert not [shape for shape in scene.shapes if isinstance(shape, Line)]
 
 
 def test_without_obstacles_all_arrows_point_to_the_goal():

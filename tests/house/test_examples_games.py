@@ -1,22 +1,17 @@
 """The examples in which things are shoved, towed, wrestled with and squeezed through a door."""
 
 import dataclasses
-import json
-import re
 
 import numpy as np
 import pytest
 
 import mars2d
-from mars2d.cli.command_line import main
-from mars2d.core.errors import LawError
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment, open_module
 from tests.worlds import predicted
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
-PLAYERS = ("pusher", "flanker", "dodger")
 PURSUERS, EVADERS = ("straight", "ahead", "inside"), ("away", "corners", "round")
 
 
@@ -59,12 +54,6 @@ def test_the_stronger_team_wins_the_tug_of_war(blue, winner):
     assert record.over_message.startswith(f"{winner} wins")
 
 
-def test_equal_teams_stand_still():
-    record, predictions = predicted("tug_of_war", blue=6.0)
-    assert predictions["end of the game"].ok
-    assert np.abs(record.pose[-1, :, :3] - record.pose[0, :, :3]).max() < 1e-3
-
-
 def test_no_player_beats_all_others():
     wins = {}
     for one, other in (("pusher", "flanker"), ("flanker", "dodger"), ("dodger", "pusher")):
@@ -81,38 +70,6 @@ def test_luck_plays_a_part_and_a_seed_repeats_it():
     outcomes = {bout("pusher", "dodger", seed) for seed in range(12)}
     assert outcomes == {"red", "blue"}
     assert len({mars2d.run("sumo", seed=3).digest for _ in range(2)}) == 1
-
-
-def test_equal_pushers_end_in_a_draw():
-    assert bout("pusher", "pusher") == "a draw"
-
-
-def test_a_class_plays_with_laws_from_the_current_folder(tmp_path, monkeypatch, capsys):
-    (tmp_path / "coward.py").write_text("def control(robot):\n    return -1.0, 0.0\n")
-    monkeypatch.chdir(tmp_path)
-    assert main(["run", "sumo", "--headless", "--json", "--set", "red=coward.py"]) == 0
-    outcome = json.loads(capsys.readouterr().out)
-    assert re.match(r"blue wins: the other has left the ring after 0\.7\d s", outcome["message"])
-    assert all(check["ok"] for check in outcome["checks"])
-
-
-def test_a_player_that_is_not_there_is_named(capsys):
-    assert main(["run", "sumo", "--headless", "--set", "red=sumo_players/pushr.py"]) == 2
-    assert "pusher" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("folder", "players"),
-    [("sumo_players", PLAYERS), ("corner_pursuers", PURSUERS), ("corner_evaders", EVADERS)],
-)
-def test_players_lie_beside_the_examples_and_are_none(folder, players):
-    folder = examples()["sumo"].parent / folder
-    assert {file.stem for file in folder.glob("*.py")} == set(players)
-    assert not set(players) & set(examples())
-    for file in folder.glob("*.py"):
-        lines = file.read_text().splitlines()
-        assert lines[0].startswith('"""')
-        assert len(lines) <= 30
 
 
 # -- corner_game --------------------------------------------------------------------------------
@@ -177,13 +134,6 @@ def test_no_law_of_the_corner_game_goes_faster_than_the_rules_allow(tmp_path):
     speed = np.hypot(*np.diff(record.pose[:, :2], axis=0).transpose(1, 0, 2)) / 0.1
     assert speed[:20].max(axis=0) == pytest.approx([0.4, 0.5])
     assert np.abs(record.pose[:, :2]).max() < 5.0  # the walls hold them
-
-
-def test_laws_of_the_corner_game_see_positions_only(tmp_path):
-    spy = tmp_path / "spy.py"
-    spy.write_text("def control(robot):\n    return robot.neighbours[0].pose[:2]\n")
-    with pytest.raises(LawError, match="positions only: a neighbour's pose is not available"):
-        mars2d.run("corner_game", options={"evader": str(spy)})
 
 
 def test_the_crowds_checks_see_who_overlaps_or_comes_through_a_wall():

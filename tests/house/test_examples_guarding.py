@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d.cli.command_line import main
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_module
-from mars2d.scenario.roles import roles_of
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 LAWS = {
     "guard_the_line": {
@@ -85,24 +83,6 @@ def test_a_game_agrees_with_its_formula(name, options):
 
 
 @pytest.mark.parametrize("name", LAWS)
-def test_each_role_has_laws_in_a_folder_and_the_first_one_by_default(name):
-    scenario = mars2d.scenario.open_experiment(name).scenario
-    game = next(a for a in scenario.addons if a.key == "game")
-    assert [role for role, _ in game.roles] == list(LAWS[name])
-    for (folder, *laws), team in zip(LAWS[name].values(), game.teams(scenario), strict=True):
-        path = examples()[name].parent / folder
-        assert {file.stem for file in path.glob("*.py")} == set(laws)
-        assert not set(laws) & set(examples())
-        for robot in team:
-            file = scenario.robots[robot].controller.__code__.co_filename
-            assert file.endswith(f"{folder}/{laws[0]}.py")
-        for file in path.glob("*.py"):
-            lines = file.read_text().splitlines()
-            assert lines[0].startswith('"""')
-            assert len(lines) <= 30
-
-
-@pytest.mark.parametrize("name", LAWS)
 def test_all_laws_of_a_game_play_each_other(name):
     first, second = LAWS[name].items()
     for one in first[1][1:]:
@@ -111,26 +91,6 @@ def test_all_laws_of_a_game_play_each_other(name):
             record, result = outcome(name, 1, **options)
             assert len(record) > 1
             assert result.winner in (None, *LAWS[name])
-
-
-@pytest.mark.parametrize("name", LAWS)
-def test_both_roles_are_played_by_hand(name):
-    scenario = mars2d.scenario.open_experiment(name).scenario
-    roles = roles_of(scenario)
-    assert roles.keys() == LAWS[name].keys()
-    assert len({robots[0] for robots in roles.values()}) == 2
-
-
-@pytest.mark.parametrize("name", LAWS)
-def test_a_tournament_plays_it(name, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    roles = []
-    for role, (folder, *laws) in LAWS[name].items():
-        roles += ["--role", f"{role}={folder}/{laws[0]}.py,{folder}/{laws[1]}.py"]
-    assert main(["tournament", name, *roles, "--seeds", "1", "--stop-time", "3"]) == 0
-    told = capsys.readouterr().out
-    assert "4 matches" in told
-    assert "forfeit" not in told
 
 
 # -- guard the line, capture the flag ------------------------------------------------------------

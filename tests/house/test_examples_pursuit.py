@@ -8,7 +8,7 @@ import pytest
 import mars2d
 from mars2d.scenario.experiment import open_experiment, open_module
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 
 def played(name, **options):

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from functools import partial
 from math import pi, sin, tan
 
 import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Scenario
 from mars2d.geometry.voronoi import Tessellation
 from mars2d.scenario.examples import examples, examples_folder
 from mars2d.scenario.experiment import open_experiment, open_module
 from tests.worlds import predicted
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 SOLUTIONS = examples_folder() / "solutions"
 
@@ -38,30 +36,6 @@ def test_in_a_square_the_cost_never_rises_and_robots_end_at_their_centroids(holo
     early, late, steady, end = costs(record, at)
     assert early > 10 * end
     assert steady < 1.01 * end < late  # almost steady at 60 s, as the paper says
-
-
-def test_the_checks_see_a_law_that_goes_the_wrong_way():
-    _, found = predicted("coverage_circle", k=-0.2)
-    assert not found["largest rise of H"].ok
-
-
-@pytest.mark.parametrize("name", ["coverage_square", "coverage_circle"])
-def test_the_checks_see_a_robot_that_stands_still(name):
-    base = open_module(name)
-    scenario = base.scenario()
-    first, *others = scenario.robots
-    still = first.replace(controller=partial(lambda k, robot: (0.0, 0.0), 1.0))
-    found = {p.name: p for p in base.checks(mars2d.run(scenario.replace(robots=[still, *others])))}
-    assert not found["farthest from its centroid"].ok
-
-
-@pytest.mark.parametrize(
-    "options", [pytest.param({"k": 0.1}, marks=pytest.mark.nightly), {"stop_time": 5.0}]
-)
-@pytest.mark.parametrize("name", ["coverage_square", "coverage_circle"])
-def test_of_robots_that_are_still_on_their_way_only_H_is_checked(name, options):
-    _, found = predicted(name, **options)
-    assert [(each.name, each.ok) for each in found.values()] == [("largest rise of H", True)]
 
 
 def test_the_cost_falls_at_the_rate_of_the_gradient():
@@ -138,10 +112,3 @@ def test_which_arrangements_last_is_as_the_model_answer_says(options, inside):
     record = mars2d.run(experiment.scenario, stop_time=60)
     assert (np.hypot(*record.pose[-1, :2]) < 2.5 / 3).sum() == inside
     assert all(each.ok for each in experiment.predictions(record))
-
-
-def test_both_examples_are_scenarios_of_full_information():
-    for name in ("coverage_square", "coverage_circle"):
-        scenario = open_experiment(examples()[name]).scenario
-        assert isinstance(scenario, Scenario)
-        assert {robot.sees for robot in scenario.robots} == {"full"}

@@ -1,10 +1,8 @@
 """The experiments path_planning and leader_following, and the floor that the first is played on."""
 
 import dataclasses
-from collections import Counter
 from math import hypot, pi
 
-import ezdxf
 import numpy as np
 import pytest
 import shapely
@@ -13,9 +11,9 @@ from scipy.optimize import brentq, minimize
 from mars2d.addons import Map
 from mars2d.scenario.examples import examples, examples_folder
 from mars2d.scenario.experiment import open_experiment, open_module
-from tests.worlds import failing, predicted
+from tests.worlds import predicted
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 FLOOR = examples()["path_planning"].with_name("maps") / "department.dxf"
 SOLUTIONS = examples_folder() / "solutions"
@@ -34,45 +32,12 @@ def followed():
 # -- the floor ------------------------------------------------------------------------------------
 
 
-def entities(drawing):
-    """What stands in a drawing, apart from its handles: kinds, layers and coordinates."""
-    found = Counter()
-    for space in (drawing.modelspace(), *(drawing.blocks.get(n) for n in ("DESK", "BENCH"))):
-        for each in space:
-            kept = {k: str(v) for k, v in each.dxfattribs().items() if "handle" not in k}
-            kept = {k: v for k, v in kept.items() if k not in ("owner", "geometry")}
-            corners = str(each.get_points()) if each.dxftype() == "LWPOLYLINE" else ""
-            found[each.dxftype(), corners, *sorted(kept.items())] += 1
-    return found
-
-
-def test_the_drawing_is_the_one_that_its_script_makes(tmp_path):
-    open_module(FLOOR.with_name("make_department.py")).department().saveas(tmp_path / "made.dxf")
-    made, kept = ezdxf.readfile(tmp_path / "made.dxf"), ezdxf.readfile(FLOOR)
-    assert entities(made) == entities(kept)
-    assert len(entities(kept)) > 80
-    assert kept.units == made.units == ezdxf.units.MM
-
-
 def test_the_outlines_are_those_of_the_drawing():
     script = open_module(FLOOR.with_name("make_department.py"))
     outlines = FLOOR.with_suffix(".geojson")
     assert outlines.read_text(encoding="utf-8") == script.outlines(FLOOR)
     chosen = {"layers": ["WALLS", "FURNITURE"]}
     assert Map.from_file(outlines, **chosen) == Map.from_file(FLOOR, **chosen)
-
-
-def test_the_drawing_has_what_drawings_have():
-    drawing = ezdxf.readfile(FLOOR)
-    kinds = {(e.dxftype(), e.dxf.layer) for e in drawing.modelspace()}
-    assert {
-        ("SOLID", "WALLS"), ("LWPOLYLINE", "WALLS"), ("LINE", "WALLS"), ("ARC", "WALLS"),
-        ("ARC", "DOORS"), ("LINE", "DOORS"), ("INSERT", "FURNITURE"), ("TEXT", "TEXT"),
-        ("DIMENSION", "DIMENSIONS"),
-    } == kinds  # fmt: skip
-    assert not drawing.audit().errors
-    polylines = drawing.modelspace().query("LWPOLYLINE")
-    assert any(bulge for p in polylines for *_, bulge in p.get_points("xyb"))
 
 
 def test_the_floor_is_30_by_20_metres_and_its_doors_are_open():
@@ -122,40 +87,6 @@ def test_a_waypoint_by_the_door_frees_the_third(detour):
     assert "robot2 is stuck at x" not in predictions
 
 
-@pytest.mark.parametrize(
-    ("option", "end"),
-    [
-        ({"detour": (20, 10)}, (21.548, 11.519)),
-        ({"addons.1.routes.2.4": (26, 12.6)}, (21.561, 12.811)),
-        ({"addons.2.repulsion": 0.03}, (16.5, 8.26)),
-        ({"addons.2.reach": 1.5}, (21.527, 14.164)),
-    ],
-)
-def test_what_is_set_otherwise_is_predicted_otherwise(option, end):
-    record, predictions = predicted("path_planning", **option)
-    assert [p for p in predictions.values() if not p.ok] == []
-    assert record.pose[-1, :2, 2] == pytest.approx(end, abs=0.005)
-
-
-def test_of_robots_that_are_still_on_their_way_nothing_is_said():
-    _, predictions = predicted("path_planning", stop_time=30.0)
-    assert set(predictions) == {"contacts"}
-
-
-def test_the_checks_of_path_planning_see_another_end(planned):
-    record, _ = planned
-    pose = record.pose.copy()
-    pose[-1, 1, 2] += 0.02
-    pose[:, 0, 0] += 1.0
-    wrong = failing("path_planning", dataclasses.replace(record, pose=pose))
-    assert wrong == {"robot2 is stuck at y", "waypoints that robot0 reaches"}
-
-
-def test_another_map_takes_the_place_of_the_floor():
-    walls = open_experiment("path_planning", {"map": str(FLOOR), "layers": "WALLS"}).scenario
-    assert 0 < len(walls.obstacles) < len(open_experiment("path_planning").scenario.obstacles)
-
-
 def test_the_numbers_of_the_model_answer_on_walls_and_doors(planned):
     record, _ = planned
     field = record.scenario.addons[2].of(record.scenario)
@@ -203,13 +134,6 @@ def test_the_followers_keep_their_places(followed):
         assert (seen - bearing + pi) % (2 * pi) - pi == pytest.approx(0, abs=1e-3)
 
 
-def test_nobody_knows_a_pose_and_only_the_leader_talks(followed):
-    record, _ = followed
-    assert {robot.sees for robot in record.scenario.robots} == {"sensors"}
-    assert set(record.messages["sender"].tolist()) == {0}
-    assert record.collisions == 0
-
-
 def test_errors_of_distance_fade_by_the_gain(followed):
     record, _ = followed
     base = open_module("leader_following")
@@ -219,15 +143,6 @@ def test_errors_of_distance_fade_by_the_gain(followed):
     a, b = np.searchsorted(record.time, [2, 6])
     left = np.abs(far[[a, b]] - base.PLACES[1][0])
     assert left[1] / left[0] == pytest.approx(np.exp(-4 * base.GAIN), abs=0.01)
-
-
-def test_the_checks_of_leader_following_see_another_circle(followed):
-    record, _ = followed
-    pose, command = record.pose.copy(), record.command.copy()
-    pose[-1, :2, 1] *= 1.02
-    command[-1, 0, 4] *= 1.02
-    wrong = failing("leader_following", dataclasses.replace(record, pose=pose, command=command))
-    assert wrong == {"radius of robot1", "speed of robot4"}
 
 
 def test_the_examples_followers_need_each_message_and_those_of_the_model_answer_do_not():

@@ -1,18 +1,16 @@
 """The pursuits and the herding: what the paper found, and what theory says of it."""
 
-from functools import partial
 from math import hypot
 
 import numpy as np
 import pytest
 
 import mars2d
-from mars2d.core.errors import LawError
 from mars2d.geometry.voronoi import Tessellation
 from mars2d.scenario.examples import examples_folder
 from mars2d.scenario.experiment import open_experiment
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 
 def played(name, seed=0, **options):
@@ -46,34 +44,6 @@ def test_capture_begins_where_the_cycle_gets_as_narrow_as_a_robot(mu, winner):
     _, outcome, predictions = played("pursuit_corners", mu=mu)
     assert outcome.winner == winner
     assert all(p.ok for p in predictions)
-
-
-@pytest.mark.parametrize(
-    "name", ["pursuit_corners", pytest.param("pursuit_voronoi", marks=pytest.mark.nightly)]
-)
-def test_the_checks_see_a_pursuer_that_is_slower_than_it_should_be(name):
-    experiment = open_experiment(name)
-    red, blue = experiment.scenario.robots
-    law, control = red.controller, experiment.control
-    if law is None:  # a centralised law
-
-        def control(world, law=experiment.control):
-            for command in law(world):
-                yield command * [0.0, 1.0]
-    else:
-        red = red.replace(controller=partial(lambda mu, robot: (0.0, 0.0), *law.args))
-    record = mars2d.run(experiment.scenario.replace(robots=[red, blue]), control=control)
-    assert not all(p.ok for p in experiment.predictions(record))
-
-
-def test_before_the_cycle_is_there_nothing_is_said_of_it():
-    _, _, predictions = played("pursuit_corners", stop_time=100)
-    assert predictions == ()
-
-
-@pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])
-def test_a_run_of_no_steps_is_no_error(name):
-    assert played(name, stop_time=0)[2] == ()
 
 
 def test_a_thinner_evader_is_caught_by_a_quicker_pursuer_only():
@@ -161,12 +131,6 @@ def test_the_rate_of_a_cells_area_is_that_of_the_formula():
         assert (later - sooner) / (2 * h) == pytest.approx(rate, abs=1e-5)
 
 
-def test_its_law_may_not_see_headings():
-    experiment = open_experiment("pursuit_voronoi")
-    with pytest.raises(LawError, match="positions only"):
-        mars2d.run(experiment.scenario, control=lambda world: world.pose[:2])
-
-
 # -- herding ------------------------------------------------------------------------------------
 
 
@@ -174,13 +138,6 @@ def test_its_law_may_not_see_headings():
 def test_the_dog_brings_all_sheep_in(start):
     _, _, predictions = played("herding", seed=start, start=start)
     assert [p.ok for p in predictions] == [True, True]
-
-
-def test_without_fear_the_sheep_stay_where_they_are():
-    experiment = open_experiment("herding", {"robots.0.pose": (-30, 0, 0), "stop_time": 5})
-    record = mars2d.run(experiment.scenario, control=experiment.control)
-    assert np.ptp(record.pose[:, :, 1:], axis=0).max() == 0
-    assert [p.ok for p in experiment.predictions(record)] == [False, True]
 
 
 @pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])

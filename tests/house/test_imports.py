@@ -7,11 +7,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-import pytest
-
 import mars2d
-from mars2d.core.description import snake_case
-from mars2d.scenario.registry import FAMILIES, members
 from tests.cases import each_case
 
 PACKAGE = Path(mars2d.__file__).parent
@@ -28,12 +24,7 @@ LAYERS = [
     {"reports"},
     {"cli"},
 ]
-"""The rooms of the house, low to high: each imports from below only, for types as well."""
-
-LAZY_UPWARDS = {
-    ("scenario", "output"): "the picture of a scenario in a notebook",
-}
-"""The conveniences that import from above, when they are called."""
+"""The rooms of the house, low to high: each imports from below only, for types and late as well."""
 
 HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "svgelements", "yaml"}
 
@@ -76,10 +67,6 @@ def _own_imports(path: Path) -> list[tuple[str, str]]:
     return list(_imports(ast.parse(path.read_text(encoding="utf-8"))))
 
 
-def _at_run_time(path: Path) -> set[str]:
-    return {module for module, kind in _own_imports(path) if kind != "typing"}
-
-
 def _room(path: Path) -> str:
     return path.relative_to(PACKAGE).with_suffix("").parts[0]
 
@@ -102,27 +89,7 @@ def test_a_module_imports_only_from_rooms_below(path: Path) -> None:
         if len(names) == 1:
             assert kind == "lazy" or room == "cli", f"{path} imports mars2d itself: a circle"
             continue
-        if kind == "lazy" and (room, names[1]) in LAZY_UPWARDS:
-            continue
         assert _level(names[1]) < _level(room), f"{path} imports {module}, which is not below it"
-
-
-def test_each_lazy_import_upwards_that_is_listed_is_used() -> None:
-    used = {
-        (_room(path), module.split(".")[1])
-        for path in FILES
-        for module, kind in _own_imports(path)
-        if kind == "lazy" and module.startswith("mars2d.")
-    }
-    assert set(LAZY_UPWARDS) <= used
-
-
-@each_case("family", FAMILIES)
-def test_parts_of_one_family_do_not_import_each_other(family: str) -> None:
-    parts = {f"{FAMILIES[family]}.{snake_case(name)}" for name in members(family)}
-    for part in parts:
-        path = PACKAGE.parent / f"{part.replace('.', '/')}.py"
-        assert not _at_run_time(path) & parts, path
 
 
 @each_case("room", ["core", "geometry", "sensors", "addons", "record", "output"])
@@ -136,7 +103,7 @@ def test_physics_alone_knows_the_engine_library_and_the_bare_loop_that_it_is_mea
     knows = {path for path in FILES for m, _ in _own_imports(path) if m.startswith("pymunk")}
     assert {path.relative_to(PACKAGE).as_posix() for path in knows} == {
         "physics/rays.py", "physics/space.py", "physics/islands/__init__.py",
-        "physics/islands/chipmunk.py", "physics/islands/layout.py", "reports/bench/yardstick.py",
+        "physics/islands/chipmunk.py", "reports/bench/yardstick.py",
     }  # fmt: skip
 
 
@@ -148,63 +115,6 @@ def test_no_module_imports_anything_heavy_when_it_is_imported() -> None:
         assert not at_once & HEAVY, path
 
 
-def test_the_import_test_tells_imports_in_functions_and_those_for_types() -> None:
-    code = (
-        "if TYPE_CHECKING:\n    from mars2d.world.world import World\n"
-        "def f():\n    from mars2d.output.figures.figure import plot\n"
-        "try:\n    import mars2d.physics.engine\nexcept ImportError:\n    pass\n"
-    )
-    assert list(_imports(ast.parse(code))) == [
-        ("mars2d.world.world", "typing"),
-        ("mars2d.output.figures.figure", "lazy"),
-        ("mars2d.physics.engine", "module"),
-    ]
-
-
 def test_importing_the_package_loads_nothing_heavy(child) -> None:
     code = f"import mars2d, sys; print(sorted({HEAVY!r} & set(sys.modules)))"
     assert child(code).stdout.strip() == "[]"
-
-
-def test_running_a_small_experiment_loads_no_display(child) -> None:
-    code = (
-        "import mars2d, sys; mars2d.run(mars2d.Scenario(), stop_time=1);"
-        "print(sorted({'pygame', 'matplotlib'} & set(sys.modules)))"
-    )
-    assert child(code).stdout.strip() == "[]"
-
-
-def test_importing_the_package_has_no_side_effects(child, tmp_path) -> None:
-    code = (
-        "import os, random, sys, warnings, signal\n"
-        "import numpy as np\n"
-        f"os.chdir({str(tmp_path)!r})\n"
-        "def state():\n"
-        "    legacy = np.random.get_state()\n"
-        "    return (random.getstate(), legacy[1].tolist(), legacy[2:], np.geterr(),\n"
-        "            np.get_printoptions(), dict(os.environ), os.getcwd(),\n"
-        "            list(warnings.filters), signal.getsignal(signal.SIGINT))\n"
-        "before = state()\n"
-        "import mars2d\n"
-        "assert state() == before\n"
-        "print('same')"
-    )
-    result = child(code)
-    assert result.stdout.strip() == "same", result.stderr
-    assert result.stderr == ""
-    assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.slow
-def test_importing_mars2d_loads_no_library_but_numpy_and_pymunk(child) -> None:
-    code = (
-        "import sys, numpy, numpy.random, pymunk, pymunk.batch\n"
-        "before = set(sys.modules)\n"
-        "import mars2d\n"
-        "loaded = {name.partition('.')[0] for name in set(sys.modules) - before}\n"
-        "files = {name: getattr(sys.modules.get(name), '__file__', '') or '' for name in loaded}\n"
-        "print(*sorted(name for name in loaded if 'site-packages' in files[name]), *(\n"
-        "    name for name in ('asyncio', 'multiprocessing', 'concurrent') if name in loaded))"
-    )
-    loaded = set(child(code).stdout.split())
-    assert loaded <= {"mars2d", "numpy", "pymunk"}

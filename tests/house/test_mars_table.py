@@ -13,8 +13,7 @@ from typing import Any
 
 import pytest
 
-import mars2d
-from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle, World
+from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle
 from tests.cases import each_case
 
 PAGE = Path(__file__).parents[2] / "docs" / "from_mars.md"
@@ -89,21 +88,6 @@ def test_the_table_has_every_field_of_the_paper_once():
 
 
 @each_case("row", rows())
-def test_each_home_exists(row):
-    assert homes(row)
-    scenario = Scenario()
-    live: dict[str, Any] = {"World": World(scenario), "Record": World(scenario).record}
-    live |= {"Scenario": scenario, "Robot": Robot(), "Animation": Animation()}
-    live |= {"Unicycle": Unicycle(), "Holonomic": Holonomic(), "mars2d": mars2d}
-    for home in homes(row):
-        owner, *names = home.split(".")
-        value = live[owner]
-        for name in names:
-            assert hasattr(value, name), home
-            value = getattr(value, name)
-
-
-@each_case("row", rows())
 def test_each_default_is_the_one_stated(row):
     stated = []
     for home in homes(row):
@@ -135,16 +119,3 @@ def test_the_turns_of_algorithm_2_are_not_clipped_but_would_be_with_marss_wheels
     assert np.array_equal(Unicycle().saturate(fastest), fastest)
     marss = Unicycle(max_linear_speed=0.2, wheel_semiaxis=0.05)
     assert marss.saturate(fastest)[1, 0] == pytest.approx(4.0)
-
-
-def test_hooks_are_those_that_take_the_place_of_marss_suffixes():
-    row = next(row for row in rows() if row[0] == "Addons_suffix")
-    named = re.findall(r"`(on_\w+)`", row[2])
-    assert named[:3] == ["on_start", "on_step", "on_draw"]
-    assert set(named) == set(mars2d.addons.HOOKS)
-
-
-def test_marss_letters_for_colours_and_styles_are_understood():
-    look = Animation(base_colors=list("krgbmcy"), wake_style="--", playback_speed="max")
-    assert len(look.base_colors) == 7
-    assert Animation(playback_speed=0).playback_speed == 0

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Drive, InputError, Robot, Scenario, Sensor, World
+from mars2d import Drive, Robot, Scenario, Sensor, World
 from mars2d.bodies import Joint, Prop
-from mars2d.bodies.constraints import Constraint, MaxDistance, Pin, SpringDamper
+from mars2d.bodies.constraints import MaxDistance, SpringDamper
 from mars2d.core.description import number
 from mars2d.geometry import Disc
 from mars2d.scenario import save_scenario
@@ -83,15 +83,6 @@ def sections() -> dict[str, list[tuple[str, str, str]]]:
     return found
 
 
-PARTS = {
-    "A sensor": "Compass",
-    "An add-on": "Fence",
-    "A drive": "Crab",
-    "A joint": "Bungee",
-    "A prop": "Brick",
-}
-
-
 def test_a_recipe_touches_two_files_of_code_and_a_page():
     text = GUIDE.read_text(encoding="utf-8")
     for title, recipes in sections().items():
@@ -100,15 +91,6 @@ def test_a_recipe_touches_two_files_of_code_and_a_page():
         numbered = re.findall(r"^(\d)\. \*\*([^*]+)\*\*", section, flags=re.M)
         assert [number for number, _ in numbered] == ["1", "2", "3"], title
         assert [name for _, name in numbered[:2]] == [name for name, _, _ in recipes], title
-
-
-def test_the_command_line_lists_what_the_recipes_add(child, extended):
-    code = "from mars2d.cli.command_line import main; main(['list']); main(['--help'])"
-    listed = child(code, PYTHONPATH=str(extended)).stdout
-    for part in PARTS.values():
-        assert re.search(rf"^\s+{part} ", listed, flags=re.M), part
-    if has_tables(sections()["A verb of the command line"]):
-        assert "Print the digest of a record" in listed
 
 
 RUN = """
@@ -229,48 +211,3 @@ def test_a_record_says_which_parts_of_ones_own_it_could_not_keep(towed, ending, 
     lost = {"drive Sideways", "sensor Echo", "joint Cord", "prop Coin"}
     assert set(loaded.missing) == lost
     assert set(save_scenario(towing(), tmp_path / "scenario.toml")) == lost
-
-
-def test_parts_of_ones_own_are_drawn_and_replayed(towed, tmp_path):
-    assert "#123456" in towing()._repr_svg_()
-    assert towed.save_html(tmp_path / "run.html").stat().st_size > 10_000
-
-
-@each_case(
-    "made, message",
-    [
-        (lambda apart: None, r"Cord.constraints\(\) = None: expected a list, such as"),
-        (lambda apart: (1.0,), r"Cord.constraints\(\)\[0\] = 1.0: expected a Constraint"),
-        (lambda apart: 1 / 0, r"Cord.constraints\(\) raised ZeroDivisionError"),
-        (lambda apart: (MaxDistance(float("nan")),), "MaxDistance.length = nan"),
-        (lambda apart: (Pin(),), "a hinge is one point"),
-        (lambda apart: (MaxDistance(apart / 2),), "expected at least that"),
-        (lambda apart: (SpringDamper(apart, stiffness=1e6),), "they would swing at"),
-    ],
-)
-def test_constraints_that_cannot_hold_are_refused_with_the_reason(made, message, monkeypatch):
-    monkeypatch.setattr(Cord, "constraints", lambda self, apart: made(apart))
-    with pytest.raises(InputError, match=message):
-        towing()
-
-
-def test_a_constraint_of_ones_own_is_refused():
-    with pytest.raises(InputError, match=r"Elbow: the physics knows the constraints of"):
-
-        class Elbow(Constraint):
-            pass
-
-
-def test_a_stick_and_a_file_for_matlab_ask_the_drive():
-    assert Sideways(max_linear_speed=0.4).steered(0.0, 0.5) == (0.2, 0.0)
-    assert not Sideways.holonomic
-
-
-# -- what the documents list ----------------------------------------------------------------------
-
-
-def test_the_index_of_the_sensors_is_made_of_their_pages(monkeypatch):
-    monkeypatch.syspath_prepend(ROOT / "docs")
-    made = __import__("make_sensors")
-    text = made.INDEX.read_text(encoding="utf-8")
-    assert text == made.with_rows(text), "run: python docs/make_sensors.py"

@@ -63,17 +63,3 @@ def faults(page: Path, text: str) -> list[str]:
 
 def test_every_page_is_rendered_as_it_was_meant():
     assert [fault for page in PAGES for fault in faults(page, page.read_text("utf-8"))] == []
-
-
-@pytest.mark.parametrize(
-    ("text", "fault"),
-    [
-        ("Text. | a | b |\n|---|---|\n| 1 | 2 |", "the row of a table"),
-        ("| a | b |\n|---|---|\n| 1 | 2 |\n\n| 3 | 4 |", "a pipe outside a table"),
-        ("| a | b |\n|---|---|\n| 1 | 2 | | 3 | 4 |", "two rows in one"),
-        ("## First steps " + "and on " * 10, "a heading of"),
-        ("![there is none](pictures/none.png)", "no picture"),
-    ],
-)
-def test_a_page_that_was_joined_wrongly_is_noticed(text, fault):
-    assert fault in "\n".join(faults(ROOT / "docs" / "page.md", text))

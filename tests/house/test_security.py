@@ -8,23 +8,19 @@ import pickle
 import struct
 import zipfile
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, Robot, Scenario, World
+from mars2d import InputError
 from mars2d.output.formats.header import as_text, of_record
 from mars2d.scenario import load_scenario
-from mars2d.study.table import Result, Table
-from tests.browser import Tab
 from tests.cases import each_case
 from tests.output.formats.records import FORMATS, everything, refused
 from tests.output.formats.test_npz import _rewrite
 
-ROOT = Path(__file__).parents[2]
 # -- files that would like to run ------------------------------------------------------------------
 
 
@@ -51,11 +47,6 @@ def marker(tmp_path, monkeypatch) -> Iterator[Path]:
     monkeypatch.chdir(tmp_path)
     yield path
     assert not path.exists(), "what was read has run"
-
-
-def test_the_traps_spring(tmp_path) -> None:
-    pickle.loads(pickle.dumps(Trap(tmp_path / "sprung")))
-    assert (tmp_path / "sprung").is_dir()
 
 
 @each_case("suffix", [*FORMATS, ".mcap"])
@@ -134,40 +125,3 @@ def test_a_scenario_file_names_no_code_but_that_of_laws(scene, name, marker, tmp
     with pytest.raises(InputError) as caught:
         load_scenario(tmp_path / "scene.toml")
     assert "\n" not in str(caught.value)
-
-
-def test_a_law_that_a_scenario_file_names_runs(tmp_path) -> None:
-    """Who opens a scenario with laws runs these laws: this is said, and nothing else of it runs."""
-    (tmp_path / "trap.py").write_text(TRAP + "def control(robot):\n    return 0, 0\n")
-    path = tmp_path / "scene.toml"
-    path.write_text('format = 1\n[[robots]]\ncontroller = "trap.py"\n')
-    load_scenario(path)
-    assert (tmp_path / "sprung").is_dir()
-    words = " ".join((ROOT / "docs" / "scenario_files.md").read_text(encoding="utf-8").split())
-    assert "runs the laws that it names" in words
-
-
-# -- words that would like to run ------------------------------------------------------------------
-
-EVIL = "</title></script><script>hacked = 1</script><img src=x onerror='hacked = 1'>\"'&amp;"
-
-
-def test_words_in_a_notebook_are_text(browser, tmp_path) -> None:
-    """Names, titles, measures and errors come from anybody; pages of their own are tested apart."""
-    scenario = Scenario(robots=[Robot(name=EVIL)], title=EVIL, stop_time=0.2)
-    record = replace(mars2d.run(scenario), over_message=EVIL, filename=EVIL)
-    table = Table(EVIL, (EVIL,), (EVIL,), (Result(1, {EVIL: EVIL}, 1, {EVIL: EVIL}, EVIL),))
-    pictures = [scenario._repr_svg_(), World(scenario)._repr_svg_(), record._repr_svg_()]
-    page = "\n".join([*pictures, record._repr_html_(), table._repr_html_()])
-    path = tmp_path / "notebook.html"
-    path.write_text(f"<!DOCTYPE html><meta charset=utf-8>{page}<p id=end>", encoding="utf-8")
-    tab = Tab(browser, (900, 640))
-    tab.page.on("dialog", lambda dialog: tab.complaints.append(dialog.message))
-    tab.page.goto(path.as_uri())
-    tab.page.locator("#end").wait_for(state="attached")
-    tab.settle()
-    frames = [frame.evaluate("typeof hacked") for frame in tab.page.frames]
-    assert frames == ["undefined"] * len(frames)
-    assert tab.page.locator("body img[src=x], body script").count() == 0
-    assert "hacked = 1" in tab.page.locator("table").last.inner_text()
-    tab.close()

@@ -66,6 +66,7 @@ def site(tmp_path_factory):
 
 @needs_mkdocs
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_the_site_is_built_and_has_all_of_it(site, browser):
     gallery = (site / "gallery" / "index.html").read_text("utf-8")
     assert [name for name in examples() if f"mars2d demo {name}<" not in gallery] == []

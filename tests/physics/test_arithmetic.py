@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -13,11 +12,9 @@ from mars2d.physics.islands.arithmetic import (
     chord_share,
     cosine_sine,
     exponential,
-    length,
     power,
     sine,
 )
-from tests.cases import each_case
 
 ULP = 2.0**-53
 """Half the distance between 1 and the next number: by this much a rounded sine may be off."""
@@ -44,14 +41,6 @@ def test_sines_and_cosines_are_the_librarys_to_their_last_digit(ours, theirs, an
         assert off(ours(angle), theirs(angle)) <= 2
 
 
-@each_case(("ours", "theirs"), BOTH)
-def test_so_they_are_where_they_are_almost_zero_or_one(ours, theirs):
-    for k in [*range(-40, 41), 1000, 10_001, 600_000]:
-        near = k * math.pi / 2
-        for angle in (near, math.nextafter(near, 9e9), math.nextafter(near, -9e9)):
-            assert ours(angle) == pytest.approx(theirs(angle), rel=1e-9, abs=2e-22)
-
-
 @given(angle=st.floats(1e6, 1e12))
 @pytest.mark.parametrize(("ours", "theirs"), BOTH, ids=["sine", "cosine"])
 def test_angles_of_more_turns_than_anything_makes_lose_as_little_as_two_pi_is_rounded(
@@ -62,20 +51,10 @@ def test_angles_of_more_turns_than_anything_makes_lose_as_little_as_two_pi_is_ro
     assert ours(-angle) == pytest.approx(theirs(-angle), abs=rounded + 2 * ULP)
 
 
-def test_the_sine_of_nothing_is_nothing_and_the_cosine_is_one():
-    assert (sine(0.0), cosine(0.0)) == (0.0, 1.0)
-    assert chord_share(0.0) == 1.0
-
-
 @given(angle=angles)
 def test_sine_and_cosine_are_symmetric_to_the_bit(angle):
     assert sine(-angle) == -sine(angle)
     assert cosine(-angle) == cosine(angle)
-
-
-@given(angle=st.one_of(angles, st.floats(-1, 1)))
-def test_the_sine_alone_is_the_one_beside_the_cosine(angle):
-    assert sine(angle) == cosine_sine(angle)[1]
 
 
 @given(half=st.floats(1e-300, 50))
@@ -99,11 +78,6 @@ def test_exponentials_are_the_librarys_to_their_last_digit(y):
     assert off(exponential(y), math.exp(y)) <= 2
 
 
-def test_the_ends_of_exponentials():
-    assert exponential(0.0) == exponential(-0.0) == 1.0
-    assert exponential(-701.0) == exponential(-1e300) == 0.0
-
-
 def test_the_ends_of_powers():
     assert power(0.0, 0.0) == 1.0
     assert power(0.0, 0.5) == 0.0
@@ -111,9 +85,3 @@ def test_the_ends_of_powers():
     assert power(0.5, 1.0) == pytest.approx(0.5, rel=1e-15)
     assert power(5e-324, 1.0) == 0.0  # so little that it counts as nothing
     assert power(1e-300, 0.0) == 1.0
-
-
-@given(x=st.floats(-1e150, 1e150), y=st.floats(-1e150, 1e150))
-def test_lengths_are_the_librarys_where_squares_are_numbers(x, y):
-    if max(abs(x), abs(y)) > 1e-140:
-        assert length(x, y) == pytest.approx(np.hypot(x, y), rel=1e-15)

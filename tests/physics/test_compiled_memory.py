@@ -17,7 +17,7 @@ from mars2d.physics.islands.build import compile_into
 from tests.cases import each_case
 
 pytestmark = [
-    pytest.mark.slow,
+    pytest.mark.nightly,
     pytest.mark.skipif(sys.platform != "linux", reason="memory is looked at as Linux tells of it"),
 ]
 

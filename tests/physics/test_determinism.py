@@ -18,25 +18,6 @@ from tests.cases import each_case
 
 BUSTLE = Path(__file__).parent / "bustle" / "bustle.py"
 
-CODE = f"""
-import mars2d
-for discs in (False, True):
-    record = mars2d.run({str(BUSTLE)!r}, seed=5, options={{"discs": discs}})
-    print(record.digest, record.collisions)
-"""
-
-
-@pytest.mark.slow
-def test_processes_with_other_hash_seeds_give_the_same_digests(child):
-    results = [child(CODE, PYTHONHASHSEED=seed) for seed in ("0", "1", "2", "4242", "random")]
-    for result in results:
-        assert result.returncode == 0, result.stderr
-    printed = {result.stdout for result in results}
-    assert len(printed) == 1
-    words = printed.pop().split()
-    assert [len(digest) for digest in words[::2]] == [64, 64]
-    assert all(int(collisions) >= 5 for collisions in words[1::2])  # something happens
-
 
 def wander(robot):
     return 0.3, robot.rng.normal()
@@ -56,7 +37,7 @@ def test_running_twice_gives_the_same_and_other_seeds_give_others():
     first, second = mars2d.run(crowd(), seed=1), mars2d.run(crowd(), seed=1)
     assert first.digest == second.digest
     assert first.collisions > 0
-    assert len({mars2d.run(crowd(), seed=seed).digest for seed in range(6)}) == 6
+    assert len({mars2d.run(crowd(), seed=seed).digest for seed in range(3)}) == 3
 
 
 def test_worlds_stepped_in_turn_give_what_each_gives_alone():
@@ -106,31 +87,6 @@ NEEDED: dict[str, dict] = {
 ADDONS = {name: NEEDED.get(name, {}) for name in members("addons") if name not in ACTING}
 """The fields of each shipped add-on that is added."""
 
-SHOWN_BY_OTHERS = {"Floor": {"sensor:ground"}}
-"""Columns of others that are to change: what a floor's colour is measured by."""
-
-
-def bustle(**options) -> Scenario:
-    return open_experiment(BUSTLE, options, seed=3).scenario
-
-
-@pytest.fixture(scope="module")
-def plain() -> mars2d.Record:
-    record = mars2d.run(bustle(discs=True), seed=3)
-    assert record.collisions >= 5
-    assert record.contents
-    return record
-
-
-def changed(before: mars2d.Record, after: mars2d.Record) -> set[str]:
-    """The columns of one run that are other ones, in a single bit, in another."""
-    columns = after.columns()
-    assert before.over_message == after.over_message
-    return {
-        name for name, column in before.columns().items()
-        if column.tobytes() != columns[name].tobytes()
-    }  # fmt: skip
-
 
 def test_all_shipped_sensors_are_added_below_and_all_addons_but_those_that_are_named():
     assert set(SENSORS) >= {n for n, kind in members("sensors").items() if shipped(kind)}
@@ -141,35 +97,25 @@ def shipped(kind: type) -> bool:
     return kind.__module__.startswith("mars2d.")
 
 
-@each_case("name", SENSORS)
-def test_a_sensor_without_noise_more_changes_nothing_else(name, plain):
-    more = members("sensors")[name](name="more", **SENSORS[name])
-    scenario = bustle(discs=True)
-    robots = [robot.replace(sensors=[more, *robot.sensors]) for robot in scenario.robots]
-    record = mars2d.run(scenario.replace(robots=robots), seed=3)
-    assert len(record.sensors["more"]) == len(plain)
-    assert changed(plain, record) == set()
-
-
-@each_case("name", ADDONS)
-def test_an_addon_without_physics_and_chance_more_changes_nothing_else(name, plain):
-    more = members("addons")[name](name="more", **ADDONS[name])
-    scenario = bustle(discs=True)
-    record = mars2d.run(scenario.replace(addons=[*scenario.addons, more]), seed=3)
-    assert changed(plain, record) == SHOWN_BY_OTHERS.get(name, set())
-
-
-@pytest.mark.slow
-def test_nor_do_all_of_them_among_props_joints_and_polygons():
-    scenario = bustle()
+@each_case("discs", [True, False])
+def test_sensors_without_noise_and_addons_without_physics_and_chance_change_nothing_else(discs):
+    scenario = open_experiment(BUSTLE, {"discs": discs}, seed=3).scenario
     plain = mars2d.run(scenario, seed=3)
+    assert plain.collisions >= 5
+    assert plain.contents
     kinds = members("sensors")
     more = [kinds[name](name=f"more_{name}", **fields) for name, fields in SENSORS.items()]
     robots = [robot.replace(sensors=[*more, *robot.sensors]) for robot in scenario.robots]
     kinds = members("addons")
     addons = [kinds[name](name=f"more_{name}", **fields) for name, fields in ADDONS.items()]
     full = scenario.replace(robots=robots, addons=[*scenario.addons, *addons])
-    assert changed(plain, mars2d.run(full, seed=3)) == {"sensor:ground"}
+    after = mars2d.run(full, seed=3)
+    columns = after.columns()
+    assert plain.over_message == after.over_message
+    assert {  # what a floor's colour is measured by is to change
+        name for name, column in plain.columns().items()
+        if column.tobytes() != columns[name].tobytes()
+    } == {"sensor:ground"}  # fmt: skip
 
 
 # -- the order of robots --------------------------------------------------------------------------
@@ -211,7 +157,7 @@ def loose(n: int, shape: Polygon | None = None, props: int = 0, **fields) -> Sce
 
 
 @each_case(
-    "scenario", [loose(16, WEDGE, props=6), loose(21), loose(130), loose(21, physics="ideal")]
+    "scenario", [loose(16, WEDGE, props=6), loose(21), loose(70), loose(21, physics="ideal")]
 )
 def test_robots_and_props_in_another_order_go_the_same_ways_in_that_order(scenario):
     rng = np.random.default_rng(1)
@@ -265,18 +211,6 @@ def test_the_recorded_commands_alone_give_the_same_run():
     for command in record.command:
         world.step(command)
     assert world.record.digest == record.digest
-
-
-def test_saturated_commands_given_again_are_not_changed():
-    rng = np.random.default_rng(0)
-    robots = [Robot(), Robot(pose=(3, 0, 0), drive=Holonomic(max_linear_speed=0.37))]
-    scenario = Scenario(robots=robots, workspace=None)
-    first, second = World(scenario), World(scenario)
-    for _ in range(200):
-        first.step(rng.uniform(-2, 2, (2, 2)))
-    for command in first.record.command:
-        second.step(command)
-    assert np.array_equal(first.record.command, second.record.command)
 
 
 def test_global_random_numbers_are_neither_used_nor_changed():

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import mars2d
@@ -91,19 +91,6 @@ def test_a_unicycle_follows_the_closed_form_arc(commands, sampling_time, heading
 
 
 @given(
-    commands=st.lists(st.tuples(speeds, speeds), min_size=1, max_size=8),
-    sampling_time=st.floats(1e-3, 100.0),
-)
-def test_a_holonomic_robot_goes_straight_and_keeps_its_heading(commands, sampling_time):
-    world = World(free(Robot(pose=(0, 0, 2), drive=Holonomic()), sampling_time=sampling_time))
-    for command in commands:
-        world.step([[command[0]], [command[1]]])
-    expected = np.sum(commands, axis=0) * sampling_time
-    assert np.abs(world.pose[:2, 0] - expected).max() < EXACT
-    assert world.pose[2, 0] == 2
-
-
-@given(
     team=st.lists(st.sampled_from(["unicycle", "holonomic"]), min_size=2, max_size=6),
     ticks=st.integers(1, 6),
     sampling_time=st.floats(1e-3, 50.0),
@@ -148,13 +135,13 @@ def test_an_arc_of_huge_radius_is_as_exact(spin):
     assert theta == pytest.approx(10 * spin, rel=1e-9)
 
 
-def test_twenty_thousand_ticks_stay_exact():
+def test_four_thousand_ticks_stay_exact():
     world = World(free(Robot(), Robot(pose=(0, 50, 0), drive=Holonomic()), sampling_time=0.05))
-    for _ in range(20_000):
+    for _ in range(4_000):
         world.step([[0.2, 0.01], [0.3, -0.02]])
-    turning = arc((0, 0, 0), 0.2, 0.3, 1000.0)
+    turning = arc((0, 0, 0), 0.2, 0.3, 200.0)
     assert np.abs(world.pose[:2, 0] - turning[:2]).max() < EXACT
-    assert np.abs(world.pose[:2, 1] - [10, 30]).max() < EXACT
+    assert np.abs(world.pose[:2, 1] - [2, 46]).max() < EXACT
 
 
 def test_arcs_stay_exact_where_others_are_near_but_nothing_touches():
@@ -222,36 +209,6 @@ def test_in_a_tick_in_which_nothing_can_touch_each_robot_is_moved_once(sampling_
 
 
 @pytest.mark.usefixtures("plain")
-def test_in_a_tick_in_which_a_delayed_command_arrives_it_is_moved_twice():
-    world = World(free(Robot(), sampling_time=1.0, command_delay=0.25))
-    with counted() as work:
-        world.step([[0.4], [0]])
-    assert work.substeps == []
-    assert work.carried == [0.25, 0.75]
-
-
-@pytest.mark.usefixtures("plain")
-def test_substeps_add_up_to_the_sampling_time():
-    world = World(free(Robot(), Robot(pose=(0.35, 0, np.pi)), sampling_time=0.5))
-    with counted() as work:
-        world.step([[0.4, 0.4], [0, 0]])
-    assert len(work.substeps) > 1
-    assert sum(work.substeps) == pytest.approx(0.5, abs=1e-12)
-    assert work.carried == []
-
-
-@pytest.mark.usefixtures("plain")
-def test_robots_that_have_left_each_other_are_moved_once_again():
-    world = World(free(Robot(), Robot(pose=(0.31, 0, np.pi))))
-    drive(world, [[0.3, 0.3], [0, 0]], 2)
-    drive(world, [[-0.3, -0.3], [0, 0]], 2)
-    with counted() as work:
-        world.step([[-0.3, -0.3], [0, 0]])
-    assert work.substeps == []
-    assert work.carried == [0.1, 0.1]
-
-
-@pytest.mark.usefixtures("plain")
 def test_what_touches_far_off_costs_a_robot_no_substep():
     team = [Robot(), Robot(pose=(0.31, 0, np.pi)), Robot(pose=(9, 0, 0))]
     world = World(free(*team))
@@ -267,7 +224,7 @@ def test_more_overlap_allowed_means_fewer_substeps():
     def needed(max_overlap: float) -> int:
         robots = [Robot(), Robot(pose=(0.5, 0, np.pi))]
         with counted() as work:
-            drive(World(free(*robots, max_overlap=max_overlap)), [[0.4, 0.4], [0, 0]], 5)
+            drive(World(free(*robots, max_overlap=max_overlap)), [[0.4, 0.4], [0, 0]], 2)
         return len(work.substeps)
 
     fine, usual, coarse = needed(1e-5), needed(1e-3), needed(1e-2)
@@ -276,86 +233,6 @@ def test_more_overlap_allowed_means_fewer_substeps():
 
 
 # -- contact --------------------------------------------------------------------------------
-
-
-def test_two_equal_robots_head_on_stop_and_their_midpoint_does_not_drift():
-    robots = [Robot(pose=(-0.5, 0, 0)), Robot(pose=(0.5, 0, np.pi))]
-    world = World(free(*robots, stop_time=60))
-    poses = drive(world, [[0.3, 0.3], [0, 0]], 60)
-    assert np.abs(poses[:, :2].mean(axis=2)).max() < 1e-6
-    assert np.abs(world.velocity[:2]).max() < 1e-6
-    gap = np.hypot(*(world.pose[:2, 1] - world.pose[:2, 0])) - 0.3
-    assert -1e-3 < gap <= 0
-
-
-@each_case("slope", [0.2, 0.6, 1.0, 1.3])
-def test_along_a_frictionless_wall_a_robot_slides_at_v_cos_a(slope):
-    # A strong motor that keeps the heading, so that the wall does not turn it.
-    drives = Holonomic(max_torque=100)
-    robot = Robot(pose=(0, 0.2, 0), drive=drives, friction=0)
-    world = World(free(robot, addons=[Map([[(-1, 0), (9, 0)]], friction=0)]))
-    command = [[0.3 * np.cos(slope)], [-0.3 * np.sin(slope)]]
-    drive(world, command, 5)
-    start = world.pose[0, 0]
-    drive(world, command, 5)
-    assert (world.pose[0, 0] - start) / 5 == pytest.approx(0.3 * np.cos(slope), abs=1e-4)
-    assert world.pose[1, 0] == pytest.approx(0.15, abs=1e-3)
-
-
-def test_friction_holds_back_what_slides():
-    command = [[0.3 * np.cos(0.6)], [-0.3 * np.sin(0.6)]]
-
-    def way(friction: float) -> float:
-        robot = Robot(pose=(0, 0.2, 0), drive=Holonomic(), friction=friction)
-        world = World(free(robot, addons=[Map([[(-1, 0), (9, 0)]], friction=1.0)]))
-        return float(drive(world, command, 5)[-1, 0, 0])
-
-    assert way(0.0) > way(0.3) + 0.01
-    assert way(0.3) > way(1.0) + 0.01
-
-
-def test_the_stronger_of_two_robots_pushes_the_weaker_one_back():
-    weak = Robot(pose=(-0.2, 0, 0), drive=Unicycle(max_force=2))
-    strong = Robot(pose=(0.2, 0, np.pi), drive=Unicycle(max_force=6))
-    world = World(free(weak, strong))
-    drive(world, [[0.3, 0.3], [0, 0]], 5)
-    assert world.pose[0, 0] < -0.5
-    assert np.isfinite(world.pose).all()
-
-
-def test_a_braked_robot_holds_its_place_against_a_weaker_one():
-    pusher = Robot(pose=(-0.2, 0, 0), drive=Unicycle(max_force=4.7))
-    braked = Robot(pose=(0.2, 0, np.pi), drive=Unicycle(max_force=5.3))
-    world = World(free(pusher, braked))
-    drive(world, [[0.3, 0], [0, 0]], 5)  # the impact itself moves it
-    before = world.pose[0, 1]
-    drive(world, [[0.3, 0], [0, 0]], 30)
-    assert world.pose[0, 1] == pytest.approx(before, abs=1e-5)
-    assert before < 0.25
-
-
-def test_two_weak_robots_together_push_what_one_cannot():
-    def pushed(helpers: int) -> float:
-        pushers = [
-            Robot(pose=(-0.4, 0.16 * side, 0), drive=Unicycle(max_force=3.5), friction=0)
-            for side in ((-1, 1) if helpers == 2 else (0,))
-        ]
-        target = Robot(pose=(0, 0, 0), drive=Holonomic(max_force=5), friction=0)
-        world = World(free(*pushers, target))
-        command = np.zeros((2, helpers + 1))
-        command[0, :helpers] = 0.2
-        drive(world, command, 4)
-        return float(world.pose[0, -1])
-
-    assert pushed(1) < 0.02  # the impact alone
-    assert pushed(2) > 0.1
-
-
-def test_a_hit_beside_the_centre_turns_a_robot():
-    target = Robot(pose=(0.5, 0.2, 0), drive=Unicycle(max_torque=0.01))
-    world = World(free(Robot(), target))
-    drive(world, [[0.4, 0], [0, 0]], 3)
-    assert abs(world.pose[2, 1]) > 0.05
 
 
 @each_case("offset", [0.05, 0.1, 0.15])
@@ -370,30 +247,6 @@ def test_a_hit_turns_a_robot_about_its_centre_of_rotation_by_impulse_times_lever
     moment = 2 * (0.15**2 / 2 + offset**2)
     assert impulse > 0.1
     assert world.velocity[2, 1] == pytest.approx(impulse * offset / moment, rel=0.01)
-
-
-def test_a_spinning_robot_turns_the_one_it_leans_on():
-    leaning = Robot(pose=(0, 0, 0), friction=1, drive=Unicycle(max_torque=5))
-    target = Robot(pose=(0.31, 0, 0), friction=1, drive=Unicycle(max_torque=0.01))
-    world = World(free(leaning, target))
-    drive(world, [[0.3, 0], [0, 0]], 1)
-    before = float(world.pose[2, 1])
-    drive(world, [[0.1, 0], [2.0, 0]], 1)
-    assert world.pose[2, 1] - before < -0.01  # like cog wheels, the other way round
-
-
-@each_case("restitution", [0.3, 0.5, 0.8, 1.0])
-def test_robots_bounce_off_at_their_restitution(restitution):
-    # With hardly any force in the drive, what happens after the impact is free flight.
-    weak = Unicycle(max_force=1e-6, max_torque=1e-6)
-    e = np.sqrt(restitution)  # a contact has the product
-    robots = [
-        Robot(pose=(-0.2, 0, 0), drive=weak, restitution=e),
-        Robot(pose=(0.2, 0, np.pi), drive=weak, restitution=e),
-    ]
-    world = World(free(*robots))
-    drive(world, [[0.4, 0.4], [0, 0]], 0.5)
-    assert world.velocity[0] == pytest.approx([-0.4 * restitution, 0.4 * restitution], rel=1e-3)
 
 
 @each_case("distance", [0.1, 0.1037, 0.1311, 0.56])
@@ -461,14 +314,6 @@ def test_a_robot_back_at_its_command_follows_it_exactly_again():
 CONCAVE = [(5, 2), (4, 3), (6, 4), (5, 3)]  # the first obstacle of the paper
 
 
-def test_a_robot_can_stand_in_the_notch_of_a_concave_obstacle():
-    # (5.1, 3) lies in the convex hull of the outline, to the right of its inner corner (5, 3).
-    world = World(free(Robot(pose=(5.2, 3, 0), diameter=0.1), addons=[Map([CONCAVE])]))
-    drive(world, [[0], [0]], 1)
-    assert world.pose[:, 0] == pytest.approx([5.2, 3, 0], abs=1e-12)
-    assert len(world.record.contacts) == 0
-
-
 def test_a_robot_drives_into_the_notch_as_far_as_it_fits():
     robot = Robot(pose=(5.7, 3, np.pi), diameter=0.1, friction=0)
     world = World(free(robot, addons=[Map([CONCAVE], friction=0)]))
@@ -485,12 +330,6 @@ def test_a_wall_of_two_vertices_stops_a_robot_from_both_sides(side, sampling_tim
     world = World(free(robot, addons=[wall], sampling_time=sampling_time))
     drive(world, [[0.5], [0]], 10)
     assert side * world.pose[0, 0] == pytest.approx(0.15, abs=1e-3)
-
-
-def test_a_robot_goes_round_the_end_of_a_wall():
-    world = World(free(Robot(pose=(-1, 0.3, 0)), addons=[Map([[(0, -1), (0, 0)]])]))
-    drive(world, [[0.4], [0]], 5)
-    assert world.pose[0, 0] == pytest.approx(1.0)
 
 
 def test_even_the_fastest_robot_does_not_tunnel_through_a_wall():
@@ -609,14 +448,13 @@ def _rotation_center(robot: Robot) -> tuple[float, float, float]:
 
 
 @pytest.mark.slow
-@each_case("restitution", [0, 0.5, 1])
-@each_case("mass_ratio", [1, 10])
-@each_case("sampling_time", [0.05, 0.5])
-@pytest.mark.parametrize("speed", [0.3, 2.0])
+@each_case(
+    ("speed", "sampling_time", "mass_ratio", "restitution", "ticks"),
+    [(0.3, 0.5, 1, 0.5, 8), (2.0, 0.05, 10, 1, 30), (0.3, 0.05, 10, 0, 30), (2.0, 0.5, 1, 0, 8)],
+)
 def test_in_a_crowd_nothing_overlaps_by_more_than_a_millimetre(
-    speed, sampling_time, mass_ratio, restitution
+    speed, sampling_time, mass_ratio, restitution, ticks
 ):
-    ticks = 60 if sampling_time < 0.1 else 15
     depth = deepest(
         0, speed=speed, sampling_time=sampling_time, mass_ratio=mass_ratio,
         restitution=restitution, ticks=ticks,
@@ -624,20 +462,19 @@ def test_in_a_crowd_nothing_overlaps_by_more_than_a_millimetre(
     assert depth <= 1e-3
 
 
-@each_case("offset", [0.05, 0.15])
-def test_in_a_crowd_of_robots_that_turn_about_another_point_the_overlap_is_as_small(offset):
-    depth = deepest(3, speed=0.5, sampling_time=0.5, offset=offset, ticks=15)
+def test_in_a_crowd_of_robots_that_turn_about_another_point_the_overlap_is_as_small():
+    depth = deepest(3, speed=0.5, sampling_time=0.5, offset=0.15, ticks=8)
     assert depth <= 1e-3
 
 
-@each_case("max_overlap", [1e-4, 5e-3, 2e-2])
+@each_case("max_overlap", [1e-4, 2e-2])
 def test_the_overlap_stays_under_what_is_allowed(max_overlap):
     depth = deepest(1, speed=0.5, sampling_time=0.1, ticks=30, max_overlap=max_overlap)
     assert depth <= max_overlap
 
 
 def test_in_a_larger_crowd_with_listed_pairs_the_overlap_is_as_small():
-    depth = deepest(0, speed=0.8, sampling_time=0.2, count=50, box=3.2, ticks=20)
+    depth = deepest(0, speed=0.8, sampling_time=0.2, count=50, box=3.2, ticks=6)
     assert depth <= 1e-3
 
 
@@ -655,48 +492,13 @@ def test_in_many_crowds_nothing_overlaps_by_more_than_a_millimetre(seed):
 
 
 @given(seed=st.integers(0, 2**32))
+@settings(max_examples=15)
 def test_two_robots_pushed_at_random_stay_finite_and_apart(seed):
     depth = deepest(seed, speed=1.0, sampling_time=0.3, count=2, box=0.8, ticks=4, offset=0.1)
     assert depth <= 1e-3
 
 
 # -- worlds ---------------------------------------------------------------------------------
-
-
-def test_two_worlds_stepped_in_turn_go_as_each_goes_alone():
-    def world(seed: int) -> tuple[World, np.random.Generator]:
-        rng = np.random.default_rng(seed)
-        places = scattered(rng, 6, 1.2)
-        robots = [Robot(pose=(x, y, 0)) for x, y in places]
-        h = 0.6
-        box = [(-h, -h), (h, -h), (h, h), (-h, h)]
-        return World(free(*robots, workspace=box, on_exit="wall")), rng
-
-    def step(pair: tuple[World, np.random.Generator]) -> None:
-        pair[0].step(pair[1].uniform(-0.4, 0.4, (2, 6)))
-
-    alone = [world(1), world(2)]
-    for one in alone:
-        for _ in range(40):
-            step(one)
-    together = [world(1), world(2)]
-    for _ in range(40):
-        step(together[0])
-        step(together[1])
-    for (a, _), (b, _) in zip(alone, together, strict=True):
-        assert a.record.digest == b.record.digest
-        assert a.record.collisions > 0
-
-
-def test_the_fixed_order_of_bodies_is_checked_by_where_robots_stand():
-    robots = [Robot(pose=(i, -i, i / 10)) for i in range(40)]
-    world = World(free(*robots, addons=[Map([[(-1, 0), (-1, 5)], CONCAVE_FAR])]))
-    assert np.array_equal(world.pose, np.array([r.pose for r in robots]).T)
-    world.step(np.zeros((2, 40)))
-    assert np.array_equal(world.pose, np.array([r.pose for r in robots]).T)
-
-
-CONCAVE_FAR = [(x + 100, y) for x, y in CONCAVE]
 
 
 def test_robots_that_start_overlapping_by_less_than_is_allowed_part_again():
@@ -708,7 +510,7 @@ def test_robots_that_start_overlapping_by_less_than_is_allowed_part_again():
 
 def test_a_thousand_robots_in_one_place_are_refused_at_once():
     with pytest.raises(InputError, match="inside each other"):
-        Scenario(robots=[Robot()] * 5000)
+        Scenario(robots=[Robot()] * 1000)
 
 
 def test_a_light_robot_thrown_by_a_heavy_one_does_not_pass_the_wall():
@@ -740,19 +542,7 @@ def test_a_robot_pinched_out_between_two_stops_at_the_wall(gap):
     assert record.pose[:, 1, 2].max() < 0.18 + gap - 0.15 + 1e-3
 
 
-def test_robots_far_off_stay_on_their_arcs_when_others_are_thrown_about():
-    heavy = Robot(pose=(-2.3, 0, 0), mass=10, restitution=1, drive=Holonomic())
-    light = Robot(pose=(0, 0, 0), restitution=1, drive=Holonomic())
-    far = Robot(pose=(0, 20, 0))
-    scenario = Scenario(robots=[heavy, light, far], workspace=None, sampling_time=2.0, stop_time=8)
-    v, omega = 0.3, 0.7
-    record = mars2d.run(scenario, control=lambda world: [[0.5, -0.5, v], [0, 0, omega]])
-    angle = omega * record.time
-    exact = v / omega * np.array([np.sin(angle), 1 - np.cos(angle)])
-    assert np.abs(record.pose[:, :2, 2].T - exact - [[0], [20]]).max() < 1e-9
-
-
-@each_case("restitution", [0.25, 0.5, 0.75, 0.9])
+@each_case("restitution", [0.25, 0.9])
 @each_case("start", [-1.0, -1.01, -0.93])
 @each_case("offset", [0.1, -0.2])
 def test_robots_that_meet_obliquely_part_at_their_restitution(restitution, start, offset):
@@ -777,7 +567,7 @@ def test_dense_crowds_of_unequal_masses_need_few_substeps():
     box = [(-1.1, -1.1), (-1.1, 1.1), (1.1, 1.1), (1.1, -1.1)]
     world = World(free(*robots, workspace=box, on_exit="wall"))
     rng = np.random.default_rng(0)
-    for _ in range(30):
+    for _ in range(10):
         with counted() as work:
             world.step(rng.uniform(-1, 1, (2, 36)) * [[0.5], [3]])
         assert len(work.substeps) < 100

@@ -11,9 +11,8 @@ from scipy.integrate import solve_ivp
 from mars2d import Robot, Scenario
 from mars2d.bodies.props import Ball, Bar, Box, Prop, Puck
 from mars2d.core.materials import GRAVITY
-from mars2d.physics.islands.floor import hold
 from tests.cases import each_case
-from tests.islands import body_of, mover_of, piece_of
+from tests.islands import mover_of
 
 speeds = st.one_of(st.just(0.0), st.floats(-5, -1e-3), st.floats(1e-3, 5))
 times = st.floats(1e-3, 3)
@@ -93,12 +92,6 @@ def test_what_spins_stops_after_its_angular_momentum_over_the_torque():
     assert not end.any()
 
 
-def test_what_spins_slides_further():
-    straight, _ = glide(Puck(ground_friction=0.1), (1.0, 0.0, 0.0), 100.0)
-    spinning, _ = glide(Puck(ground_friction=0.1), (1.0, 0.0, 20.0), 100.0)
-    assert spinning[0] > 1.2 * straight[0]
-
-
 def test_what_rests_stays_at_rest_and_what_nothing_brakes_goes_on():
     moved, end = glide(Puck(), (0.0, 0.0, 0.0), 3.0)
     assert not moved.any()
@@ -106,52 +99,3 @@ def test_what_rests_stays_at_rest_and_what_nothing_brakes_goes_on():
     moved, end = glide(Ball(), (1.0, -2.0, 3.0), 3.0)
     assert moved.tolist() == [3, -6, 9]
     assert end.tolist() == [1, -2, 3]
-
-
-# -- what the floor may use in a substep with contacts ------------------------------------------
-
-
-def slider(velocity=(0.0, 0.0, 0.0), held=(0.0, 0.0)):
-    """A disc of 1 kg that the floor holds with up to 2 N and 0.4 N m."""
-    body = body_of(piece_of([0j], 0.3), grip=2.0, lever=0.2)
-    body.vx, body.vy, body.spin = velocity
-    body.held, body.twist_held = held
-    return body
-
-
-def test_what_slides_is_held_by_all_of_the_friction_and_what_spins_by_all_of_its_torque():
-    body = slider((0.3, -0.4, 0.0))
-    hold(body, 0.01)
-    assert (body.allowed, body.twist_allowed) == (2.0, 0.0)
-    body = slider((0.0, 0.0, -7.0))
-    hold(body, 0.01)
-    assert (body.allowed, body.twist_allowed) == (0.0, pytest.approx(0.4))
-
-
-@given(vx=st.floats(-3, 3), vy=st.floats(-3, 3), spin=st.floats(0.5, 9))
-def test_what_does_both_is_held_within_the_ellipse_against_its_motion(vx, vy, spin):
-    body = slider((vx, vy, spin))
-    hold(body, 1e-3)
-    assert np.hypot(body.allowed / 2.0, body.twist_allowed / 0.4) == pytest.approx(1)
-    shares = np.hypot(vx, vy) * body.twist_allowed / 0.4, 0.2 * spin * body.allowed / 2.0
-    assert shares[0] == pytest.approx(shares[1], abs=1e-12)  # in the ratio of the two speeds
-
-
-@given(force=st.floats(0, 9), torque=st.floats(0, 9))
-def test_what_rests_is_held_as_in_the_last_substep_but_within_the_ellipse(force, torque):
-    body = slider(held=(force, torque))
-    hold(body, 0.01)
-    over = np.hypot(force / 2.0, torque / 0.4)
-    if over <= 1:
-        assert (body.allowed, body.twist_allowed) == (2.0, pytest.approx(0.4))
-    else:
-        assert body.allowed == pytest.approx(force / over)
-        assert body.twist_allowed == pytest.approx(torque / over)
-
-
-def test_what_the_floor_stops_within_a_hundredth_of_the_substep_counts_as_at_rest():
-    slow, fast = slider((0.0, 0.0, 0.09)), slider((0.0, 0.0, 0.11))  # 0.2 m * spin < 1 % of 2 m/s
-    for body in (slow, fast):
-        hold(body, 1.0)
-    assert slow.allowed == 2.0
-    assert fast.allowed == 0.0

@@ -71,7 +71,7 @@ def test_a_rack_of_discs_gains_no_energy(restitution, friction, sampling_time):
 @each_case("restitution", [1.0, 0.9, 0.5])
 def test_a_bar_that_hits_a_wall_gains_no_energy(restitution):
     rng = np.random.default_rng(7)
-    for _ in range(40):
+    for _ in range(10):
         bar = Bar(
             pose=(-0.6, 0, rng.uniform(-pi, pi)),
             velocity=(rng.uniform(0.5, 3), rng.uniform(-2, 2), rng.uniform(-8, 8)),
@@ -83,9 +83,8 @@ def test_a_bar_that_hits_a_wall_gains_no_energy(restitution):
 
 
 @each_case("material", ["glass", "rubber", "steel"])
-@each_case("seed", range(2))
-def test_a_heap_in_a_room_gains_no_energy(material, seed):
-    rng = np.random.default_rng(seed)
+def test_a_heap_in_a_room_gains_no_energy(material):
+    rng = np.random.default_rng(0)
     props = [
         (Box, Puck, Bar)[k % 3](
             pose=(k % 4 - 1.5, k // 4 - 1.0, rng.uniform(-pi, pi)),
@@ -101,9 +100,8 @@ def test_a_heap_in_a_room_gains_no_energy(material, seed):
 
 
 @each_case(("restitution", "friction"), [(0.0, 0.5), (1.0, 1.0), (1.0, 0.0)])
-@each_case("seed", range(3))
-def test_joints_gain_no_energy_either(restitution, friction, seed):
-    rng = np.random.default_rng(seed)
+def test_joints_gain_no_energy_either(restitution, friction):
+    rng = np.random.default_rng(0)
     props = [
         (Ball, Box, Puck)[k % 3](
             name=f"p{k}", pose=(0.7 * (k % 3), 0.7 * (k // 3), 0.0),
@@ -182,9 +180,8 @@ def wedge(half_angle: float, radius: float) -> list[list[tuple[float, float]]]:
     return [[(-4.0, side * (tip + 4.0) * tan(half_angle)), (tip, 0.0)] for side in (1, -1)]
 
 
-@each_case("degrees", [0.5, 1.0, 3.0, 5.0])
-@each_case("force", [5.0, 50.0])
-@each_case("speed", [0.3, 1.0])
+@each_case("degrees", [0.5, 5.0])
+@each_case(("force", "speed"), [(5.0, 0.3), (50.0, 1.0)])
 def test_a_shallow_wedge_throws_no_robot_back(degrees, force, speed):
     half = radians(degrees)
     for friction in (0.0, 0.5 * tan(half)):
@@ -199,15 +196,6 @@ def test_a_shallow_wedge_throws_no_robot_back(degrees, force, speed):
             assert world.pose[0, 0] <= 1.0 + 1e-3 / sin(half)
         assert world.pose[0, 0] > 1.0 - 1e-3
         assert world.pose[1, 0] == pytest.approx(0.0, abs=1e-3)
-
-
-@each_case("count", [2, 4])
-def test_nor_a_file_of_robots(count):
-    robots = [Robot(pose=(-0.4 * k, 0, 0), friction=0.0) for k in range(count)]
-    world = endless(robots, addons=[Map(wedge(radians(1), 0.15))], sampling_time=0.05)
-    for _ in range(80):
-        world.step(np.array([[1.0] * count, [0.0] * count]))
-        assert world.velocity[0].min() > -0.05
 
 
 @each_case("restitution", [0.0, 0.5, 1.0])

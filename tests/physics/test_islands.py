@@ -10,8 +10,8 @@ import pytest
 
 from mars2d import Holonomic, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
-from mars2d.bodies.joints import Hinge, Rope
-from mars2d.bodies.props import Ball, Bar, Puck
+from mars2d.bodies.joints import Rope
+from mars2d.bodies.props import Puck
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.island import Island
 from mars2d.physics.islands.mover import Mover
@@ -95,42 +95,12 @@ def test_those_that_may_touch_each_other_are_one_island_and_all_others_are_free(
     assert seen.carried == [3]
 
 
-def test_a_chain_of_neighbours_is_one_island():
-    robots = [Robot(pose=(0.305 * k, 0, 0)) for k in (3, 0, 1, 2)]
-    seen = stepped(world_of(robots), np.array([[0.2] * 4, [0] * 4]))
-    assert seen.stepped == [[0, 1, 2, 3]]
-
-
-def test_what_is_near_a_wall_is_an_island_of_its_own():
-    wall = Map([[(-9, 0.17), (9, 0.17)]])
-    robots = [Robot(), Robot(pose=(3, 0, 0)), Robot(pose=(6, -3, 0))]
-    seen = stepped(world_of(robots, addons=[wall]), np.array([[0.3] * 3, [0] * 3]))
-    assert seen.stepped == [[0], [1]]
-    assert seen.carried == [2]
-
-
 def test_a_taut_rope_makes_an_island_and_a_slack_one_does_not():
     robots = [Robot(), Robot(pose=(1, 0, 0))]
     taut = world_of(robots, joints=[Rope(a="robot0", b="robot1", length=1.0)])
     slack = world_of(robots, joints=[Rope(a="robot0", b="robot1", length=2.0)])
     assert stepped(taut, np.zeros((2, 2))).stepped == [[0, 1]]
     assert stepped(slack, np.zeros((2, 2))).carried == [0, 1]
-
-
-def test_a_hinge_to_the_world_holds_a_body_by_itself():
-    bar = Bar(pose=(0, 0, 0), name="door")
-    world = world_of([IDLE], [bar], [Hinge(a="door", anchor_b=(0, 0))])
-    seen = stepped(world, np.zeros((2, 1)))
-    assert seen.stepped == [[1]]
-    assert seen.carried == [0]
-
-
-def test_a_fast_body_is_in_an_island_with_what_it_can_reach_and_a_slow_one_is_not():
-    balls = [Ball(pose=(0, 0, 0)), Ball(pose=(1.1, 0, 0))]
-    for speed, islands in ((0.5, []), (15.0, [[1, 2]])):
-        thrown = balls[0].replace(velocity=(speed, 0, 0))
-        seen = stepped(world_of([IDLE], [thrown, balls[1]]), np.zeros((2, 1)))
-        assert seen.stepped == islands
 
 
 def test_islands_are_stepped_by_themselves_as_finely_as_each_needs():
@@ -186,48 +156,6 @@ def test_two_islands_that_meet_become_one_and_keep_their_momentum():
     assert (mass * world.prop_velocity[0]).sum() == pytest.approx(before, abs=1e-12)
     assert (np.diff(world.prop_pose[0]) > 0.2 - 1e-3).all()
     assert bodies_of(mover_of(world)) == []
-
-
-def test_solvers_are_used_again():
-    rng = np.random.default_rng(2)
-    robots = [Robot(pose=(0.5 * (k % 4), 0.5 * (k // 4), k)) for k in range(16)]
-    room = [(-0.3, -0.3), (1.8, -0.3), (1.8, 1.8), (-0.3, 1.8)]
-    world = world_of(robots, workspace=room, on_exit="wall")
-    mover = mover_of(world)
-    used = []
-    for _ in range(150):
-        world.step(rng.uniform(-0.5, 0.5, (2, 16)) * [[1], [4]])
-        used.append(len(bodies_of(mover)))
-        numbers = [k for who in bodies_of(mover) for k in who]
-        assert len(numbers) == len(set(numbers))  # nobody is in two
-    assert max(used) > 2
-    # Those that begin again take another one until the end of the control step.
-    assert len(mover.solvers) <= 2 * max(used) + 2
-
-
-def test_what_is_in_contact_stays_in_its_solver_while_others_come_and_go():
-    """What the solver remembers of a contact is what makes it settle."""
-    robots = [
-        Robot(pose=(0.151, 0, np.pi)), Robot(pose=(0.6, 0.2, np.pi)),
-        Robot(pose=(-9, 0, 0)),
-    ]  # fmt: skip
-    world = world_of(robots, addons=[Map([[(0, -1), (0, 1)]])])
-    stepped(world, np.array([[0.1, 0, 0], [0] * 3]), 5)
-    mine = mover_of(world).bodies[0].solver
-    for command in (0.3, -0.3):
-        stepped(world, np.array([[0.1, command, 0], [0] * 3]), 5)
-        assert mover_of(world).bodies[0].solver is mine
-
-
-def test_contacts_end_when_an_island_falls_apart():
-    world = world_of([Robot(), Robot(pose=(0.301, 0, np.pi))])
-    stepped(world, np.array([[0.2, 0.2], [0, 0]]), 3)
-    assert not world.contacts["ended"].any()
-    stepped(world, np.array([[-0.5, -0.5], [0, 0]]), 3)
-    rows = world.record.contacts
-    assert rows["began"].sum() == 1
-    assert rows["ended"].sum() == 1
-    assert rows["ended"][-1]
 
 
 # -- control steps that begin again ---------------------------------------------------------
@@ -317,14 +245,6 @@ def test_what_is_hit_by_one_that_was_thrown_further_than_thought_joins_in():
     assert len(pairs) == len(set(pairs))
 
 
-def test_those_far_off_do_not_begin_again():
-    far = Robot(pose=(0, 20, 0))
-    pushing = [Robot(pose=(0, 30, 0)), Robot(pose=(0.3, 30, 0))]
-    _, seen = throw(2.0, far, *pushing)
-    assert sorted(set(seen.again)) == [0, 1]
-    assert seen.stepped.count([3, 4]) == 1
-
-
 def test_a_robot_that_slipped_and_follows_again_moves_once_while_others_begin_again():
     """Two have bounced off each other; in the next control step their drives catch them."""
     bouncing = Robot(restitution=1, friction=0, drive=Holonomic(max_force=0.05))
@@ -364,7 +284,7 @@ def file(n: int) -> tuple[World, np.ndarray]:
     return world_of(robots, sampling_time=0.1, addons=[wall]), command
 
 
-@each_case(("crowd", "n", "most"), [(heap, 16, 7), (heap, 64, 11), (file, 12, 7), (file, 30, 16)])
+@each_case(("crowd", "n", "most"), [(heap, 16, 7), (file, 12, 7)])
 def test_pushes_add_up_to_no_more_overlap_and_to_few_more_substeps(crowd, n, most):
     """As many as a heap needs, where a file of as many robots would need more."""
     deepest, count = 0.0, 0
@@ -381,7 +301,7 @@ def test_pushes_add_up_to_no_more_overlap_and_to_few_more_substeps(crowd, n, mos
     assert count <= most * 40
 
 
-@each_case("seed", range(6))
+@each_case("seed", range(2))
 def test_in_crowds_that_are_thrown_about_momentum_is_kept_and_nothing_overlaps(seed):
     """On each of eight ways to the middle a heavy elastic puck hits a light one."""
     rng = np.random.default_rng(seed)

@@ -18,7 +18,6 @@ from tests.worlds import drive, endless
 
 SQUARE = Polygon([(-0.15, -0.15), (0.15, -0.15), (0.15, 0.15), (-0.15, 0.15)])
 DEEPEST = 2e-4  # metres
-IDLE = Robot(pose=(50, 50, 0))
 
 
 def arc(pose, v: float, omega: float, t: float) -> list[float]:
@@ -102,18 +101,6 @@ def test_ideal_contacts_of_a_square_and_a_wall_have_the_middle_of_the_face():
     assert row["speed"] == pytest.approx(0.4, rel=1e-6)
 
 
-def test_ideal_contacts_of_a_corner_have_that_corner():
-    robot = Robot(pose=(0, 0, pi / 4), shape=SQUARE, drive=Holonomic())
-    world = endless([robot], addons=[Map([[(0.6, -1), (0.6, 1)]])], physics="ideal")
-    drive(world, [[0.4], [0.1]], 1.2)
-    row = world.record.contacts[0]
-    reach = 0.15 * sqrt(2)
-    t = (0.6 - reach) / 0.4
-    assert row["time"] == pytest.approx(t, abs=2e-3)
-    assert row["point"] == pytest.approx([0.6, 0.1 * t], abs=1e-3)
-    assert abs(row["slip"]) == pytest.approx(0.1, rel=1e-6)
-
-
 # -- stop -----------------------------------------------------------------------------------
 
 
@@ -142,17 +129,6 @@ def test_stop_holds_one_that_goes_into_another_and_lets_the_other_go_away():
     # The one ahead is not held; the one behind follows it as near as it may.
     assert world.pose[0, 1] == pytest.approx(0.9, abs=1e-9)
     assert world.pose[0, 1] - world.pose[0, 0] > 0.3 - DEEPEST
-
-
-def test_stop_lets_robots_turn_on_the_spot_and_slide_along():
-    wall = Map([[(0.6, -5), (0.6, 5)]])
-    robots = [Robot(drive=Holonomic()), Robot(pose=(0, 2, 0))]
-    world = endless(robots, addons=[wall], physics="stop")
-    drive(world, [[0.3, 0.3], [0, 0]], 3)
-    before = world.pose
-    drive(world, [[0.0, 0.0], [0.3, 1.0]], 1)
-    assert world.pose[1, 0] == pytest.approx(before[1, 0] + 0.3, abs=1e-9)
-    assert world.pose[2, 1] == pytest.approx(before[2, 1] + 1.0, abs=1e-9)
 
 
 def test_stop_leaves_props_where_they_are_and_stops_those_that_slide():

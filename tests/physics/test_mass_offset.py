@@ -10,7 +10,6 @@ import pytest
 from mars2d import Car, Holonomic, InputError, Robot, Unicycle, World
 from mars2d.bodies import Box, Puck, Spring
 from mars2d.geometry.shapes import Polygon
-from mars2d.world.verify import rerun
 from tests.cases import each_case
 from tests.islands import plainly
 from tests.worlds import drive, endless
@@ -151,15 +150,6 @@ def test_a_spring_at_its_centre_of_mass_does_not_turn_it():
     assert poses[:, 1, 0].max() == pytest.approx(0.4, rel=0.01)
 
 
-def test_a_pull_at_its_centre_of_mass_does_not_turn_it():
-    lead = 0.12
-    world = endless([car_of(lead)], sampling_time=0.02)
-    world.operator.pull(0, (lead, 0.0), (lead, 1.0))
-    drive(world, [[0.0], [0.0]], 0.3)
-    assert world.pose[1, 0] > 0.02
-    assert abs(world.pose[2, 0]) < 0.01
-
-
 def test_in_a_heap_it_keeps_the_bounds_of_overlap_and_walls():
     rng = np.random.default_rng(3)
     team = [
@@ -177,28 +167,6 @@ def test_in_a_heap_it_keeps_the_bounds_of_overlap_and_walls():
         assert (np.abs([x - 0.6, y - 0.6]) < 0.85 + 1e-3).all()
         apart = np.hypot(np.subtract.outer(x, x), np.subtract.outer(y, y)) + np.eye(9)
         assert apart.min() > 0.3 - 1.1e-3
-
-
-def test_compiled_and_in_python_the_bits_are_the_same_and_a_run_can_be_run_again():
-    def made() -> World:
-        team = [
-            car_of(0.1, drive=Car(max_force=2)),
-            car_of(0.2, drive=Unicycle(force_limited=True), pose=(0.9, 0.05, pi)),
-        ]
-        law = lambda world: [[0.3, 0.4], [0.2 * sin(world.time), 0.1]]  # noqa: E731
-        scenario = endless(team, [puck_of(0.2, 0.4, 0.7)]).scenario
-        return World(scenario.replace(stop_time=4.0), law)
-
-    compiled = made()
-    with plainly():
-        slow = made()
-        while not slow.over:
-            slow.step()
-    while not compiled.over:
-        compiled.step()
-    assert len(compiled.record.contacts)
-    assert compiled.record.digest == slow.record.digest
-    assert rerun(compiled.record) is None
 
 
 def test_the_moment_is_that_of_a_plate_about_the_centre_of_mass():

@@ -258,8 +258,7 @@ def seen(image: Image, poses: np.ndarray) -> np.ndarray:
 
 IMAGES = {
     "mirrored": Image(mirror=True),
-    "turned": Image(angle=0.7345),
-    "moved": Image(shift=(37.1, -12.3)),
+    "turned and moved": Image(angle=0.7345, shift=(37.1, -12.3)),
     "all of it": Image(angle=-2.1, shift=(-3.3, 8.7), mirror=True),
 }
 
@@ -283,7 +282,7 @@ def test_the_image_of_a_scene_goes_as_the_image_of_its_poses(name, image, origin
     assert error < SCENES[name].tolerance
 
 
-@each_case("sampling_time", [0.05, 0.02, 0.5])
+@each_case("sampling_time", [0.02, 0.5])
 @each_case("name", SCENES)
 def test_held_commands_give_the_same_poses_for_any_sampling_time(name, sampling_time, original):
     error = np.abs(run(SCENES[name], Image(), sampling_time) - original(name)).max()

@@ -115,40 +115,6 @@ def test_among_bodies_far_apart_no_pair_is_missed():
         one.go(rng)
 
 
-@each_case("shift", [0.0, 1e-9, -1e-9, 0.3])
-def test_bodies_on_a_grid_are_no_trouble_for_cells(shift):
-    n = 9
-    grid = np.add.outer(np.arange(n), 1j * np.arange(n)).ravel() * 0.4 + shift
-    one = Walk(grid, np.full(n * n, 0.2))
-    assert one.ask(0.05)[0] == one.truth()[0]
-    assert len(one.truth()[0]) == 2 * n * (n - 1)
-
-
-def test_pairs_are_listed_anew_only_when_bodies_have_moved_by_the_skin():
-    n = FEW + 1
-    one = Walk(np.arange(n) + 0j, np.full(n, 0.1))
-    lists = []
-    for _ in range(30):
-        one.ask(0.01)
-        if not lists or lists[-1] is not one.near.pairs:
-            lists.append(one.near.pairs)
-        one.near.advance()
-    assert 1 <= len(lists) <= 4
-
-
-def test_walls_are_listed_anew_only_when_a_body_has_moved_by_its_skin():
-    walls = [(complex(k, 1), complex(k + 1, 1)) for k in range(FEW_WALLS + 20)]
-    one = Walk([0.5 + 0.7j], [0.1], walls)
-    lists = []
-    for _ in range(30):
-        one.ask(0.01)
-        if not lists or lists[-1] is not one.bodies[0].wall_pairs:
-            lists.append(one.bodies[0].wall_pairs)
-        one.near.advance()
-        assert len(lists[-1]) < len(walls)
-    assert 1 <= len(lists) <= 4
-
-
 def test_a_sudden_long_way_finds_what_was_not_listed():
     n = FEW + 2
     walls = [(complex(k, 9), complex(k, 20)) for k in range(FEW_WALLS + 1)]
@@ -157,17 +123,6 @@ def test_a_sudden_long_way_finds_what_was_not_listed():
     pairs, walled = one.ask(9.0)
     assert pairs == {(k, k + 1) for k in range(n - 1)}
     assert walled == one.truth()[1] != set()
-
-
-def test_the_pairs_of_a_body_with_pieces_are_those_of_its_pieces():
-    two = body_of(piece_of(DISC - 0.2, 0.1), piece_of(DISC + 0.2, 0.1), number=0, radius=0.3)
-    one = body_of(piece_of(DISC, 0.1), number=1)
-    near = Neighbours([two, one], [wall_of(0j, 1j)], set())
-    assert len(near.pairs) == 2
-    assert {id(pair.p) for pair in near.pairs} == {id(piece) for piece in two.pieces}
-    two.way = two.start_x = two.start_y = 0.0
-    assert near.at_wall(two)
-    assert len(two.wall_pairs) == 2
 
 
 @each_case("n", [4, FEW + 8])

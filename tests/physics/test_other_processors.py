@@ -14,7 +14,7 @@ import pytest
 from tests.processes import bare_environment
 
 pytestmark = [
-    pytest.mark.slow,
+    pytest.mark.nightly,
     pytest.mark.skipif(
         (platform.system(), platform.machine(), platform.libc_ver()[0])
         != ("Linux", "x86_64", "glibc"),

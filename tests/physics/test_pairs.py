@@ -91,7 +91,7 @@ def separation(first, second, direction):
 
 def test_the_gap_of_pieces_that_are_apart_is_their_distance():
     apart = 0
-    for two in scattered(0, 800, 1.0):
+    for two in scattered(0, 250, 1.0):
         distance = core(two.placed[0]).distance(core(two.placed[1]))
         gap = two.pair.gap + sum(two.radius)
         if distance > 0:
@@ -99,11 +99,11 @@ def test_the_gap_of_pieces_that_are_apart_is_their_distance():
             apart += 1
         else:
             assert gap <= 1e-12
-    assert apart > 500
+    assert apart > 150
 
 
 def test_the_normal_leads_from_the_first_piece_to_the_second_by_the_shortest_way():
-    for two in scattered(1, 600, 1.0):
+    for two in scattered(1, 250, 1.0):
         assert abs(two.normal) == pytest.approx(1.0, abs=1e-12)
         along = separation(*two.placed, np.array([two.normal]))[0] - sum(two.radius)
         assert along == pytest.approx(two.pair.gap, abs=1e-12)
@@ -112,7 +112,7 @@ def test_the_normal_leads_from_the_first_piece_to_the_second_by_the_shortest_way
 def test_pieces_that_overlap_part_after_a_move_along_the_normal_by_the_depth():
     directions = np.exp(1j * np.linspace(0, 2 * np.pi, 2000))
     deep = 0
-    for two in scattered(2, 500, 0.05, kinds=(2, 3, 4, 5, 8)):
+    for two in scattered(2, 150, 0.05, kinds=(2, 3, 4, 5, 8)):
         depth, normal, (a, b) = -two.pair.gap, two.normal, two.placed
         if depth < 1e-6:
             continue
@@ -121,30 +121,7 @@ def test_pieces_that_overlap_part_after_a_move_along_the_normal_by_the_depth():
         assert core(a).intersects(core(b + (depth - 1e-9) * normal))
         least = -separation(a, b, directions).max()
         assert depth - 1e-12 <= least <= depth + 5e-3
-    assert deep > 250
-
-
-def test_they_touch_where_the_gap_is_not_positive():
-    found = {(two.pair.measure(), two.pair.gap <= 0) for two in scattered(3, 200, 0.5)}
-    assert found == {(True, True), (False, False)}
-
-
-def test_a_disc_in_a_polygon_is_as_deep_as_its_nearest_edge_and_its_radius():
-    gap, normal = gap_of(SQUARE, [0.3 + 0.1j], (0.0, 0.25))
-    assert gap == pytest.approx(-0.2 - 0.25, abs=1e-15)
-    assert normal == pytest.approx(1 + 0j)
-
-
-def test_two_discs_are_measured_between_their_centres():
-    gap, normal = gap_of(DISC, [3 + 4j], (1.0, 2.0))
-    assert gap == pytest.approx(2.0, abs=1e-15)
-    assert normal == pytest.approx(0.6 + 0.8j, abs=1e-15)
-
-
-def test_discs_at_the_same_place_have_some_normal():
-    gap, normal = gap_of(DISC, DISC, (0.1, 0.2))
-    assert gap == pytest.approx(-0.3)
-    assert abs(normal) == pytest.approx(1.0)
+    assert deep > 75
 
 
 @each_case("angle", [0.0, 0.3, 1.0, 2.5])
@@ -177,18 +154,6 @@ def test_faces_that_just_touch_have_their_normal(offset, angle):
     assert normal == pytest.approx(turn, abs=1e-12)
 
 
-def test_a_corner_on_a_corner_touches():
-    gap, _ = gap_of(SQUARE, SQUARE + 1 + 1j)
-    assert gap == pytest.approx(0.0, abs=1e-15)
-
-
-def test_a_pose_of_a_body_moves_its_pieces():
-    two = Two(SQUARE, SQUARE)
-    two.put((0j, 2 + 0j), (0.0, np.pi / 4))
-    assert two.pair.gap == pytest.approx(1.5 - np.sqrt(0.5), abs=1e-12)
-    assert two.normal == pytest.approx(1 + 0j)
-
-
 @each_case(
     ("vertices", "same"),
     [
@@ -204,22 +169,6 @@ def test_corners_that_add_nothing_change_nothing(vertices, same, other):
         gap, normal = gap_of(vertices, other)
     assert abs(normal) == pytest.approx(1.0)
     assert gap == pytest.approx(gap_of(same, other)[0], abs=1e-12)
-
-
-def test_a_turned_scene_has_the_same_gaps_and_turned_normals():
-    rng = np.random.default_rng(9)
-    turn = np.exp(1.1j)
-    for _ in range(200):
-        (first, r), (second, s) = random_piece(rng), random_piece(rng)
-        two = Two(first, second, (r, s))
-        position = rng.normal(0, 0.8, 2) + 1j * rng.normal(0, 0.8, 2)
-        angle = rng.uniform(-9, 9, 2)
-        two.put(position, angle)
-        gap, normal = two.pair.gap, two.normal
-        two.put(turn * position + (3 - 4j), angle + 1.1)
-        assert two.pair.gap == pytest.approx(gap, abs=1e-12)
-        if gap > 1e-6:
-            assert abs(two.normal - turn * normal) < 1e-6
 
 
 # -- discs ----------------------------------------------------------------------------------
@@ -278,11 +227,6 @@ def test_a_disc_and_a_wall_are_apart_by_the_way_to_its_nearest_point(position, s
         assert gap_to_segment(reached, start, start + way) < 1e-6
 
 
-def test_the_nearest_point_of_a_wall_may_be_its_end():
-    found = [disc_at(point, 0j, 1 + 0j).gap for point in (0.5 + 2j, -3 - 4j, 4 + 4j)]
-    assert found == pytest.approx([1.9, 4.9, 4.9])
-
-
 @given(first=places, second=places, way=st.complex_numbers(min_magnitude=0.1, max_magnitude=4))
 def test_discs_as_pieces_have_the_same_gaps(first, second, way):
     two = Two(DISC, DISC, (0.1, 0.2))
@@ -291,39 +235,6 @@ def test_discs_as_pieces_have_the_same_gaps(first, second, way):
     two = Two(DISC, [second, second + way], (0.1, 0.0), wall=True)
     two.put((first, 0j))
     assert two.pair.gap == pytest.approx(disc_at(first, second, second + way).gap, abs=1e-12)
-
-
-def test_how_fast_discs_move_into_each_other_and_into_walls():
-    pair = discs((0j, 0.3 + 0j))
-    let_move(pair.a, 0.3 + 9j)
-    let_move(pair.b, -0.2 + 9j)
-    pair.meet()
-    assert (pair.into_b, pair.into_a) == pytest.approx((0.3, 0.2))
-    assert (pair.point_x, pair.point_y) == pytest.approx((0.1, 0.0))
-    pair = disc_at(5 + 0.1j, 4 + 0j, 6 + 0j)
-    let_move(pair.a, 7 - 0.5j)
-    pair.meet()
-    assert pair.into_b == pytest.approx(0.5)
-    assert (pair.point_x, pair.point_y) == pytest.approx((5.0, 0.0))
-
-
-# -- how far apart they were at the beginning -----------------------------------------------
-
-
-def test_how_far_apart_circles_were_goes_by_the_beginning_of_the_control_step():
-    pair = discs((0j, 1 + 0j))
-    pair.a.start_x, pair.b.start_x = -3.0, 2.0
-    assert pair.apart() == pytest.approx(5 - 0.3)
-    pair = disc_at(0j, 1 - 1j, 1 + 1j)
-    pair.a.start_x = -3.0
-    assert pair.apart() == pytest.approx(4 - 0.1)
-
-
-def test_no_piece_reaches_beyond_the_circle_round_its_body():
-    for two in scattered(4, 200, 1.0):
-        for body in (two.a, two.b):
-            body.start_x, body.start_y = body.x, body.y
-        assert two.pair.apart() <= two.pair.gap + 1e-12
 
 
 # -- times until contact --------------------------------------------------------------------
@@ -366,54 +277,15 @@ def assert_lower_bound(motion: Motion, ask: str, depth: float) -> float:
     return (motion.at(min(h, 10.0)) - floor) / abs(floor)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("depth", [1e-4, 1e-2])
-@pytest.mark.parametrize("wall", [False, True])
+@each_case(("wall", "depth"), [(False, 1e-4), (True, 1e-2)])
 def test_before_the_time_to_touch_nothing_gets_deeper_than_allowed(depth, wall):
     rng = np.random.default_rng(5)
     left = []
-    for _ in range(400):
+    for _ in range(80):
         motion = Motion(rng, 0.5, wall=wall)
         assert motion.two.pair.time_to_touch(LONG, depth) > 0
         left.append(assert_lower_bound(motion, "time_to_touch", depth))
-    assert sum(share < 0.01 for share in left) > 5  # the bound is met, not only kept
-
-
-@each_case("wall", [False, True])
-def test_so_it_is_of_some_pairs_that_turn_quickly(wall):
-    rng = np.random.default_rng(6)
-    for _ in range(60):
-        assert_lower_bound(Motion(rng, 0.8, wall=wall, spin=20.0), "time_to_touch", 1e-3)
-
-
-@each_case("wall", [False, True])
-@each_case("ask", ["time_along_edge", "time_along_normal"])
-def test_each_of_the_two_bounds_holds_by_itself(ask, wall):
-    """The edge's bound holds where the edge parts the pieces; else it may be nothing, not wrong."""
-    rng = np.random.default_rng(7)
-    for _ in range(80):
-        assert_lower_bound(Motion(rng, 0.8, wall=wall), ask, 1e-3)
-
-
-def test_the_time_to_touch_is_the_longer_of_both_bounds():
-    rng = np.random.default_rng(8)
-    along = {"edge": 0, "normal": 0}
-    for _ in range(300):
-        motion = Motion(rng, 1.0)
-        pair = motion.two.pair
-        edge, normal = pair.time_along_edge(1.0, 1e-3), pair.time_along_normal(1.0, 1e-3)
-        assert pair.time_to_touch(1.0, 1e-3) == max(edge, normal)
-        along["edge"] += edge > normal
-        along["normal"] += normal > edge
-    assert min(along.values()) > 20  # each is needed
-
-
-def test_between_round_pieces_there_is_no_edge():
-    two = Two(DISC, DISC, (0.1, 0.1))
-    two.put((0j, 1 + 0j))
-    let_move(two.a, 1 + 0j)
-    assert two.pair.time_along_edge(5.0, 1e-3) == 0.0
-    assert two.pair.time_to_touch(5.0, 1e-3) == pytest.approx(0.8 + 1e-3)
+    assert sum(share < 0.01 for share in left) > 1  # the bound is met, not only kept
 
 
 @given(seed=st.integers(0, 2**32), depth=st.floats(1e-5, 1e-2))
@@ -492,21 +364,3 @@ def test_what_moves_apart_or_stands_never_touches():
     assert two.pair.time_to_touch(1e6, 1e-3) == 1e6
     let_move(two.a, -1 + 0j, acceleration=0.5)  # it comes back within 2 v / a
     assert 4.0 < two.pair.time_to_touch(1e6, 1e-3) < 4.002
-
-
-def test_discs_that_move_apart_never_touch():
-    pair = discs((0j, 1 + 0j), (0.1, 0.1))
-    let_move(pair.a, -1 + 0j)
-    let_move(pair.b, 1 + 0j)
-    assert pair.time_to_touch(1e6, 1e-3) == 1e6
-    let_move(pair.a, 1 + 0j)
-    let_move(pair.b, -1 + 0j)
-    assert pair.time_to_touch(1e6, 1e-3) == pytest.approx((0.8 + 1e-3) / 2)
-    assert pair.time_to_touch(0.1, 1e-3) == 0.1
-
-
-def test_pieces_that_are_deep_already_may_get_a_little_deeper():
-    two = Two(SQUARE, SQUARE)
-    two.put((0j, 0.9 + 0j))
-    let_move(two.a, 1 + 0j)
-    assert two.pair.time_to_touch(1.0, 1e-3) == pytest.approx(1e-3 / 256)

@@ -7,14 +7,14 @@ from math import atan2, cos, inf, pi, sin, sqrt
 import numpy as np
 import pymunk
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.arithmetic import cosines_sines
-from mars2d.core.plane import WITHIN
+from mars2d.core.plane import WITHIN, up_to
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.sensors import RangeFinder
 from mars2d.sensors.base import NOTHING
@@ -189,6 +189,7 @@ OBSTACLES = ("wall", "thick wall", "room")
     kinds=st.lists(st.sampled_from(["nothing", *BODIES, *OBSTACLES]), min_size=9, max_size=9),
     seed=st.integers(0, 2**32 - 1),
 )
+@settings(max_examples=15)
 def test_rays_are_those_of_closed_form_geometry(kinds, seed):
     rng = np.random.default_rng(seed)
     cells = [(2.0 * (k % 3 - 1), 2.0 * (k // 3 - 1)) for k in range(9)]
@@ -217,12 +218,6 @@ def test_a_ray_is_as_long_as_it_is_to_the_nearest_thing_in_its_way():
     assert found.tolist() == [1.75, inf, pytest.approx(3 / cos(0.3), abs=EXACT)]
 
 
-def test_rays_may_have_a_length_each():
-    world = world_of([[(3, -9), (3, 9)]])
-    found = world.surroundings.rays((0, 0), np.zeros(3), [2.0, 3.5, 9.0], 0)
-    assert found.tolist() == [inf, pytest.approx(3.0, abs=EXACT), pytest.approx(3.0, abs=EXACT)]
-
-
 @each_case("angle", [0.0, 0.3, 1.0, pi / 2, 2.5])
 @each_case("far", [0.5, 40.0])
 def test_a_ray_exactly_along_a_wall_meets_its_end(angle, far):
@@ -247,7 +242,7 @@ def test_a_thick_walls_end_is_met_by_rays_from_within_its_thickness(thickness):
     r = thickness / 2
     wall = [(0, -r), (4, -r), (4, r), (0, r)]
     world = world_of([wall])
-    for y in np.linspace(-0.999, 0.999, 21) * r:
+    for y in np.linspace(-0.999, 0.999, 7) * r:
         for gap in (1e-6, 1e-3, r / 2, 3.0):
             found = world.surroundings.rays((-gap, y), np.array([0.0, pi]), 6.0, 0)
             assert found[0] == pytest.approx(gap, abs=EXACT)
@@ -272,12 +267,6 @@ def test_a_ray_that_grazes_a_disc_meets_it_and_one_beside_it_does_not(radius, fa
             across = distance * sin(abs(edge) - 1e-6)
             wanted = distance * cos(abs(edge) - 1e-6) - sqrt(radius**2 - across**2)
             assert inner == pytest.approx(wanted, abs=EXACT)
-
-
-def test_a_ray_along_the_side_of_a_square_obstacle_meets_its_corner():
-    world = world_of([[(1, 0), (2, 0), (2, 1), (1, 1)]])
-    found = world.surroundings.rays((0, 0), np.array([0.0, 1e-7, -1e-7]), 5.0, 0)
-    assert found.tolist() == [pytest.approx(1, abs=EXACT), pytest.approx(1, abs=EXACT), inf]
 
 
 @each_case("kind", BODIES)
@@ -326,7 +315,7 @@ def test_no_ray_leaves_a_closed_room(name, built):
         world = world_of([corners] if built == "one outline" else walls)
     rng = np.random.default_rng(0)
     count = escaped = 0
-    while count < 100_000:
+    while count < 10_000:
         start = np.add(middle, rng.uniform(-0.5, 0.5, 2))
         aimed = np.array([atan2(y - start[1], x - start[0]) for x, y in corners])
         angles = [aimed, np.nextafter(aimed, 9), np.nextafter(aimed, -9), rng.uniform(-4, 4, 100)]
@@ -336,26 +325,15 @@ def test_no_ray_leaves_a_closed_room(name, built):
     assert escaped == 0
 
 
-@each_case("turned", [0.0, pi / 4])
-def test_no_ray_leaves_a_room_from_a_lattice_of_starts(turned):
-    corners = placed([(-4, -4), (4, -4), (4, 4), (-4, 4)], (0, 0, turned))
-    world = world_of([[tuple(map(float, corner)) for corner in corners]])
-    for x in np.arange(-2, 2.1, 0.5):
-        for y in np.arange(-2, 2.1, 0.5):
-            angles = np.arange(-8, 8) * pi / 8
-            assert np.isfinite(world.surroundings.rays((x, y), angles, 40.0, 0)).all()
-
-
-@pytest.mark.slow
 def test_a_ray_aimed_exactly_at_a_bodys_corner_meets_it():
     shape = Polygon([(-0.3, -0.2), (0.4, -0.1), (0.2, 0.3), (-0.2, 0.25)])
     rng = np.random.default_rng(4)
-    for _ in range(30):
+    for _ in range(5):
         pose = (*rng.uniform(-1, 1, 2), rng.uniform(-9, 9))
         world = world_of(robots=[Robot(pose=pose, shape=shape)])
         corners = placed(shape.outline, pose)
         middle = corners.mean(axis=0)
-        for corner in np.repeat(corners, 30, axis=0):
+        for corner in np.repeat(corners, 10, axis=0):
             out = corner - middle
             start = corner + rng.uniform(0.5, 3) * out + rng.uniform(-0.1, 0.1, 2)
             aimed = atan2(corner[1] - start[1], corner[0] - start[0])
@@ -368,7 +346,7 @@ def test_a_ray_aimed_exactly_at_a_bodys_corner_meets_it():
 @each_case("eighth", range(8))
 def test_a_ray_straight_at_the_corner_of_a_box_meets_it(eighth):
     angle = eighth * pi / 4
-    for far in np.arange(0.75, 6, 0.25):
+    for far in np.arange(0.75, 6, 0.75):
         for size in (0.2, 0.3, 0.5):
             turned = 0.0 if eighth % 2 else pi / 4
             box = Box(pose=(far * cos(angle), far * sin(angle), turned), length=size, width=size)
@@ -384,7 +362,7 @@ def test_a_ray_straight_at_the_corner_of_a_box_meets_it(eighth):
 
 @each_case("kind", BODIES)
 @each_case("offset", [0.0, 0.1])
-@each_case("mount", [(0, 0, 0), (0.25, 0, 0), (0.3, -0.4, 2.0), (2.0, 0.3, pi)])
+@each_case("mount", [(0, 0, 0), (0.3, -0.4, 2.0)])
 def test_a_robot_never_sees_itself(kind, offset, mount):
     shape = some_shape(np.random.default_rng(2), kind)
     robot = Robot(
@@ -402,8 +380,7 @@ def test_a_robot_never_sees_itself(kind, offset, mount):
 # -- bodies that have moved ---------------------------------------------------------------------
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("physics", ["contact", "stop", "ideal"])
+@each_case("physics", ["contact", "stop"])
 def test_rays_meet_bodies_where_they_are_at_that_instant(physics):
     rng = np.random.default_rng(7)
     cells = [(0.75 * (k % 4) - 1.1, 0.75 * (k // 4) - 1.1) for k in range(16)]
@@ -425,31 +402,19 @@ def test_rays_meet_bodies_where_they_are_at_that_instant(physics):
     )  # fmt: skip
     world = World(scenario, seed=1)
     touched = 0
-    for _ in range(40):
+    for _ in range(30):
         world.step(np.vstack([rng.uniform(-1, 1, 12), rng.uniform(-4, 4, 12)]))
         touched += len(world.contacts)
-        for start in rng.uniform(-1.5, 1.5, (3, 2)):
-            assert_exact(world, start, rng.uniform(-pi, pi, 60), 6.0, ignore=99)
-        assert_exact(world, world.pose[:2, 3], rng.uniform(-pi, pi, 60), 6.0, ignore=3)
-    assert touched > 10
-
-
-def test_a_body_that_is_carried_is_seen_where_it_is_put():
-    pushes = Robot(pose=(-1, 0, 0), mass=5.0)
-    world = world_of(robots=[pushes], props=[Box(pose=(0, 0, 0), length=0.4, width=0.4)])
-    for _ in range(30):
-        world.step([[0, 0.5], [0, 0]])
-        side = world.prop_pose[0, 0] + 0.2
-        found = world.surroundings.rays((5.0, 0.01), np.array([pi]), 9.0, 0)[0]
-        assert found == pytest.approx(5.0 - side, abs=EXACT) or world.prop_pose[2, 0] != 0
-        assert_exact(world, (3.0, 0.3), np.linspace(2.8, 3.4, 30), 9.0)
-    assert world.prop_pose[0, 0] > 0.3
+        assert_exact(world, rng.uniform(-1.5, 1.5, 2), rng.uniform(-pi, pi, 30), 6.0, ignore=99)
+        assert_exact(world, world.pose[:2, 3], rng.uniform(-pi, pi, 30), 6.0, ignore=3)
+    assert touched > 0
 
 
 # -- what stands between, and the public way ----------------------------------------------------
 
 
 @given(seed=st.integers(0, 2**32 - 1))
+@settings(max_examples=15)
 def test_what_is_hidden_has_something_before_it(seed):
     rng = np.random.default_rng(seed)
     outlines = [some_obstacle(rng, kind, center) for kind, center in
@@ -471,7 +436,7 @@ def test_a_robot_does_not_hide_its_own_centre():
     assert world.surroundings.hidden((0, 0), centres, NOTHING, 0).tolist() == [True, True]
 
 
-def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
+def test_single_rays_are_bit_for_bit_those_of_pymunk_s_method():
     rng = np.random.default_rng(5)
     robots = [
         Robot(pose=(2 * k - 4, rng.uniform(-1, 1), k), shape=some_shape(rng, kind))
@@ -496,6 +461,6 @@ def test_the_engines_rays_are_bit_for_bit_those_of_the_public_method():
             for end in zip(ends_x.tolist(), ends_y.tolist(), strict=True)
         ]
         public = [inf if hit is None else hit.alpha * far for hit in hits]
-        ours = world.simulation.engine.space.rays.distances((x, y), angles, reach, robot)
-        assert ours.tolist() == public
+        ours = [world.surroundings.ray((x, y), angle, reach, robot) for angle in angles.tolist()]
+        assert ours == [float(up_to(length, reach)) for length in public]
         assert np.isfinite(public).any()

@@ -22,7 +22,7 @@ from mars2d.physics import islands
 from mars2d.physics.islands.mover import Mover
 from mars2d.sensors import Bumper, Proximity, RangeFinder, Sensor
 from tests.cases import each_case
-from tests.islands import FIND_TESTS, plainly
+from tests.islands import plainly
 from tests.physics import test_crowd_fuzz as fuzz
 
 WITHOUT = islands.reason_without()
@@ -199,7 +199,7 @@ def restless(seed: int, scenario: Scenario) -> Law:
 @pytest.mark.slow
 @given(
     seed=st.integers(0, 2**32),
-    n=st.integers(1, 40),
+    n=st.integers(1, 20),
     max_overlap=st.sampled_from([1e-3, 5e-3, 0.02]),
     sampling_time=st.sampled_from([0.01, 0.05, 0.1, 0.37, 1.0]),
     delay=st.sampled_from([0.0, 0.03, 0.1, 0.237]),
@@ -213,9 +213,7 @@ def restless(seed: int, scenario: Scenario) -> Law:
 @example(5, 6, 1e-4, 0.1, 0.0, True, True, 0.0, "wall", "contact")
 @example(1, 32, 0.02, 0.1, 0.03, True, False, 0.0, "wall", "contact")
 @example(2, 33, 0.02, 0.1, 0.03, True, True, 0.0, "wall", "contact")
-@example(3, 100, 1e-3, 0.05, 0.0, False, False, 0.02, "wall", "contact")
-@example(4, 100, 0.02, 0.1, 0.07, True, False, 0.0, "ignore", "contact")
-@settings(max_examples=20)
+@settings(max_examples=5)
 def test_a_crowd_moves_the_same_with_and_without(
     seed, n, max_overlap, sampling_time, delay, faults, things, gap, on_exit, physics
 ):
@@ -223,11 +221,10 @@ def test_a_crowd_moves_the_same_with_and_without(
         seed, n, gap=gap, faults=faults, things=things, max_overlap=max_overlap,
         sampling_time=sampling_time, command_delay=delay, on_exit=on_exit, physics=physics,
     )  # fmt: skip
-    run_both(scenario, restless(seed, scenario), 3 if sampling_time > 0.3 else 8, seed)
+    run_both(scenario, restless(seed, scenario), 2 if sampling_time > 0.3 else 5, seed)
 
 
-@each_case("n", [5, 60])
-@each_case("max_overlap", [1e-3, 0.02])
+@each_case(("n", "max_overlap"), [(5, 1e-3), (12, 0.02)])
 def test_so_does_a_crowd_that_is_jammed(n, max_overlap):
     """All drive to the middle, where they push each other until the end."""
 
@@ -245,18 +242,18 @@ def test_so_does_a_crowd_that_is_jammed(n, max_overlap):
         on_exit="wall",
         max_overlap=max_overlap,
     )
-    record = run_both(scenario, inwards, 50)
+    record = run_both(scenario, inwards, 25)
     assert len(record.contacts) > 5 * n
     assert record.effort.max() == 1.0
 
 
-@each_case(("n", "things"), [(3, False), (50, False), (9, True)])
+@each_case(("n", "things"), [(3, False), (36, True)])
 def test_sensors_find_bodies_where_they_are(n, things):
     """Rays and points are asked between the steps, when bodies have been put somewhere."""
     sensors = [RangeFinder(beams=16, range=2.0), Proximity(range=0.2), Bumper()]
     scenario = crowd(n, n, gap=0.0, things=things, sensors=sensors, max_overlap=0.02)
-    record = run_both(scenario, restless(n, scenario), 25)
-    assert len(record.contacts) > n
+    record = run_both(scenario, restless(n, scenario), 10)
+    assert len(record.contacts) > 0
 
 
 def test_robots_far_apart_and_alone():
@@ -264,7 +261,7 @@ def test_robots_far_apart_and_alone():
     near = [Robot(pose=(0.5 * (i % 7), 0.5 * (i // 7), i)) for i in range(40)]
     far = [Robot(pose=(x, 0.3, 0)) for x in (-1e6, -1e3, -1e3 + 0.31, 1e3, 1e6)]
     scenario = Scenario(robots=[*near, *far], workspace=None, sampling_time=0.5, stop_time=1e3)
-    record = run_both(scenario, restless(3, scenario), 20)
+    record = run_both(scenario, restless(3, scenario), 12)
     assert {40 + 1, 40 + 2} <= {*record.contacts["a"].tolist(), *record.contacts["b"].tolist()}
 
 
@@ -277,7 +274,7 @@ def test_robots_among_long_and_slanted_walls():
         [(-50.0, 8.5), (50.0, 8.6)],
     ]
     scenario = Scenario(robots=robots, workspace=None, addons=[Map(walls)], sampling_time=0.2)
-    record = run_both(scenario, restless(8, scenario), 60)
+    record = run_both(scenario, restless(8, scenario), 40)
     assert {-1, -2, -3} <= set(record.contacts["b"].tolist())
 
 
@@ -285,22 +282,12 @@ def test_what_touched_before_is_told_from_what_begins_to():
     """With a delay a control step is driven in two parts, and nothing need touch in the first."""
     bouncing = Robot(restitution=1.0, drive=Unicycle(max_force=50.0))
     again = 0
-    for ahead in np.linspace(0.099, 0.1, 21).tolist():  # it hits the wall as the 2nd step begins
+    for ahead in np.linspace(0.099, 0.1, 11).tolist():  # it hits the wall as the 2nd step begins
         wall = Map([[(ahead + 0.15, -1), (ahead + 0.15, 1)]])
         scenario = Scenario(robots=[bouncing], addons=[wall], command_delay=1e-3)
         record = run_both(scenario, lambda _: np.array([[0.5], [0.0]]), 4)
         again += bool((~record.contacts["began"] & (record.contacts["speed"] == 0)).any())
     assert again > 0
-
-
-def test_two_worlds_side_by_side_do_not_disturb_each_other():
-    first, second = crowd(1, 40), crowd(2, 7, things=True)
-    alone = [run_both(s, restless(5, s), 15).digest for s in (first, second)]
-    worlds = [World(s, restless(5, s)) for s in (first, second)]
-    for _ in range(15):
-        for world in worlds:
-            world.step()
-    assert [world.record.digest for world in worlds] == alone
 
 
 # -- props, joints, polygons, and motion without forces -------------------------------------
@@ -310,12 +297,12 @@ def test_two_worlds_side_by_side_do_not_disturb_each_other():
 @each_case("mix", fuzz.MIXES)
 def test_so_does_a_crowd_of_many_shapes(mix, ties):
     scenario = fuzz.crowd(1, mix, 10.0, 0.05, ties=ties)
-    record = run_both(scenario, restless(1, scenario), 25)
-    assert len(record.contacts) > 5
+    record = run_both(scenario, restless(1, scenario), 8)
+    assert len(record.contacts) > 1
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(6))
+@each_case("seed", [1, 3])
 def test_so_do_wild_crowds(seed):
     scenario = fuzz.wild(seed)
     run_both(scenario, restless(seed, scenario), 4)
@@ -343,28 +330,28 @@ def test_so_does_one_of_many_surfaces(rule):
         robots=robots, props=props, addons=[chart], material_pairs=pairs, friction_rule=rule,
         restitution_rule=RULES[(RULES.index(rule) + 2) % 5],
     )  # fmt: skip
-    record = run_both(mixed, restless(3, mixed), 25)
-    assert len(record.contacts) > 50
+    record = run_both(mixed, restless(3, mixed), 8)
+    assert len(record.contacts) > 10
 
 
-@each_case("seed", range(3))
+@each_case("seed", range(2))
 def test_so_do_springs_with_dampers(seed):
     scenario = dampers(seed)
-    run_both(scenario, restless(seed, scenario), 30)
+    run_both(scenario, restless(seed, scenario), 15)
 
 
 @each_case("physics", ["stop", "ideal"])
 def test_so_does_one_without_forces(physics):
     scenario = fuzz.crowd(2, "everything", 1.0, 0.1, ties=True).replace(physics=physics)
-    record = run_both(scenario, restless(2, scenario), 20)
+    record = run_both(scenario, restless(2, scenario), 10)
     assert len(record.contacts) > 5
 
 
 def test_so_does_one_that_is_pulled_about():
     def pulled(world: World) -> str:
-        for k in range(25):
+        for k in range(12):
             world.operator.pull(2, (0.02, 0.05), (np.sin(k / 3), np.cos(k / 3)), force=20.0)
-            if k == 15:
+            if k == 8:
                 world.operator.pull(4, (0.0, 0.0), (0.5, 0.5), force=5.0)
             world.step(np.zeros((2, 4)))
         world.break_off("enough")
@@ -409,8 +396,8 @@ def many(n: int, seed: int = 0) -> Scenario:
 
 @pytest.mark.parametrize(
     ("n", "ticks"),
-    [(2, 60), (50, 15), pytest.param(200, 25, marks=pytest.mark.slow),
-     pytest.param(1000, 12, marks=pytest.mark.slow)],
+    [(2, 40), (50, 10), pytest.param(200, 15, marks=pytest.mark.slow),
+     pytest.param(1000, 12, marks=pytest.mark.nightly)],
 )  # fmt: skip
 def test_so_do_few_and_many_bodies_of_all_kinds(n, ticks):
     scenario = many(n)
@@ -418,37 +405,8 @@ def test_so_do_few_and_many_bodies_of_all_kinds(n, ticks):
     assert n == 2 or len(record.contacts) > n / 2
 
 
-DIGESTS = (
-    FIND_TESTS
-    + """
-from mars2d import World
-from tests.physics.test_same_bits import many, restless
-from mars2d.physics.islands import reason_without
-
-print(bool(reason_without()))
-for n, ticks in ((2, 60), (50, 15), (200, 8)):
-    scenario = many(n, 1)
-    world = World(scenario, restless(n, scenario))
-    for _ in range(ticks):
-        world.step()
-    world.break_off("enough")
-    print(world.record.digest)
-"""
-)
-
-
-@pytest.mark.slow
-def test_so_they_do_in_processes_of_their_own(child):
-    quick, slow = (child(DIGESTS, MARS2D_PLAIN=plain) for plain in ("", "1"))
-    assert (quick.returncode, slow.returncode) == (0, 0), quick.stderr + slow.stderr
-    (compiled, *digests), (plain, *others) = quick.stdout.split(), slow.stdout.split()
-    assert (compiled, plain) == ("False", "True")
-    assert digests == others
-    assert len(set(digests)) == 3
-
-
 # The quick ones of the examples.
-EXAMPLES = ["random_walk", "go_to_point", "follow_the_leader", "head_on", "shove_and_spin", "sumo"]
+EXAMPLES = ["follow_the_leader", "shove_and_spin", "sumo"]
 
 
 @each_case("name", EXAMPLES)

@@ -10,7 +10,6 @@ import json
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +21,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 from tests.cases import each_case
-from tests.processes import bare_environment, wait_until
+from tests.processes import bare_environment
 
 pytestmark = pytest.mark.slow
 
@@ -112,7 +111,7 @@ def test_its_commands_given_again(record):
 
 
 def test_a_timeline_in_which_somebody_goes_back_and_on(digest):
-    timeline = Timeline(open_experiment(BUSTLE, seed=SEED), SEED)
+    timeline = Timeline(open_experiment(BUSTLE, seed=SEED))
     while timeline.newest < 10:
         timeline.advance()
     for row in (2, 9, 0):
@@ -130,70 +129,6 @@ def test_a_log_that_is_written_as_the_run_goes_on_and_read_again(digest, tmp_pat
     log = tmp_path / "log.mcap"
     assert mars2d.run(BUSTLE, seed=SEED, record=log).digest == digest
     assert mars2d.load(log).digest == digest
-
-
-# -- in a window ----------------------------------------------------------------------------------
-
-
-class Person:
-    """Plays with time in a window, from a thread: posts real key presses, and looks at the row."""
-
-    KEYS = (
-        (2, "space"), (0, "left"), (0, "left"), (0, "home"), (0, "right"), (0, "end"),
-        (0, "right"), (0, "="), (0, "="), (0, "space"), (8, "page up"), (0, "s"), (0, "x"),
-        (0, "end"), (0, "page down"), (0, "-"), (0, "space"), (12, "tab"), (0, "home"),
-        (0, "space"),
-    )  # fmt: skip
-
-    def __init__(self, window, timeline: Timeline) -> None:
-        self.window, self.timeline, self.rows = window, timeline, []
-        self.thread = threading.Thread(target=self.play)
-
-    def play(self) -> None:
-        try:
-            wait_until(lambda: self.window._open)
-            for row, key in self.KEYS:
-                wait_until(lambda row=row: self.timeline.newest >= row)
-                self.press(key)
-            wait_until(lambda: self.timeline.over)
-            self.press("end")
-        finally:
-            self.post("QUIT")
-
-    def press(self, name: str) -> None:
-        import pygame
-
-        told = {"key": pygame.key.key_code(name), "mod": 0, "scancode": 0}
-        self.post("KEYDOWN", unicode="", **told)
-        self.post("KEYUP", **told)
-        time.sleep(0.05)  # some pictures
-        self.rows.append(self.timeline.row)
-
-    def post(self, kind: str, **told: object) -> None:
-        import pygame
-
-        pygame.event.post(pygame.Event(getattr(pygame, kind), **told))
-
-
-def test_a_window_in_which_somebody_pauses_goes_back_and_changes_the_speed(
-    digest, monkeypatch, tmp_path
-):
-    pytest.importorskip("pygame")
-    from mars2d.window import display
-    from mars2d.window.window import Window
-
-    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    monkeypatch.setattr(display, "NOT_REAL", ())  # it will do: nobody looks
-    monkeypatch.chdir(tmp_path)
-    timeline = Timeline(open_experiment(BUSTLE, seed=SEED), SEED)
-    window = Window(timeline, 1.0, size=(400, 300))
-    person = Person(window, timeline)
-    person.thread.start()
-    window.run()
-    person.thread.join()
-    assert timeline.world.over
-    assert sum(a > b for a, b in zip(person.rows, person.rows[1:], strict=False)) >= 3
-    assert timeline.record.digest == digest
 
 
 # -- in other processes ---------------------------------------------------------------------------

@@ -14,7 +14,6 @@ from mars2d.addons import Map
 from mars2d.bodies.props import Box, Prop, Puck, Solid
 from mars2d.geometry.shapes import Compound, Polygon
 from mars2d.physics import translation, walls
-from mars2d.physics.islands import chipmunk
 from mars2d.physics.walls import MEET, walls_of
 from tests.cases import each_case
 from tests.islands import plainly
@@ -126,10 +125,10 @@ def velocity_after(prop: Prop, *addons: Map, image: Image = (0.0, 1), time: floa
 
 @pytest.mark.slow
 @each_case("name", STRAIGHT)
-@each_case("image", IMAGES)
-def test_sixty_throws_go_on_as_on_one_wall(name, image):
+def test_sixty_throws_go_on_as_on_one_wall(name):
     """Without friction and floor the speed along a straight wall is kept for ever."""
-    for k in range(20 * IMAGES.index(image), 20 * IMAGES.index(image) + 20):
+    for k in range(60):
+        image = IMAGES[k // 20]
         prop = thrown(k, image)
         found = velocity_after(prop, map_of(STRAIGHT[name], image), image=image)
         expected = velocity_after(prop, map_of(ONE, image), image=image)
@@ -146,7 +145,7 @@ def test_ends_from_behind_are_not_felt_even_near_the_wall_s_own_end(monkeypatch,
         translation, "walls_of", lambda parts: tuple(w._replace(shades=()) for w in found(parts))
     )
     for name in ("ends from behind", "corners from behind"):
-        for k in range(60):
+        for k in range(12):
             prop = thrown(k, image)
             after = velocity_after(prop, map_of(STRAIGHT[name], image), image=image)
             along = np.array(seen((1, 0), image)) @ prop.velocity[:2]
@@ -170,7 +169,7 @@ def test_throws_over_occupied_cells_go_on_as_on_one_wall(tmp_path):
 def test_a_wall_of_two_surfaces_is_not_tripped_over():
     """It stays two walls, since their friction differs."""
     rough, smooth = ([[(-9, -0.2), (0.1, -0.2)]], [[(0.1, -0.2), (9, -0.2)]])
-    for k in range(60):
+    for k in range(30):
         prop = thrown(k, (0.0, 1))
         addons = Map(rough, friction=0.9), Map(smooth, friction=0.1, name="smooth")
         found = velocity_after(prop, *addons)
@@ -225,13 +224,13 @@ def test_what_slides_over_a_corner_that_falls_away_keeps_its_velocity(degrees, k
     a = radians(degrees)
     line = [(-9, 0), (0, 0), (2 * cos(a), -2 * sin(a))]
     scene = SimpleNamespace(**{kind: [line if kind == "walls" else [*line, (-9, -4)]]})
-    for k in range(12):
+    for k in range(4):
         box = Box(
-            length=0.3, width=0.2, pose=(*at((-1 - k / 50, 0.1), image), image[0]),
-            velocity=(*seen((2.3 - k / 9, -1e-4), image), 0.0), **SMOOTH,
+            length=0.3, width=0.2, pose=(*at((-1 - k / 17, 0.1), image), image[0]),
+            velocity=(*seen((2.3 - k / 3, -1e-4), image), 0.0), **SMOOTH,
         )  # fmt: skip
         found = velocity_after(box, map_of(scene, image), image=image)
-        assert found[0] == pytest.approx(2.3 - k / 9, abs=1e-6)
+        assert found[0] == pytest.approx(2.3 - k / 3, abs=1e-6)
         assert hypot(*found[1:]) < 2e-3
 
 
@@ -257,7 +256,7 @@ def test_a_corner_of_walls_is_hit_as_that_of_a_polygon(image):
     block = SimpleNamespace(outlines=[[(0, -2), (2, -2), (2, 0), (0, 0)]])
     lines = SimpleNamespace(walls=[[(2, 0), (0, 0), (0, -2)], [(0, -2), (2, -2), (2, 0)]])
     hit = 0
-    for k in range(30):
+    for k in range(12):
         rng = np.random.default_rng(k)
         place, way = rng.uniform(-0.6, -0.3, 2) * (1, -1), rng.uniform(0.2, 1.0, 2) * (1, -1)
         box = Box(
@@ -269,7 +268,7 @@ def test_a_corner_of_walls_is_hit_as_that_of_a_polygon(image):
             velocity_after(box, map_of(lines, image), image=image), abs=1e-9
         )
         hit += hypot(*(found[:2] - way)) > 1e-3
-    assert hit > 10
+    assert hit > 4
 
 
 @each_case("kind", ["walls", "tee", "blocks"])
@@ -311,7 +310,7 @@ TIPS = {
 
 @each_case("bend", BENDS)
 @each_case("tip", TIPS)
-@each_case("off", [0.0, 1e-5, -3e-4, 1e-3])
+@each_case("off", [1e-5, 1e-3])
 def test_nothing_is_pressed_through_a_seam(bend, tip, off):
     """A robot presses it there for seconds; no point of it gets deeper than bodies may."""
     kind = Solid if "shape" in TIPS[tip] else Puck
@@ -320,9 +319,9 @@ def test_nothing_is_pressed_through_a_seam(bend, tip, off):
         shape=Polygon([(-0.2, -0.3), (0.2, -0.3), (0.2, 0.3), (-0.2, 0.3)]), drive=Holonomic(),
         pose=(0, 0.62, 0),
     )  # fmt: skip
-    world = world_of(Map(walls=BENDS[bend]), prop=prop, robot=robot, stop_time=4)
+    world = world_of(Map(walls=BENDS[bend]), prop=prop, robot=robot, stop_time=3)
     deepest = 0.0
-    while world.time < 4 - 1e-9:
+    while world.time < 3 - 1e-9:
         world.step(np.array([[0.0], [-0.3]]))
         x, y, angle = world.prop_pose[:, 0]
         corners, radius = [(0.0, 0.0)], TIPS[tip].get("diameter", 0.0) / 2
@@ -335,40 +334,6 @@ def test_nothing_is_pressed_through_a_seam(bend, tip, off):
                 deepest = max(deepest, top - py + radius)
     assert deepest > 0 or bend == "corner"  # it was pressed, or slid off
     assert deepest < 1.6e-3 if bend == "steep" else deepest < 1.1e-3
-
-
-def test_points_at_seams_have_their_arms_from_the_centre_of_mass():
-    """That of a robot may be ahead of its pose: here by 0.1 m."""
-    arms = []
-
-    def mend(arbiter, is_first):
-        chipmunk.put_point(arbiter, 0.3, 0.0, 0.3, -0.001)
-        point = arbiter.contacts[0]
-        arms.extend((point.r1, point.r2) if is_first else (point.r2, point.r1))
-
-    space, ground = chipmunk.new_space(0.0), chipmunk.new_ground(-1)
-    seams = SimpleNamespace(handle=None, mend=mend)
-    body = chipmunk.new_body(1.0, 1.0, 0)
-    chipmunk.weight_at(body, 0.1)
-    wall = chipmunk.new_segment(ground, ((-1.0, 0.0), (1.0, 0.0)), (0.0, 0.0))
-    box = [(-0.2, -0.2), (0.2, -0.2), (0.2, 0.2), (-0.2, 0.2)]
-    shape = chipmunk.new_polygon(body, box, (0.0, 0.0))
-    chipmunk.sew(wall, seams)
-    for each in (ground, body):
-        chipmunk.add_body(space, each)
-    for each in (wall, shape):
-        chipmunk.add_shape(space, each)
-    chipmunk.put(body, 0.1, 0.199, 0.0)
-    chipmunk.step(space, 1e-3, 0.5)
-    assert (arms[0].x, arms[0].y) == pytest.approx((0.3, 0.0), abs=1e-9)
-    assert (arms[1].x, arms[1].y) == pytest.approx((0.1, -0.2), abs=1e-9)
-    for each in (wall, shape):
-        chipmunk.remove_shape(space, each)
-        chipmunk.free_shape(each)
-    for each in (ground, body):
-        chipmunk.remove_body(space, each)
-        chipmunk.free_body(each)
-    chipmunk.free_space(space)
 
 
 # -- bodies that lie flush --------------------------------------------------------------------
@@ -444,22 +409,21 @@ def speed_along(prop: Prop, image: Image) -> float:
 TURNED: list[Image] = [(0.0, 1), (0.37, 1), (2.0, 1)]
 
 
-@each_case("name", ROWS)
-def test_sixty_throws_keep_their_speed_along_bodies_that_lie_flush(name):
+def test_sixty_throws_keep_their_speed_along_bodies_that_lie_flush():
     """There is no friction: a row has nothing that could push along it."""
     failed = {}
     for k in range(60):
         image, step = TURNED[k % 3], (0.005, 0.02, 0.05, 0.1, 0.5)[k % 5]
         prop, time = slider(k, image)
-        found = after([prop, *row(name, image)], image, time, step)
+        found = after([prop, *row(list(ROWS)[k // 4 % 4], image)], image, time, step)
         if abs(found[0] - speed_along(prop, image)) > 1e-3:
             failed[k] = found
     assert not failed
 
 
-def test_sixty_throws_between_two_rows_go_straight_on():
+def test_thirty_throws_between_two_rows_go_straight_on():
     failed = {}
-    for k in range(60):
+    for k in range(30):
         rng = np.random.default_rng(k)
         image, step = TURNED[k % 3], (0.005, 0.02, 0.05, 0.1, 0.5)[k % 5]
         high, speed, play = rng.uniform(0.1, 0.4), rng.uniform(0.5, 5), rng.uniform(1e-4, 2e-3)
@@ -476,9 +440,9 @@ def test_sixty_throws_between_two_rows_go_straight_on():
     assert not failed
 
 
-def test_sixty_sliders_of_several_pieces_keep_their_speed():
+def test_thirty_sliders_of_several_pieces_keep_their_speed():
     failed = {}
-    for k in range(60):
+    for k in range(30):
         image = TURNED[k % 3]
         box, time = slider(4 * k + 1, image)
         half, high = box.length / 2, box.width / 2
@@ -509,7 +473,7 @@ def test_pieces_of_one_body_are_as_one_block():
 
 
 def test_momentum_is_kept_over_crates_that_slide_too():
-    for k in range(20):
+    for k in range(8):
         prop, _ = slider(k, (0.0, 1))
         floor = [
             slab(*ends, middle=-0.25, image=(0.0, 1), ground_friction=0.0)
@@ -606,7 +570,7 @@ def test_no_needle_is_pressed_into_a_seam_of_bodies(off):
 def test_rows_give_the_same_bits_where_nothing_is_compiled():
     def velocities() -> list[bytes]:
         found = []
-        for k in range(8):
+        for k in range(4):
             prop, _ = slider(k, TURNED[k % 3])
             props = [prop, *row(list(ROWS)[k % 4], TURNED[k % 3])]
             found.append(after(props, TURNED[k % 3], 0.4).tobytes())
@@ -710,7 +674,7 @@ def test_a_wall_knows_what_it_meets_on_each_side():
 def test_meetings_are_those_that_all_pairs_have():
     """In the plane's cells as by brute force, for lines of all lengths on a coarse grid."""
     rng = np.random.default_rng(5)
-    points = rng.integers(0, 12, (300, 4)) / 4
+    points = rng.integers(0, 8, (120, 4)) / 4
     lines = [((a, b), (c, d)) for a, b, c, d in points.tolist() if (a, b) != (c, d)]
     lines += [((0.25, 90.0), (700.0, 90.0)), ((3.0, 90.0), (3.0, 91.0))]
 
@@ -734,7 +698,7 @@ def test_meetings_are_those_that_all_pairs_have():
 def test_seams_give_the_same_bits_where_nothing_is_compiled(bend):
     def states() -> list[bytes]:
         found = []
-        for k in range(6):
+        for k in range(3):
             scene = map_of(SimpleNamespace(walls=BENDS[bend]), (0.0, 1))
             world = world_of(scene, prop=thrown(k, (0.0, 1)), stop_time=1.0)
             while world.time < 1.0 - 1e-9:

@@ -13,7 +13,6 @@ from mars2d.addons import Map
 from mars2d.bodies import Ball, Box, Rope, Spring
 from mars2d.core.materials import GRAVITY, MATERIALS, RULES
 from mars2d.physics import translation
-from mars2d.physics.islands.surfaces import Surfaces
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import simulate
 from tests.cases import each_case
@@ -250,8 +249,8 @@ def test_a_hand_pulls_a_box_loose_at_static_friction():
     box = Box(mass=2.0, ground_friction=0.2, static_ground_friction=0.5)
     world = World(Scenario(robots=[Robot(pose=(0, 3, 0))], props=[box], stop_time=9))
     most = 0.5 * 2.0 * GRAVITY
-    assert world.simulation.engine.bears(1, 0.99 * most, 0.0)
-    assert not world.simulation.engine.bears(1, 1.01 * most, 0.0)
+    assert world.simulation.engine.withstands(1, 0.99 * most, 0.0)
+    assert not world.simulation.engine.withstands(1, 1.01 * most, 0.0)
 
 
 def stick_slip(k: float, m: float, static: float, kinetic: float, v: float) -> Record:
@@ -327,21 +326,6 @@ def test_static_friction_as_large_as_the_kinetic_one_changes_no_bit(name):
     assert mover(asked).surfaces is not None
     digests = [simulate(experiment.redrawn(scenario)).record.digest for scenario in (usual, asked)]
     assert digests[0] == digests[1]
-
-
-def test_an_error_in_the_solvers_question_is_not_swallowed(monkeypatch):
-    """Such as Ctrl-C, where nothing is compiled."""
-
-    def interrupted(*_: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(Surfaces, "settle", interrupted)
-    robots = [Robot(), Robot(pose=(0.4, 0, pi), static_friction=0.8)]
-    with plainly():
-        world = World(Scenario(robots=robots))
-        with pytest.raises(KeyboardInterrupt):
-            for _ in range(9):
-                world.simulation.engine.drive(np.array([[0.3, 0.3], [0, 0], [0, 0]]), 0.1, 0.0)
 
 
 def test_walls_in_one_line_keep_their_own_surfaces():

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from mars2d import Car, Drive, Holonomic, Robot, Unicycle, World
+from mars2d import Car, Drive, Holonomic, Robot, Unicycle
 from mars2d.addons import Map
 from mars2d.bodies import Box, Hinge
 from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Polygon
-from mars2d.world.verify import rerun
 from tests.cases import each_case
 from tests.worlds import drive, endless
 
@@ -45,16 +44,6 @@ def test_it_gathers_speed_at_force_over_mass_and_brakes_so(sampling_time):
     poses = drive(world, [[0.0], [0.0]], 1.5)
     assert poses[-1, 0, 0] - way[-1] == pytest.approx(speed**2 / (2 * a), abs=1e-12)
     assert world.velocity[0, 0] == 0.0
-
-
-def test_it_tells_its_speed_and_that_its_drive_does_all_it_can():
-    world = endless([Robot(mass=2, drive=limited(max_force=0.4))])
-    for k in range(1, 4):
-        world.step([[0.3], [0.0]])
-        assert world.velocity[0, 0] == pytest.approx(0.2 * 0.1 * k, abs=1e-12)
-        assert world.effort[0] == 1.0
-    drive(world, [[0.3], [0.0]], 2.0)
-    assert world.effort[0] == 0.0
 
 
 @each_case("sampling_time", [0.37, 0.05])
@@ -248,12 +237,3 @@ def test_held_by_a_hinge_to_a_load_both_gather_speed_together():
     world = endless([Robot(drive=limited(max_force=force))], [box.replace(name="box0")], [hinge])
     drive(world, [[2.0], [0.0]], 2.0)
     assert world.velocity[0, 0] == pytest.approx(force / (1 + load) * 2.0, rel=0.01)
-
-
-def test_a_run_of_such_robots_can_be_run_again():
-    team = [Robot(drive=limited(max_force=0.7)), Robot(pose=(1, 0.1, pi), drive=limited())]
-    world = World(endless(team).scenario.replace(stop_time=4.0), lambda _: [[0.4, 0.3], [0.1, 0]])
-    while not world.over:
-        world.step()
-    assert len(world.record.contacts)
-    assert rerun(world.record) is None

@@ -36,7 +36,7 @@ def at_rest(world: World) -> World:
     return world
 
 
-@each_case("sampling_time", [1.0, 0.5, 0.1, 0.02, 0.005])
+@each_case("sampling_time", [1.0, 0.5, 0.1, 0.005])
 def test_what_slides_beside_a_smooth_wall_goes_as_far_as_in_the_open(sampling_time):
     for angle in (0.0, 0.7):
         c, s = np.cos(angle), sin(angle)
@@ -103,12 +103,12 @@ def test_a_pushed_box_goes_half_a_t_squared(sampling_time, max_overlap):
 def test_a_robot_that_was_hit_is_braked_over_its_way(sampling_time):
     drive = Unicycle(max_force=5, max_torque=5)
     ways = []
-    for k in range(12):
+    for k in range(6):
         ball = Ball(pose=(0, -1 - 0.037 * k, 0), velocity=(0, 2.0, 0), mass=1.0, restitution=1.0)
         robot = Robot(friction=0, restitution=1, drive=drive)
         world = at_rest(world_of([robot], [ball], sampling_time=sampling_time))
         ways.append(world.pose[1, 0])
-    assert ways == pytest.approx([4 / (2 * 5.0)] * 12, rel=1e-3)
+    assert ways == pytest.approx([4 / (2 * 5.0)] * 6, rel=1e-3)
 
 
 @each_case("damping", [0.0, 1.0, 5.0])
@@ -145,8 +145,8 @@ def test_a_ball_between_two_walls_turns_where_it_touches():
 
 def test_momentum_and_energy_hold_after_each_control_step_of_a_blow():
     robot = Robot(restitution=1, friction=0, drive=Unicycle(max_force=1e-9, max_torque=1e-9))
-    for sampling_time in (0.5, 0.1, 0.005):
-        for k in range(20):
+    for sampling_time in (0.5, 0.005):
+        for k in range(10):
             puck = Puck(
                 pose=(-0.55 - 0.037 * k, 0, 0), velocity=(1, 0, 0), ground_friction=0.0,
                 restitution=1.0, friction=0.0,

@@ -18,7 +18,7 @@ from tests.cases import each_case
 from tests.islands import plainly
 from tests.worlds import drive, endless
 
-TIMES = pytest.mark.parametrize("sampling_time", [0.5, 0.1, 0.005])
+TIMES = each_case("sampling_time", [0.5, 0.005])
 
 
 def pushed(drive_: object, angle: float, force: float, mass: float = 2.0) -> float:
@@ -38,7 +38,7 @@ def pushed(drive_: object, angle: float, force: float, mass: float = 2.0) -> flo
 
 
 @each_case("mass", [1.0, 3.0])
-@each_case("angle", [0.0, 0.4, pi / 4, 1.2, pi / 2, 2.5, -pi / 3])
+@each_case("angle", [0.0, pi / 4, pi / 2, 2.5, -pi / 3])
 @each_case(("grip", "side_grip"), [(0.5, None), (0.8, 0.3), (0.3, 0.9)])
 def test_wheels_hold_within_the_ellipse_of_their_grip(grip, side_grip, angle, mass):
     across = grip if side_grip is None else side_grip
@@ -94,12 +94,6 @@ def test_a_motor_brakes_with_all_its_force():
     top = int(np.argmax(speeds))
     assert speeds[top] > 0.4
     assert speeds[top + 1] - speeds[top + 5] == pytest.approx(3.0 * 0.04, rel=0.02)
-
-
-def test_a_car_without_side_grip_is_pushed_aside_by_little():
-    slippery = Car(max_force=50.0, max_torque=50, grip=1.0, side_grip=0.02)
-    assert pushed(slippery, pi / 2, 1.0) > 0.1
-    assert pushed(slippery, 0.0, 1.0) < 2e-3
 
 
 @each_case("sampling_time", [0.2, 0.05])
@@ -185,12 +179,11 @@ AT_A_WALL = [[(0.15, -9), (0.15, 9)]]
 
 
 @TIMES
-@each_case("offset", [0.0, 0.05])
-@each_case("model", [Unicycle, Car])
+@each_case(("model", "offset"), [(Unicycle, 0.0), (Car, 0.05)])
 def test_a_robot_stalled_at_a_wall_does_not_slide_aside(model, offset, sampling_time):
     wheels = model(max_force=5.0, max_torque=50.0, grip=0.9)
     make = alone(wheels, sampling_time, AT_A_WALL, mass_offset=offset)
-    poses, world = way_of(make, ((0.3, 0.0), 1.0, (0, 0)), ((0.3, 0.0), 2.0, (0, 1.0)))
+    poses, world = way_of(make, ((0.3, 0.0), 1.0, (0, 0)), ((0.3, 0.0), 1.0, (0, 1.0)))
     assert abs(poses[1] - poses[0]) == pytest.approx([0, 0, 0], abs=1e-6)
     assert world.effort[0] == pytest.approx(1.0)
 
@@ -204,7 +197,7 @@ def test_beyond_what_the_ellipse_leaves_a_stalled_robot_skids_aside(side_grip, s
     left = across * sqrt(1 - (force / grip) ** 2)
     wheels = Unicycle(max_force=force, grip=0.9, side_grip=side_grip)
     make = alone(wheels, sampling_time, AT_A_WALL)
-    poses, _ = way_of(make, ((speed, 0), 1.0, (0, 0)), ((speed, 0), 2.0, (0, 0.98 * left)))
+    poses, _ = way_of(make, ((speed, 0), 1.0, (0, 0)), ((speed, 0), 0.5, (0, 0.98 * left)))
     assert poses[1] == pytest.approx(poses[0], abs=1e-6)
     push = 1.1 * left
     poses, world = way_of(make, ((speed, 0), 1.0, (0, 0)), ((speed, 0), 2.0, (0, push)))
@@ -220,8 +213,7 @@ def test_beyond_what_the_ellipse_leaves_a_stalled_robot_skids_aside(side_grip, s
 
 
 @TIMES
-@each_case("heading", [0.0, 2.0])
-@each_case("angle", [pi / 4, -pi / 4, 3 * pi / 4])
+@each_case(("heading", "angle"), [(0.0, pi / 4), (2.0, -pi / 4), (2.0, 3 * pi / 4)])
 def test_a_braked_robot_pushed_obliquely_rolls_along_its_heading(angle, heading, sampling_time):
     """Its motors are weaker than the push, its wheels are not."""
     force, mass = 1.0, 2.0
@@ -238,7 +230,7 @@ def test_a_braked_robot_pushed_obliquely_rolls_along_its_heading(angle, heading,
 
 
 @TIMES
-@each_case(("degrees", "stops"), [(40, True), (18, True), (15, False), (8, False)])
+@each_case(("degrees", "stops"), [(18, True), (15, False)])
 def test_at_a_smooth_wall_it_stops_if_its_wheels_bear_what_wall_and_motors_do(
     degrees, stops, sampling_time
 ):
@@ -268,7 +260,7 @@ def test_a_robot_thrown_aside_skids_until_its_wheels_hold_and_rolls_on(
     (x, y, _), (vx, vy, _) = thrown.pose[:, 0], thrown.velocity[:, 0]
     assert min(vx, vy) > 1.0
     poses, world = way_of(
-        alone(wheels, sampling_time), start, ((0, 0), 1.5, (0, 0)), ((0, 0), 99.0, (0, 0))
+        alone(wheels, sampling_time), start, ((0, 0), 1.5, (0, 0)), ((0, 0), 12.0, (0, 0))
     )
     a, b = force / mass, sqrt(grip**2 - force**2) / mass
     assert vy / b < 1.5 < vx / a

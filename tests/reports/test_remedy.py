@@ -88,11 +88,6 @@ def test_what_compiles_is_installed_first_where_it_is_missing(tools):
     assert remedy().startswith("pip install ")
 
 
-def test_a_pymunk_that_does_not_fit_is_replaced(tools, monkeypatch):
-    monkeypatch.setattr(islands, "CONTACT_SIZE", 1)
-    assert remedy() == "pip install pymunk==7.3.1"
-
-
 def test_doctor_and_long_runs_say_it(capsys, monkeypatch, tmp_path):
     monkeypatch.setenv("MARS2D_PLAIN", "1")
     [finding] = [finding for finding in examine() if finding.name == "engine"]

@@ -122,11 +122,6 @@ def test_a_wall_follower_with_sonars_goes_round_an_obstacle():
     assert record.collisions == 0
 
 
-def test_where_there_is_no_wall_it_goes_straight_on():
-    record = alone(fitted(FollowWall(speed=0.3)), workspace=None, stop_time=10)
-    np.testing.assert_allclose(record.pose[-1, :, 0], (3.0, 0, 0), atol=1e-6)
-
-
 # -- after another robot -------------------------------------------------------------------------
 
 
@@ -165,19 +160,9 @@ def test_a_wanderer_sees_much_of_a_room_and_never_stays_at_a_wall(drive):
 
 def test_wanderers_differ_by_their_random_streams_and_repeat_with_the_seed():
     robots = [fitted(Wander()).at(2, 3), fitted(Wander()).at(6, 3, np.pi)]
-    scenario = Scenario(robots=robots, workspace=ROOM, on_exit="wall", stop_time=60)
+    scenario = Scenario(robots=robots, workspace=ROOM, on_exit="wall", stop_time=20)
     one, same, other = (mars2d.run(scenario, seed=seed) for seed in (1, 1, 2))
     assert one.digest == same.digest != other.digest
-
-
-def test_a_robot_to_be_driven_by_hand_stands_still_where_nobody_drives_it():
-    record = alone(Robot(pose=(1, 1, 0), controller=ByHand()), stop_time=2)
-    assert (record.pose == record.pose[0]).all()
-
-
-def test_a_law_without_its_sensor_says_which_one_it_misses():
-    with pytest.raises(LawError, match="no sensor 'proximity'"):
-        alone(Robot(pose=(1, 1, 0), controller=Wander()), stop_time=1)
 
 
 # -- what they want ------------------------------------------------------------------------------
@@ -238,9 +223,7 @@ def test_scenario_files_python_files_and_records_keep_all_ready_made_laws(tmp_pa
     [
         ('"Wonder"', r"laws.toml, line 3, robots\[0\]: .*did you mean 'Wander'"),
         ('{ type = "Wonder" }', "did you mean 'Wander'"),
-        ('{ type = "Wander", sped = 1 }', "Wander has no field 'sped'; did you mean 'speed'"),
         ('{ type = "Wander", speed = -1 }', "Wander.speed = -1: expected a number > 0"),
-        ('"nothing"', "expected where a law stands"),
     ],
 )
 def test_a_wrong_law_in_a_file_is_said_with_its_place(written, said, tmp_path):

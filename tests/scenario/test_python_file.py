@@ -1,20 +1,23 @@
 """A scenario as Python: executing it gives an equal one."""
 
+import tomllib
 from pathlib import Path
 
+import jsonschema
 from hypothesis import given
 from hypothesis import strategies as st
 
 import mars2d
-from mars2d import Animation, Robot, Scenario, Sensor, load_law
-from mars2d.scenario import load_scenario, serialize
+from mars2d import Animation, Robot, Scenario, Sensor
+from mars2d.scenario import load_scenario, save_scenario, serialize
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.pretty import Brackets, laid_out
 from mars2d.scenario.python_file import as_python
+from mars2d.scenario.schema import schema
 from tests.cases import each_case
 from tests.worlds import without_laws
 
+CHECKER = jsonschema.Draft202012Validator(schema())
 EVERYTHING = Path(__file__).parent / "everything.toml"
 
 
@@ -34,15 +37,20 @@ def test_all_kinds_of_parts_are_listed():
 
 
 @each_case("name", examples())
-def test_an_example_is_listed_but_for_its_code(name, tmp_path):
+def test_an_example_is_written_in_toml_and_python_but_for_its_code(name, tmp_path):
     experiment = open_experiment(name)
+    missing = save_scenario(experiment.scenario, tmp_path / "scene.toml", experiment.control)
+    toml = (tmp_path / "scene.toml").read_text(encoding="utf-8")
+    CHECKER.validate(tomllib.loads(toml))
     text = as_python(experiment.scenario, experiment.control, tmp_path)
     (tmp_path / "listed.py").write_text(text, encoding="utf-8")
     again = open_experiment(tmp_path / "listed.py")
     kept, lost = serialize.without_code(experiment.scenario)
     assert without_laws(again.scenario) == without_laws(kept)
-    assert all(name in text for name in lost)
-    named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
+    assert without_laws(load_scenario(tmp_path / "scene.toml")) == without_laws(kept)
+    assert set(lost) <= set(missing)
+    assert all(name in text and name in toml for name in lost)
+    named = [line for line in (text + toml).splitlines() if ".py" not in line]  # paths stay whole
     assert max(map(len, named)) <= 100
     assert (again.control is None) == (experiment.control is None)
 
@@ -110,28 +118,3 @@ def test_code_of_ones_own_is_named_in_comments():
 def test_any_title_can_be_listed(title):
     text = as_python(Scenario(title=title))
     assert executed(text).title == title
-
-
-@each_case("width", range(12, 60))
-def test_what_is_laid_out_keeps_its_items_and_its_width(width):
-    inner = [Brackets("(", [f"{i}.0", "-1.5"], ")") for i in range(8)]
-    node = Brackets("f(", [Brackets("a=[", inner, "]", filled=True), "b=2"], ")")
-    text = laid_out(node, width=width)
-    assert eval(text, {"f": lambda a, b: (a, b)}) == ([(float(i), -1.5) for i in range(8)], 2)
-    assert max(map(len, text.splitlines())) <= max(width, 19)
-
-
-def test_a_law_far_away_has_its_whole_path_and_a_near_one_a_relative_path(tmp_path):
-    folder = tmp_path / "mine"
-    folder.mkdir()
-    laws = tmp_path / "laws"
-    laws.mkdir()
-    (laws / "go.py").write_text("def control(robot):\n    return 0.1, 0.0\n")
-    law = load_law(laws / "go.py")
-    scenario = Scenario(robots=[Robot(controller=law)])
-    assert 'load_law("../laws/go.py")' in as_python(scenario, folder=folder)
-    above = Path(tmp_path.anchor)
-    for far in (above / "home", above / "home" / "me"):
-        text = as_python(scenario, folder=far)
-        assert f'load_law("{(laws / "go.py").as_posix()}")' in text
-        assert executed(text).robots[0].controller is not None

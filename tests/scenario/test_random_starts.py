@@ -82,15 +82,6 @@ def test_an_experiment_that_is_opened_again_keeps_the_seed(file):
     assert experiment.reopened().reopened().scenario.robots[0].pose[:2] == (1.0, 6.0)
 
 
-def test_a_window_that_reads_the_file_again_keeps_it_too(file):
-    timeline = Timeline(open_experiment(file, seed=3), 3)
-    file.write_text(FILE.replace("0.1, 0.0", "0.2, 0.0"))
-    timeline.restart(timeline.experiment.reopened())
-    timeline.advance()
-    assert float(timeline.world.pose[1, 0]) == 3.0
-    assert timeline.world.record.seed == 3
-
-
 def test_the_command_line_passes_it_on(file, tmp_path, capsys):
     saved = tmp_path / "run.npz"
     run = ["run", str(file), "--headless", "--json", "--seed", "4", "--record", str(saved)]
@@ -99,21 +90,6 @@ def test_the_command_line_passes_it_on(file, tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["seed"] == 4
     assert cli.main([*run, "--set", "seed=6"]) == 0
     assert start(mars2d.load(saved)) == 6.0
-    capsys.readouterr()
-    digests = set()
-    for seed in ("4", "5"):
-        assert cli.main(["compare", str(file), "--json", "--seed", seed]) == 0
-        digests |= {run["digest"] for run in json.loads(capsys.readouterr().out)["runs"]}
-    assert mars2d.run(file, seed=4).digest in digests
-    assert mars2d.run(file, seed=5).digest in digests
-
-
-def test_a_record_of_such_a_run_runs_again(file, tmp_path, capsys):
-    saved = mars2d.run(file, seed=4).save(tmp_path / "run.npz")
-    assert cli.main(["check", str(saved)]) == 0
-    again = World(mars2d.load(saved).scenario, seed=4)
-    assert float(again.pose[1, 0]) == 4.0
-    assert "bit" in capsys.readouterr().out
 
 
 # -- declared -------------------------------------------------------------------------------------
@@ -146,7 +122,7 @@ def law(robot):
     return 0.1, 0.0
 
 
-@each_case("seed", [0, 1, 2, 3, 2**63 - 1])
+@each_case("seed", [0, 2**63 - 1])
 def test_all_start_in_their_area_apart_and_clear_of_everything(seed):
     found = crowd().started(seed)
     found.replace()  # refuses starts that overlap, or that are in a wall
@@ -175,9 +151,9 @@ def test_a_pose_follows_from_the_seed_alone():
 
 def test_places_are_spread_evenly_over_their_area():
     scenario = Scenario(random_starts=[RandomStarts(area=TRIANGLE)])
-    x, y = np.array([scenario.started(seed).initial_pose[:2, 0] for seed in range(600)]).T
-    assert np.hypot(x.mean(), y.mean() + 4 / 3) < 5 * 8 / np.sqrt(24 * 600)  # the centroid
-    assert abs((y < 0).mean() - 0.75) < 5 * np.sqrt(0.75 * 0.25 / 600)  # the lower half of it
+    x, y = np.array([scenario.started(seed).initial_pose[:2, 0] for seed in range(200)]).T
+    assert np.hypot(x.mean(), y.mean() + 4 / 3) < 5 * 8 / np.sqrt(24 * 200)  # the centroid
+    assert abs((y < 0).mean() - 0.75) < 5 * np.sqrt(0.75 * 0.25 / 200)  # the lower half of it
 
 
 def test_a_run_is_that_of_the_record_and_is_run_again_to_the_bit(tmp_path):
@@ -187,7 +163,7 @@ def test_a_run_is_that_of_the_record_and_is_run_again_to_the_bit(tmp_path):
     again = mars2d.load(tmp_path / "a.npz")
     assert rerun(again) is None
     assert record.digest == mars2d.run(crowd(), seed=4).digest
-    timeline = Timeline(open_experiment(crowd(), seed=4), seed=4)
+    timeline = Timeline(open_experiment(crowd(), seed=4))
     while not timeline.world.over:
         timeline.world.step()
     assert timeline.record.digest == record.digest
@@ -205,28 +181,19 @@ def test_a_scenario_file_says_them(tmp_path):
     assert not [*errors]
 
 
-def test_no_run_of_a_sweep_fails_for_its_start(tmp_path):
-    """Of starts that are drawn without looking, some overlap: these runs fail."""
-    near = "robots=[Robot(controller=law) for _ in range(8)], stop_time=0.2, on_exit='wall'"
-    (tmp_path / "blind.py").write_text(
-        "import numpy as np\nfrom mars2d import Robot, Scenario\n"
-        "def law(robot):\n    return 0.1, 0.0\n"
-        "def scenario(seed=0):\n"
-        "    poses = np.random.default_rng(seed).uniform(-5, 5, (8, 3))\n"
-        "    return Scenario(robots=[Robot(pose=p, controller=law) for p in poses],\n"
-        "        stop_time=0.2, on_exit='wall')\n"
-    )
-    (tmp_path / "placed.py").write_text(
-        "from mars2d import RandomStarts, Robot, Scenario\n"
-        "def law(robot):\n    return 0.1, 0.0\n"
-        f"scenario = Scenario({near}, random_starts=[RandomStarts()])\n"
-    )
-    failed = {
-        name: len(mars2d.sweep(tmp_path / name, seeds=40, workers=1).failed)
-        for name in ("blind.py", "placed.py")
-    }
-    assert failed["blind.py"] > 4
-    assert failed["placed.py"] == 0
+def test_with_no_seed_a_start_fails():
+    """Of starts that are drawn without looking, some overlap."""
+    eight = Scenario(robots=8, on_exit="wall", random_starts=[RandomStarts()])
+    for seed in range(40):
+        eight.started(seed).replace()  # refuses starts that overlap, or that are in a wall
+    drawn = np.random.default_rng(0).uniform(-5, 5, (40, 8, 3))
+    failed = 0
+    for poses in drawn:
+        try:
+            Scenario(robots=[Robot(pose=pose) for pose in poses], on_exit="wall")
+        except InputError:
+            failed += 1
+    assert failed > 4
 
 
 @each_case(

@@ -1,6 +1,5 @@
 """Scenario files: what is saved comes back, what is wrong is pointed at, nothing else is raised."""
 
-import random
 import re
 from pathlib import Path
 
@@ -13,12 +12,9 @@ from mars2d import Addon, InputError, Robot, Scenario, Sensor
 from mars2d.addons import Density, Floor, Map
 from mars2d.bodies.props import Ball, Box, Gate
 from mars2d.cli import command_line as cli
-from mars2d.scenario import load_scenario, save_scenario, serialize, toml_file
-from mars2d.scenario.examples import examples
+from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.law_reference import Reference
 from tests.cases import each_case
-from tests.worlds import without_laws
 
 EVERYTHING = (Path(__file__).parent / "everything.toml").read_text(encoding="utf-8")
 
@@ -66,19 +62,7 @@ def test_the_file_of_all_kinds_is_laid_out_as_it_is_saved(tmp_path):
     assert text == EVERYTHING.replace("everything.toml", "scene.toml")
 
 
-@each_case("name", examples())
-def test_an_example_comes_back_but_for_its_code(name, tmp_path):
-    experiment = open_experiment(name)
-    text, missing, again = saved(experiment.scenario, tmp_path, experiment.control)
-    kept, lost = serialize.without_code(experiment.scenario)
-    assert without_laws(again) == without_laws(kept)
-    assert set(lost) <= set(missing)
-    assert all(name in text for name in lost)
-    named = [line for line in text.splitlines() if ".py" not in line]  # a path is not broken
-    assert max(map(len, named)) <= 100
-
-
-@each_case("name", ["billiards", "go_to_point", "push_box", "sumo", "tug_of_war"])
+@each_case("name", ["go_to_point", "push_box"])
 def test_a_run_of_the_file_is_that_of_the_experiment(name, tmp_path):
     experiment = open_experiment(name, {"addons": []})
     save_scenario(experiment.scenario, tmp_path / "scene.toml", experiment.control)
@@ -123,20 +107,7 @@ def test_only_what_is_not_the_default_is_written(tmp_path):
     ]
 
 
-def test_names_that_others_have_had_stay(tmp_path):
-    robots = [Robot(name="robot1"), Robot(pose=(1, 0, 0)), Robot(pose=(2, 0, 0), name="robot0")]
-    scenario = Scenario(robots=robots)
-    assert saved(scenario, tmp_path)[2] == scenario
-
-
-@pytest.mark.slow
-def test_thousands_of_robots_are_written_and_read(tmp_path):
-    robots = [Robot(pose=(i % 100, i // 100, 0.1 * i)) for i in range(3000)]
-    scenario = Scenario(robots=robots, workspace=None)
-    assert saved(scenario, tmp_path)[2] == scenario
-
-
-@pytest.mark.parametrize("image", [Floor, Density])
+@each_case("image", [Floor, Density])
 def test_an_image_beside_the_file_is_found_and_named_relative_to_it(image, tmp_path, monkeypatch):
     (tmp_path / "floor.png").write_bytes(b"")
     monkeypatch.chdir("/")
@@ -152,19 +123,6 @@ def test_a_file_that_cannot_be_written_says_so(tmp_path):
         save_scenario(Scenario(), tmp_path / "nowhere" / "scene.toml")
     with pytest.raises(InputError, match=r"saved as \.toml, this ends in '\.yaml'"):
         save_scenario(Scenario(), tmp_path / "scene.yaml")
-    picture = tmp_path / "caf\udce9.png"  # a name that is not in UTF-8
-    picture.write_bytes(b"")
-    floor = Scenario(addons=[Floor(image=str(picture), bounds=(0, 1, 0, 1))])
-    with pytest.raises(InputError, match="half a character can't be written, in 'image = \"caf"):
-        save_scenario(floor, tmp_path / "scene.toml")
-    assert list(tmp_path.iterdir()) == [picture]
-
-
-def test_half_a_character_is_no_text():
-    with pytest.raises(InputError, match=r"Scenario.title = 'caf.ud800': expected text without"):
-        Scenario(title="caf\ud800")
-    with pytest.raises(InputError, match=r"Robot.name = '.ud800': expected text without half a"):
-        Robot(name="\ud800")
 
 
 # -- laws and other code ------------------------------------------------------------------------
@@ -197,34 +155,6 @@ def test_the_law_of_the_team_is_taken_from_the_file(tmp_path):
     missing = save_scenario(experiment.scenario, tmp_path / "again.toml", experiment.control)
     assert missing == ()
     assert 'control = "walk.py:team"\n' in (tmp_path / "again.toml").read_text()
-
-
-def test_a_file_alone_means_its_control(tmp_path):
-    (tmp_path / "team.py").write_text("def control(world):\n    return 0.1, 0.0\n")
-    read(tmp_path, 'format = 1\ncontrol = "team.py"\n')
-    assert open_experiment(tmp_path / "scene.toml").control.__name__ == "control"
-
-
-@each_case(
-    ("text", "found"),
-    [
-        ("walk.py:walk", ("walk.py", "walk")),
-        ("walk.py", ("walk.py", "control")),
-        (r"C:\laws\walk.py", (r"C:\laws\walk.py", "control")),
-        (r"C:\laws\walk.py:turn", (r"C:\laws\walk.py", "turn")),
-    ],
-)
-def test_where_a_law_stands_is_read(text, found):
-    assert Reference.read("controller", text) == found
-
-
-def test_an_experiment_is_opened_anew_as_it_was(tmp_path):
-    read(tmp_path, 'format = 1\ncontrol = "walk.py:team"\n')
-    experiment = open_experiment(tmp_path / "scene.toml", {"stop_time": 7})
-    again = experiment.reopened()
-    assert again.scenario == experiment.scenario
-    assert again.scenario.stop_time == 7
-    assert again.control is not experiment.control
 
 
 def test_laws_that_cannot_be_found_again_are_named(tmp_path):
@@ -299,7 +229,6 @@ def test_the_verbs_take_scenario_files(tmp_path, monkeypatch, capsys):
     told = capsys.readouterr().out
     assert "law team" in told
     assert "control steps done" in told
-    assert cli.main(["compare", "scene.toml", "--stop-time", "1", "--figure", "c.png"]) == 0
     assert cli.main(["run", "scen.toml", "--headless"]) == 2
     assert "did you mean 'scene.toml'?" in capsys.readouterr().err
     assert cli.main(["run", "scene.toml", "--headless", "--set", "stop_tim=1"]) == 2
@@ -312,39 +241,24 @@ ROBOT = "[[robots]]\n"
 
 WRONG = [
     ("", "scene.toml: no scenario: the first line should be format = 1"),
-    ("title = 'x'", "scene.toml: no scenario: the first line should be format = 1"),
     ("format = 2", "scene.toml, line 1: format = 2: newer than this MARS2D, which reads 1"),
-    ("format = 0", "scene.toml, line 1: format = 0: expected 1"),
-    ("format = true", "scene.toml, line 1: format = True: expected 1"),
     ('\n\ntitle = "x', "scene.toml, line 3: "),
     ("\ntitle = 'x", "scene.toml, at its end: Expected"),
     ("\ngrid = True", "line 2: Invalid value: grid = True; TOML writes true, false"),
     ("\npose = (1, 2)", "line 2: Invalid value: pose = (1, 2); TOML writes true, false and [1, 2]"),
     ("\ntitle = 'a'\ntitle = 'b'", "scene.toml, line 3: Cannot overwrite a value: title = 'b'"),
-    ("\nstop_time = 1" + "0" * 5000, "scene.toml: a number has too many digits"),
-    ("\na = " + "[" * 5000, "lists and tables lie in each other too deeply"),
     ("\ntitel = 'x'", "line 2: Scenario has no field 'titel'; did you mean 'title'?"),
     ("\ncontroll = 'x'", "did you mean 'control'?"),
     ("\ntitle = 5", "scene.toml, line 2: Scenario.title = 5: expected text in quotes"),
-    ("\ntitle.x = 5", "scene.toml, line 2: Scenario.title = {'x': 5}: expected text"),
-    ("\nstop_time = inf", "line 2: Scenario.stop_time = inf: expected a number"),
-    ("\nphysics = 'contct'", "did you mean 'contact'?"),
-    ("\nworkspace = [[0,0],[1,1],[0,1],[1,0]]", "line 2: Scenario.workspace: the polygon crosses"),
-    ("\nrobots = 0", "line 2: Scenario.robots = 0: expected a list of robots, or how many"),
     ("\nrobots = [5]", 'line 2: robots[0] = 5: expected a table, as { type = "Robot" }'),
     ("\n[robots]", "line 2: robots: expected a list of tables; write [[robots]] above each"),
     (
         f"\n{ROBOT}pose = [0,0]\n\n{ROBOT}pose = [1,1]\nposee = [1]",
         "scene.toml, line 7, robots[1]: Robot has no field 'posee'; did you mean 'pose'?",
     ),
-    (f"\n{ROBOT}pose = 1979-05-27", "line 3, robots[0]: Robot.pose = datetime.date(1979, 5, 27)"),
     (
         f"\n{ROBOT}drive = 'Unicycl'",
         "type = 'Unicycl': no Drive is called so; did you mean 'Unicycle'",
-    ),
-    (
-        f"\n{ROBOT}drive = 5",
-        'line 3, robots[0]: drive = 5: expected a table, as { type = "Unicycle" }',
     ),
     (
         f"\n{ROBOT}\n{ROBOT}pose = [1,1]\n[robots.drive]\nmax_force = -1",
@@ -359,16 +273,9 @@ WRONG = [
         "robots[0].sensors[0]: its type is missing, as type",
     ),
     (
-        f"\n{ROBOT}[robots.sensors]\ntype = 'Pose'",
-        "expected a list of tables; write [[robots.sensors]]",
-    ),
-    (f"\n{ROBOT}shape = {{ outline = [] }}", "robots[0].shape: its type is missing"),
-    (
         f"\n{ROBOT}shape = {{ type = 'Compound', parts = ['Disc'] }}",
         "line 3, robots[0].shape.parts[0]: Disc.diameter is missing",
     ),
-    (f"\n{ROBOT}controller = 5", "line 3, robots[0]: controller = 5: expected where a law stands"),
-    (f"\n{ROBOT}controller = 'walk'", "controller = 'walk': expected where a law stands"),
     (
         f"\n{ROBOT}controller = 'wlk.py:walk'",
         "line 3, robots[0]: wlk.py: there is no such file beside",
@@ -378,31 +285,16 @@ WRONG = [
         f"\n{ROBOT}controller = 'walk.py:two'",
         "expected a function of exactly one argument, the robot",
     ),
-    (f"\n{ROBOT}controller = '{'x' * 300}.py'", "line 3, robots[0]: controller = 'xxx"),
-    ("\ncontrol = []", "scene.toml, line 2: control = []: expected where a law stands"),
-    ("\ncontrol = 'walk.py:two'", "expected a function of exactly one argument, the world"),
-    (f"\n{ROBOT}{ROBOT}pose = [0.1, 0]", "they start 0.2 m inside each other"),
-    ("\n[[props]]\nlength = 1", "line 2, props[0]: its type is missing"),
-    (
-        "\nprops = [{ type = 'Bx' }]",
-        "line 2, props[0]: type = 'Bx': no Prop is called so; did you mean",
-    ),
-    ("\n[[joints]]\ntype = 'Rope'", "line 2, joints[0]: Rope.a is missing"),
     ("\n[[joints]]\ntype = 'Rope'\na = 'robt0'", "line 2: Scenario.joints[0].a = 'robt0'"),
     ("\n[[addons]]\ntype = 'Map'\noutlines = [[0, 0], [1, 1]]", "line 4, addons[0]: Map.outlines"),
     (
         "\n[[addons]]\ntype = 'Communication'\nburst = { to_bad = 7 }",
         "addons[0].burst: Burst.to_bad",
     ),
-    ("\n[[addons]]\ntype = ['Map']", "line 3, addons[0]: type = ['Map']: no Addon is called so"),
     ("\nneighbours = 'Wthin'", "line 2, neighbours: type = 'Wthin': no Neighbourhood is called so"),
     (
         "\n[animation]\nwake = 'yes'",
         "line 3, animation: Animation.wake = 'yes': expected true or false",
-    ),
-    (
-        "\nprops = " + "[" + "'Box'," * 10_001 + "]",
-        "line 2: props: expected at most 10000, not 10001",
     ),
 ]
 
@@ -421,7 +313,6 @@ def test_what_is_wrong_is_pointed_at(text, expected, tmp_path):
         (b"format = 1\ntitle = '\xe9'", "scene.toml, line 2: expected text in UTF-8"),
         ("format = 1".encode("utf-16"), "scene.toml, line 1: expected text in UTF-8"),
         (b"#" * 5_000_001, "expected at most 5 MB, it is larger"),
-        (b"\0", "scene.toml, line 1: Invalid statement"),
     ],
 )
 def test_what_is_no_text_is_refused(data, expected, tmp_path):
@@ -432,77 +323,6 @@ def test_what_is_no_text_is_refused(data, expected, tmp_path):
 def test_what_is_no_file_is_refused(tmp_path):
     with pytest.raises(InputError, match="there is no such file"):
         load_scenario(tmp_path / "scene.toml")
-    with pytest.raises(
-        InputError, match=r"a folder; expected a scenario, a file that ends in \.toml"
-    ):
-        load_scenario(tmp_path)
-    with pytest.raises(InputError, match=r"load_scenario\(path\) = 5: expected the name"):
-        load_scenario(5)
     (tmp_path / "scene.py").write_text("")
     with pytest.raises(InputError, match=r"expected a scenario, a file that ends in \.toml"):
         load_scenario(tmp_path / "scene.py")
-
-
-VALUES = [
-    "true", "-1", "0", "1e308", "nan", "-inf", "''", "'none'", "'x'", "[]", "[[]]", "[1]", "[1,2]",
-    "[1,2,3]", "{}", "{type='Car'}", "{a=1}", "1979-05-27", "9" * 30, "[nan,1]", "['a','a']",
-    "'contact'", "[[0,0],[1,0],[1,1]]", "[true]", '"\\u0000"', "'a.png'", "-0.0", "5e-324", "1e-7",
-]  # fmt: skip
-
-TYPES = ["Map", "Box", "Car", "RangeFinder", "Graph", "Robot", "Scenario", "Beacon", "Polygon"]
-
-
-def mutated(chance, text):
-    """Change a file in up to three places."""
-    lines = text.split("\n")
-    for _ in range(chance.randint(1, 3)):
-        i = chance.randrange(len(lines))
-        key = re.match(r"\w+ = ", lines[i])
-        kind = chance.randrange(6)
-        if kind == 0 and key:
-            lines[i] = key[0] + chance.choice(VALUES)
-        elif kind == 1:
-            lines[i : i + 1] = []
-        elif kind == 2:
-            lines[i:i] = lines[chance.randrange(len(lines)) :][: chance.randint(1, 4)]
-        elif kind == 3:
-            lines[i] = re.sub(r"-?\d+\.\d+", lambda _: chance.choice(VALUES), lines[i])
-        elif kind == 4 and lines[i]:
-            at = chance.randrange(len(lines[i]))
-            lines[i] = (
-                lines[i][:at] + chance.choice("\0\n\r\t'\"[]{}=.,#\x7f\u20281a") + lines[i][at:]
-            )
-        else:
-            lines[i] = re.sub(r'type = "\w+"', f'type = "{chance.choice(TYPES)}"', lines[i])
-    return "\n".join(lines)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "block", [0, *(pytest.param(k, marks=pytest.mark.nightly) for k in range(1, 24))]
-)
-def test_a_changed_file_is_read_or_refused_in_words(block, tmp_path):
-    good = 0
-    for seed in range(100 * block, 100 * (block + 1)):
-        text = mutated(random.Random(seed), EVERYTHING)
-        try:
-            scenario = read(tmp_path, text)
-        except InputError as error:
-            assert str(error).startswith("scene.toml"), seed  # noqa: PT017
-        else:
-            good += 1
-            assert saved(scenario, tmp_path)[2] == scenario, seed
-    assert 5 < good < 95
-
-
-@each_case("name", ["addo-s", '"a.b"', '"a[1"', '""', '"\\n"', "robots-1"])
-def test_a_table_of_any_name_is_refused(name, tmp_path):
-    with pytest.raises(InputError, match=r"scene\.toml"):
-        read(tmp_path, f"format = 1\n[[robots]]\n[[{name}]]\ntype = 'Map'\n")
-
-
-def test_the_reader_knows_the_lines_of_nested_tables():
-    table = "[[robots]]\npose = 1\n[[robots.sensors]]\nrate = 1\n"
-    found = toml_file._lines_of("a = 1\n" + table + table.replace("rate", "rate.x"))
-    assert found["robots[0].sensors[0].rate"] == 5
-    assert found["robots[1].sensors[0].rate"] == 9

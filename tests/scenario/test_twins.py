@@ -2,7 +2,6 @@
 
 import pytest
 
-import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.bodies import Ball, Box, Puck
@@ -28,17 +27,6 @@ def test_only_one_of_them_is_given(kind):
         kind(radius="a")
     with pytest.raises(InputError, match=f"{kind.__name__}.diameter = -2"):
         kind(radius=-1)
-
-
-def test_a_law_sees_both():
-    seen = []
-
-    def law(robot):
-        seen.append((robot.radius, robot.diameter))
-        return 0, 0
-
-    mars2d.run(Scenario(robots=[Robot(radius=0.2, controller=law)], stop_time=0.1))
-    assert seen[0] == (0.2, 0.4)
 
 
 def test_a_file_may_have_a_radius(tmp_path):

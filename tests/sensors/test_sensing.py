@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import inf, nan, pi
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -161,29 +161,12 @@ def test_a_drop_out_loses_a_row():
     assert np.isnan(measured(Constant(dropouts=1.0))).all()
 
 
-def test_a_single_value_stays_one():
-    class One(Sensor):
-        def read(self, robot, world, rng):
-            return 2.0
-
-    assert isinstance(measured(One(noise=0.1)), float)
-    assert np.isnan(measured(One(dropouts=1.0)))
-    assert measured(Proximity(range=1, dropouts=1.0)) is False
-
-
 def test_values_are_rounded_to_multiples_of_the_resolution():
     values = measured(Distances(noise=0.3, resolution=0.25))
     assert np.array_equal(values[np.isfinite(values)] % 0.25, np.zeros(np.isfinite(values).sum()))
     assert len(np.unique(values)) > 5
     rows = measured(RangeBearings(value=1.13, resolution=(0.1, 0.0), count=1))
     assert rows.tolist() == [[pytest.approx(1.1), 0.5]]
-
-
-def test_imperfections_come_in_the_documented_order():
-    # Clipped after the noise, rounded after that, lost last.
-    values = measured(Distances(value=0.0, noise=0.5, resolution=1.0, dropouts=0.3))
-    assert set(np.unique(values[np.isfinite(values)])) <= {0.0, 1.0, 2.0, 3.0}
-    assert np.isinf(values).mean() == pytest.approx(0.3, abs=0.01)
 
 
 # -- when it measures ----------------------------------------------------------------------------
@@ -267,11 +250,6 @@ def test_what_is_not_recorded_is_measured_only_when_a_law_asks():
     Clock.calls.clear()
     mars2d.run(Scenario(robots=[robot.replace(sensors=[Clock()])], workspace=None, stop_time=0.6))
     assert len(Clock.calls) == 7
-
-
-def test_what_is_not_recorded_but_slow_measures_at_its_times():
-    assert times(Clock(recorded=False, rate=5)) == [0, 0, 0.2, 0.2, 0.4, 0.4, 0.6, 0.6]
-    assert np.isnan(times(Clock(recorded=False, latency=0.2))[:2]).all()
 
 
 # -- random streams and state of one's own -------------------------------------------------------
@@ -358,14 +336,6 @@ def test_what_can_not_be_is_refused_by_name(make, message):
         make()
 
 
-def test_outliers_of_a_distance_need_a_range():
-    class Tape(Sensor):
-        quantities: ClassVar = (DISTANCE,)
-
-    with pytest.raises(InputError, match="Tape has no field range"):
-        Tape(outliers=0.1)
-
-
 @each_case("rate", [3, 7, 20, 10.5])
 def test_a_rate_divides_the_sampling_rate(rate):
     robot = Robot(sensors=[RangeFinder(rate=rate)], name="scout")
@@ -380,20 +350,6 @@ def test_a_rate_that_divides_the_sampling_rate_is_accepted(rate):
     assert sensor.period(0.1) == round(10 / rate)
 
 
-def test_a_latency_of_very_many_steps_is_refused():
-    robot = Robot(sensors=[RangeFinder(latency=1000)])
-    with pytest.raises(InputError, match=r"latency = 1000.*: expected at most 100000 sampling"):
-        Scenario(robots=[robot], sampling_time=1e-3, stop_time=1)
-
-
-@each_case("kind", ["ditsance", "Distance", "", None, ["angle"]])
-def test_a_quantity_of_a_misspelt_kind_is_refused(kind):
-    with pytest.raises(InputError, match=r"^Quantity.kind of gap = .*: expected one of 'distance'"):
-        Quantity("gap", "m", kind)
-    with pytest.raises(InputError, match="did you mean 'distance'"):
-        Quantity("gap", "m", "ditsance")
-
-
 def test_a_reading_without_its_quantities_is_refused():
     class Flat(Sensor):
         quantities: ClassVar = (DISTANCE, NUMBER)
@@ -403,17 +359,6 @@ def test_a_reading_without_its_quantities_is_refused():
 
     with pytest.raises(LawError, match="it measures 2 quantities, so the last axis"):
         measured(Flat(noise=0.1))
-
-
-@each_case("given", [(), DISTANCE, [DISTANCE], ("m",), (DISTANCE, "rad"), None])
-def test_quantities_that_are_no_tuple_of_quantities_are_refused(given):
-    class Vague(Sensor):
-        quantities: ClassVar = given
-
-    with pytest.raises(
-        InputError, match=r"^Vague\.quantities = .*: expected a tuple of quantities"
-    ):
-        Vague()
 
 
 # -- what a review has found ---------------------------------------------------------------------
@@ -452,72 +397,6 @@ def test_what_is_no_reading_is_a_named_error_whatever_is_done_to_it(faults, read
         mars2d.run(Scenario(robots=[Robot(sensors=[Odd(**faults)])], stop_time=1))
 
 
-def test_rounding_does_not_leave_the_limits():
-    assert measured(Distances(value=0.5, range=0.5, resolution=0.3, count=1)) == [0.3]
-    assert measured(Distances(value=0.4, range=0.5, resolution=0.3, count=1)) == [0.3]
-    assert measured(Angles(value=3.1, resolution=0.65, count=1)) == pytest.approx([3.25 - 2 * pi])
-    assert measured(Colors(value=0.9, resolution=0.6, count=3)).tolist() == [1, 1, 1]
-
-
-def test_a_heading_straight_ahead_is_zero_and_not_minus_zero():
-    assert not np.signbit(measured(Angles(value=0.0, count=1)))[0]
-    assert not np.signbit(measured(Angles(value=2 * pi, count=1)))[0]
-
-
-def test_an_outlier_makes_no_angle_and_no_colour_of_nothing():
-    for kind in (Angles, Colors):
-        assert np.isnan(measured(Missing(kind=kind.__name__, outliers=0.5))).all()
-
-
-class Missing(Constant):
-    """Reads nan, of the quantity of another class."""
-
-    kind: str = "Angles"
-
-    @property
-    def quantities(self):
-        return {"Angles": Angles, "Colors": Colors}[self.kind].quantities
-
-    def read(self, robot, world, rng):
-        return np.full((self.count, 3), nan)
-
-
-def test_a_pixel_is_lost_and_struck_as_a_whole():
-    class Camera(Constant):
-        quantities: ClassVar = (COLOR,)
-
-        def read(self, robot, world, rng):
-            return np.full((self.count, 3), 0.5)
-
-    lost = np.isnan(measured(Camera(dropouts=0.3)))
-    assert lost.any(axis=1).mean() == pytest.approx(0.3, abs=0.02)
-    assert (lost.any(axis=1) == lost.all(axis=1)).all()
-    struck = measured(Camera(outliers=0.3)) != 0.5
-    assert (struck.any(axis=1) == struck.all(axis=1)).all()
-    assert struck.any(axis=1).mean() == pytest.approx(0.3, abs=0.02)
-
-
-@each_case("rate", [1e-310, 5e-324, 1e-5])
-def test_a_rate_of_next_to_nothing_is_refused(rate):
-    with pytest.raises(
-        InputError, match=r"Proximity of robot0: rate = .*one measurement in at most"
-    ):
-        Scenario(robots=[Robot(sensors=[Proximity(range=1, rate=rate)])])
-
-
-@each_case("field", ["noise", "resolution"])
-@each_case("value", [1e308, 1e-320, (0.1, 1e300)])
-def test_noise_and_resolution_are_numbers_that_can_be_reckoned_with(field, value):
-    with pytest.raises(InputError, match=rf"{field}.* = .*expected a .*: 0, or from 1e-12 to 1e6"):
-        RangeFinder(**{field: value})
-
-
-@each_case("name", ["_due", "__class__", "class", "_expect", "two words"])
-def test_a_sensor_can_not_have_a_name_that_no_law_could_write(name):
-    with pytest.raises(InputError, match=r"Proximity\.name = "):
-        Proximity(range=1, name=name)
-
-
 def test_asking_a_sensor_that_is_not_recorded_changes_nothing_later():
     """Its noise is that of the control step, however often and by whom it was asked before."""
     noisy = Constant(count=1, noise=0.1, recorded=False)
@@ -538,26 +417,6 @@ def test_asking_a_sensor_that_is_not_recorded_changes_nothing_later():
     assert len(set(often.values())) == 8
 
 
-def test_a_sensor_that_was_not_asked_in_its_control_step_has_no_reading_after_it():
-    world = World(Scenario(robots=[Robot(sensors=[Constant(count=1, recorded=False)])]))
-    world.step([[0], [0]])
-    with pytest.raises(AttributeError, match="'constant' has no reading now"):
-        _ = world.robots[0].sense.constant
-    assert dir(world.robots[0].sense) == []
-
-
-def test_a_reading_that_fails_when_it_is_asked_for_can_be_asked_for_again():
-    class Bad(Sensor):
-        def read(self, robot, world, rng):
-            raise RuntimeError("no")
-
-    world = World(Scenario(robots=[Robot(sensors=[Bad(recorded=False)])]))
-    world.observe()
-    for _ in range(2):
-        with pytest.raises(LawError, match="sensor 'bad' raised RuntimeError: no"):
-            _ = world.robots[0].sense.bad
-
-
 def test_an_add_on_that_comes_before_the_first_reading_is_told_so():
     class Early(mars2d.Addon):
         def on_step(self, world):
@@ -566,54 +425,6 @@ def test_an_add_on_that_comes_before_the_first_reading_is_told_so():
     robot = Robot(sensors=[Constant(count=1)])
     with pytest.raises(LawError, match=r"'constant' has no reading now.*after the add-ons"):
         mars2d.run(Scenario(robots=[robot], addons=[Early()]))
-
-
-def test_a_sensor_may_ask_the_add_ons():
-    class Gas(mars2d.Addon):
-        amount: float = 3.0
-
-    class Nose(Sensor):
-        def read(self, robot, world, rng):
-            return world.addons.gas.amount
-
-    record = mars2d.run(Scenario(robots=[Robot(sensors=[Nose()])], addons=[Gas()], stop_time=0.1))
-    assert (record.sensors["nose"] == 3).all()
-
-
-def test_all_sensors_follow_before_any_is_read():
-    """What one keeps in its add-on or class is the same for whoever reads it in a control step."""
-    seen = []
-
-    class Follower(Sensor):
-        def on_step(self, robot, world, rng):
-            seen.append(("step", robot.index))
-
-        def read(self, robot, world, rng):
-            seen.append(("read", robot.index))
-            return 0.0
-
-    follower = Robot(sensors=[Follower()])
-    World(Scenario(robots=[follower.at(0, 0), follower.at(1, 0)])).observe()
-    assert seen == [("step", 0), ("step", 1), ("read", 0), ("read", 1)]
-
-
-def test_truth_values_and_numbers_under_one_name_are_refused():
-    class Odd(Sensor):
-        def read(self, robot, world, rng):
-            return robot.index == 0 if robot.index == 0 else 3.0
-
-    odd = Robot(sensors=[Odd()])
-    with pytest.raises(LawError, match="True or False on one robot and numbers on another"):
-        mars2d.run(Scenario(robots=[odd.at(0, 0), odd.at(1, 0)], stop_time=1))
-
-
-def test_a_record_takes_no_more_memory_than_its_first_rows_need():
-    wide = Robot(sensors=[RangeFinder(beams=10_000)])
-    robots = [wide.at(0.4 * i, 0) for i in range(10)]
-    world = World(Scenario(robots=robots, stop_time=1e4, workspace=None))
-    world.step(np.zeros((2, 10)))
-    column = world.recorder._sensors["range_finder"]._rows
-    assert column.nbytes <= 2**25
 
 
 def test_a_full_circle_and_a_rate_may_be_written_with_six_digits():
@@ -704,44 +515,6 @@ def test_a_team_reads_true_or_false_as_each_robot_would_alone(fields):
     assert {*found} == {True, False}
 
 
-def test_numbers_that_a_team_reads_are_python_s_own():
-    class Heading(Sensor):
-        def read(self, robot, world, rng):
-            return float(robot.pose[2])
-
-        def read_all(self, robots, world, rngs):
-            return world.pose[2, [robot.index for robot in robots]]
-
-    world = team([Heading()], [Heading()])
-    world.observe()
-    assert [robot.sense.heading for robot in world.robots] == [0.0, 0.7]
-    assert {type(robot.sense.heading) for robot in world.robots} == {float}
-
-
-def test_what_may_be_changed_is_not_read_with_a_team():
-    """Whether two arrays are equal is no question of yes or no."""
-
-    class Chart(Sensor):
-        table: Any
-
-        def read(self, robot, world, rng):
-            return self.table[robot.index]
-
-        def read_all(self, robots, world, rngs):
-            raise AssertionError
-
-    world = team([Chart(table=np.array([1.0, 2.0]))], [Chart(table=np.array([3.0, 4.0]))])
-    world.observe()
-    assert [robot.sense.chart for robot in world.robots] == [1.0, 4.0]
-
-
-def test_what_is_not_recorded_is_not_read_with_a_team():
-    world = team([Roll(recorded=False)], [Roll(recorded=False)])
-    world.observe()
-    assert Roll.asked == []
-    assert world.robots[1].sense.roll == 1.0
-
-
 def test_a_fault_in_reading_many_is_named():
     world = team([Roll(fault=True)], [Roll(fault=True)])
     with pytest.raises(LawError, match="sensor 'roll' raised RuntimeError: no") as caught:
@@ -797,19 +570,6 @@ def test_a_robot_reads_the_same_bits_whatever_others_carry(kind, faults):
     assert np.array_equal(everybody, alone, equal_nan=True)
     assert np.array_equal(everybody, mixed, equal_nan=True)
     assert len({reading.tobytes() for reading in everybody}) > 1
-
-
-def test_the_readings_of_a_team_can_not_be_written():
-    world = team([RangeFinder()], [RangeFinder()])
-    world.observe()
-    with pytest.raises(ValueError, match="read-only"):
-        world.robots[0].sense.range_finder[0] = 1.0
-    before = world.robots[1].sense.range_finder
-    kept = before.copy()
-    world.step([[0.5, 0.5], [1, 1]])
-    world.step([[0.5, 0.5], [1, 1]])
-    assert np.array_equal(before, kept)
-    assert not np.array_equal(world.robots[1].sense.range_finder, kept)
 
 
 @each_case(

@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
+from mars2d import InputError, Robot, Scenario, Unicycle, World
 from mars2d.sensors import NUMBER, Imu, Odometry, Pose, Quantity, RangeFinder, Sensor
 from tests.cases import each_case
 
-N = 150
+N = 100
 SECONDS = 10.0
-PERIODS = [(0.4, 1), (0.1, 1), (0.1, 5), (0.025, 1), (0.025, 8), (0.013, 1)]
+PERIODS = [(0.4, 1), (0.1, 5), (0.043, 1)]
 
 
 def spread(values: np.ndarray, deviation: float) -> None:
@@ -52,7 +52,7 @@ def summed(world: World, key: str, every: int) -> tuple[np.ndarray, float]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("sampling_time", "every"), PERIODS)
+@each_case(("sampling_time", "every"), PERIODS)
 def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every):
     density = (0.03, 0.021, 0.004)
     rate = None if every == 1 else 1 / (every * sampling_time)
@@ -72,7 +72,7 @@ def test_one_reading_is_the_noisier_the_shorter_its_time(every):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("sampling_time", [0.4, 0.1, 0.025, 0.013])
+@each_case("sampling_time", [0.4, 0.043])
 def test_the_bias_walks_alike_at_any_sampling_time(sampling_time):
     world = crowd(Imu(bias_walk=(0.02, 0.05, 0.003)), sampling_time)
     for k, density in enumerate((0.02, 0.05, 0.003)):
@@ -93,16 +93,6 @@ def test_at_a_low_rate_a_gyroscope_misses_no_turn(every):
     assert world.time == pytest.approx(4.2)
 
 
-def test_at_a_low_rate_accelerometers_miss_no_blow():
-    robot = Robot(drive=Holonomic(), sensors=[Imu(rate=2)])
-    world = World(Scenario(robots=[robot], workspace=None, sampling_time=0.1))
-    for speed in [0.0, 0.3, 0.1, 0.4, 0.2, 0.2, 0.2, 0.0, 0.1, 0.1]:
-        world.step([[speed], [0.0]])
-    world.observe()
-    assert world.record.sensors["imu"][5, 0] == pytest.approx([0.2 / 0.5, 0, 0], abs=1e-12)
-    assert world.robots[0].sense.imu == pytest.approx([-0.1 / 0.5, 0, 0], abs=1e-12)
-
-
 class Gyroscope(Sensor):
     """One of the user's own, in two numbers of which one is nothing."""
 
@@ -121,12 +111,6 @@ def test_a_sensor_of_ones_own_may_have_a_density():
     assert not found[:, 1].any()
 
 
-def test_its_outliers_are_ten_times_as_far_off_as_its_readings():
-    robot = Robot(sensors=[Gyroscope(noise=0.05, outliers=1.0)])
-    scenario = Scenario(robots=[robot], sampling_time=0.04, stop_time=80)
-    spread(mars2d.run(scenario).sensors["gyroscope"].ravel(), 10 * 0.05 / sqrt(0.04))
-
-
 def test_a_density_that_can_not_be_is_an_error_that_says_density():
     with pytest.raises(InputError, match=r"Imu.noise = -1: expected a density: 0, or from 1e-12"):
         Imu(noise=-1)
@@ -138,7 +122,7 @@ def test_a_density_that_can_not_be_is_an_error_that_says_density():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("sampling_time", "every"), PERIODS)
+@each_case(("sampling_time", "every"), PERIODS)
 def test_the_drift_of_odometry_is_alike_at_any_rate(sampling_time, every):
     v, b, drift = 0.31, 0.14, 0.004
     rate = None if every == 1 else 1 / (every * sampling_time)
@@ -156,7 +140,7 @@ def test_the_drift_of_odometry_is_alike_at_any_rate(sampling_time, every):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("sampling_time", [0.4, 0.1, 0.025, 0.013])
+@each_case("sampling_time", [0.4, 0.043])
 def test_odometry_follows_a_noisy_drive_at_any_sampling_time(sampling_time):
     """The wheels do turn so; what it is off by is its own drift alone."""
     v, b, drift, noise = 0.31, 0.14, 0.004, 0.01
@@ -170,7 +154,7 @@ def test_odometry_follows_a_noisy_drive_at_any_sampling_time(sampling_time):
 # -- one draw for each reading -------------------------------------------------------------------
 
 
-@each_case("sampling_time", [0.4, 0.013])
+@each_case("sampling_time", [0.4, 0.043])
 @each_case(
     ("sensor", "noise"),
     [(RangeFinder(beams=3, range=9, noise=0.03), 0.03), (Pose(noise=0.2), 0.2),
@@ -180,7 +164,7 @@ def test_the_noise_of_a_reading_is_the_same_at_any_sampling_time(sensor, noise, 
     walls = [(-2, -2), (-2, 2), (2, 2), (2, -2)]
     scenario = Scenario(
         robots=[Robot(sensors=[sensor])], on_exit="wall", workspace=walls,
-        sampling_time=sampling_time, stop_time=500 * sampling_time,
+        sampling_time=sampling_time, stop_time=200 * sampling_time,
     )  # fmt: skip
     found = mars2d.run(scenario).sensors[sensor.key][:, 0]
     perfect = mars2d.run(

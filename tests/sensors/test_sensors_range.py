@@ -15,7 +15,7 @@ from mars2d.sensors import LineCamera, Proximity, RangeBearing, RangeFinder, Son
 from tests.cases import each_case
 
 BEYOND = 1 + 1e-6
-TURNS = (0.0, 0.3, 1.1, 2.0, -2.7)
+TURNS = (0.0, 1.1, -2.7)
 
 
 def place(distance: float, angle: float) -> tuple[float, float]:
@@ -32,7 +32,7 @@ def readings(turn: float, sensors: list, addon, others=()) -> Iterator[tuple[str
         yield name, float(values.ravel()[-2 if name == "range_bearing" else 0])
 
 
-@each_case("reach", [0.3, 0.5, 1.0, 2.0, 3.0])
+@each_case("reach", [0.3, 1.0, 3.0])
 @each_case("turn", TURNS)
 def test_all_sensors_see_what_is_exactly_at_their_range_and_nothing_beyond(reach, turn):
     rays = RangeFinder(beams=1, range=reach), LineCamera(pixels=1, range=reach)
@@ -53,7 +53,7 @@ def test_all_sensors_see_what_is_exactly_at_their_range_and_nothing_beyond(reach
         assert len(pairs[0]) == (not far)
 
 
-@each_case("view", [0.2, 1.0, 2.5])
+@each_case("view", [0.2, 2.5])
 @each_case("turn", TURNS)
 @each_case("side", [-1, 1])
 def test_all_sensors_see_what_is_exactly_at_the_edge_of_their_view_and_nothing_beyond(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, inf, nan, pi, sin
+from math import cos, inf, pi, sin
 
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import mars2d
@@ -77,12 +77,6 @@ def test_a_range_finder_reads_inf_beyond_its_range():
     assert found.shape == (3,)
 
 
-def test_range_finders_are_recorded_as_arrays():
-    robots = [Robot(pose=(k, 0, 0), sensors=[RangeFinder(beams=7, noise=0.01)]) for k in range(3)]
-    record = mars2d.run(Scenario(robots=robots, stop_time=0.5))
-    assert record.sensors["range_finder"].shape == (6, 3, 7)
-
-
 def test_a_scan_is_drawn_as_one_area_and_one_row_of_dots():
     sensor = RangeFinder(beams=180, range=2.0)
     value = np.where(np.arange(180) < 20, 1.5, inf)
@@ -99,11 +93,10 @@ def test_a_scan_is_drawn_as_one_area_and_one_row_of_dots():
 
 # -- sonars ---------------------------------------------------------------------------------------
 
-places = st.tuples(st.floats(-2.5, 2.5), st.floats(-2.5, 2.5))
-
 
 @pytest.mark.slow
 @given(seed=st.integers(0, 2**32 - 1), cone=st.floats(0.05, 6.2), sonars=st.integers(1, 6))
+@settings(max_examples=20)
 def test_a_sonar_hears_the_nearest_point_in_its_cone(seed, cone, sonars):
     rng = np.random.default_rng(seed)
     cells = [(-2, 0), (2, 0), (0, 2), (0, -2)]
@@ -141,13 +134,6 @@ def test_a_sonar_hears_the_nearest_point_in_its_cone(seed, cone, sonars):
             assert distance == inf
         elif most < sensor.range:
             assert least <= distance <= most
-
-
-def test_a_sonar_hears_what_beams_would_miss():
-    thing = [Robot(pose=(2 * cos(0.1234), 2 * sin(0.1234), 0), diameter=1e-3)]
-    found = reading(SonarRing(sonars=1, cone=0.4), thing)
-    assert found.tolist() == [pytest.approx(2 - 5e-4, abs=1e-9)]
-    assert reading(SonarRing(sonars=1, cone=0.2), thing).tolist() == [inf]
 
 
 def test_a_sonar_measures_obliquely_to_a_wall_at_the_edge_of_its_cone():
@@ -280,12 +266,6 @@ def test_two_robots_that_meet_both_feel_it():
     assert second.tolist() == [False, False, False, True]  # at a bearing of pi - 2
 
 
-def test_touched_sectors_are_lit():
-    touched = drawn(Bumper(sectors=3), np.array([False, True, False]))
-    assert len(touched) == 3
-    assert len({shape.stroke for shape in touched}) == 2
-
-
 # -- line camera ----------------------------------------------------------------------------------
 
 
@@ -302,28 +282,6 @@ def test_a_line_camera_sees_the_colours_of_robots_props_and_obstacles():
     assert seen[2].tolist() == pytest.approx(grey)
 
 
-def test_a_line_camera_sees_nothing_where_nothing_is():
-    seen = reading(LineCamera(pixels=5, range=1.5), [Robot(pose=(2, 0, 0))])
-    assert seen.shape == (5, 3)
-    assert np.isnan(seen).all()
-
-
-def test_what_is_near_hides_what_is_behind():
-    robots = [Robot(pose=(1, 0, 0), color="green"), Robot(pose=(2, 0, 0), color="red")]
-    seen = reading(LineCamera(pixels=1), robots)
-    assert seen.tolist() == [
-        [pytest.approx(44 / 255), pytest.approx(160 / 255), pytest.approx(44 / 255)]
-    ]
-
-
-def test_a_line_camera_with_noise_stays_within_colours():
-    seen = reading(LineCamera(pixels=200, noise=0.3), [Robot(pose=(1, 0, 0), diameter=1.9)])
-    assert seen.min() == 0
-    assert seen.max() == 1
-    lost = reading(LineCamera(pixels=200, dropouts=0.5), [Robot(pose=(1, 0, 0), diameter=1.9)])
-    assert 0.3 < np.isnan(lost).mean() < 0.7
-
-
 def test_pixels_of_one_colour_are_drawn_as_one():
     sensor = LineCamera(pixels=64)
     value = np.full((64, 3), np.nan)
@@ -333,12 +291,6 @@ def test_pixels_of_one_colour_are_drawn_as_one():
 
 
 # -- all of them ----------------------------------------------------------------------------------
-
-
-def test_no_reading_breaks_the_picture_of_a_camera():
-    values = np.array([[1.2, -0.1, 0.5], [inf, -inf, 0], [nan, 0, 0]])
-    fills = [shape.fill for shape in drawn(LineCamera(pixels=3), values)]
-    assert fills[1:] == ["#ff0080", "#ff0000"]
 
 
 EVERY = [Proximity(range=1), RangeFinder(), SonarRing(), Bumper(), LineCamera()]

@@ -7,11 +7,8 @@ import os
 import re
 import signal
 import socket
-import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import pytest
 
@@ -28,9 +25,7 @@ from mars2d.study.workers import Failure
 pytest.importorskip("distributed")
 
 import dask
-from distributed import Client, LocalCluster
-
-from tests.processes import wait_until
+from distributed import LocalCluster
 
 pytestmark = pytest.mark.slow
 
@@ -100,19 +95,6 @@ def test_nothing_is_lost_or_counted_twice_where_a_worker_is_killed_half_way(exec
         os.kill(found[killed], 0)
 
 
-@pytest.mark.nightly
-def test_a_task_that_ends_its_worker_is_a_failure_and_the_rest_goes_on(executor, tasks):
-    done = list(each_done(tasks.ends_at_seven, range(20), executor))
-    assert sorted(index for index, _ in done) == list(range(20))
-    found = dict(done)
-    assert found.pop(7) == Failure("the process that ran it ended, on 2 workers in turn")
-    assert found == {k: k * k for k in range(20) if k != 7}
-
-
-def test_functions_need_no_module(executor):
-    assert dict(each_done(lambda x: x + 1, [1, 2], executor)) == {0: 2, 1: 3}
-
-
 def test_sweeps_and_tournaments_come_to_the_same_as_here(executor):
     there = mars2d.sweep("random_walk", seeds=2, stop_time=5, executor=executor)
     with ThreadPoolExecutor(1) as here:
@@ -123,39 +105,6 @@ def test_sweeps_and_tournaments_come_to_the_same_as_here(executor):
         "sumo", players=players, seeds=1, stop_time=2, executor=executor, replays=False
     ).matches
     assert [(match.steps, match.verdicts, match.error) for match in matches] == [(100, {}, "")] * 2
-
-
-def test_what_still_waits_when_a_cluster_is_left_is_forgotten(local, tasks):
-    with cluster(local.scheduler_address) as executor:
-        done = each_done(tasks.pid_after_a_moment, range(1000), executor)
-        next(done)
-        done.close()
-    wait_until(lambda: not local.scheduler.tasks)
-
-
-def test_tasks_of_a_cluster_that_is_left_are_an_error_and_do_not_hang(local, tasks):
-    with cluster(local.scheduler_address) as executor:
-        done = each_done(tasks.pid_after_a_moment, range(100), executor)
-        next(done)
-    with pytest.raises(InputError, match="takes no more tasks, or has lost them"):
-        list(done)
-
-
-def test_a_worker_of_another_version_is_refused(local, monkeypatch):
-    whole = Client.get_versions
-
-    def older(client, **asked):
-        versions = whole(client, **asked)
-        for worker in versions["workers"].values():
-            worker["packages"]["mars2d"] = None
-        return versions
-
-    monkeypatch.setattr(Client, "get_versions", older)
-    with (
-        pytest.raises(InputError, match=r"a worker of tcp:.*: mars2d is not installed; expected"),
-        cluster(local.scheduler_address),
-    ):
-        pass
 
 
 def test_where_no_scheduler_answers_there_is_one_line_soon(local, monkeypatch, capfd):
@@ -176,87 +125,6 @@ def test_where_no_scheduler_answers_there_is_one_line_soon(local, monkeypatch, c
 def with_cluster(address):
     with cluster(address):
         pass
-
-
-def test_a_cluster_without_workers_is_waited_for_and_says_so(capsys):
-    with LocalCluster(n_workers=0, processes=False, dashboard_address=":0") as empty:
-        address = empty.scheduler_address
-        said = f"{address}: no worker yet: runs wait until there is one"
-        with pytest.warns(UserWarning, match=re.escape(said)):
-            with_cluster(address)
-        capsys.readouterr()
-        with chosen("--cluster", address):
-            assert capsys.readouterr().err == f"mars2d: {said}\n"
-
-
-@pytest.fixture(params=[1, 3])
-def unguarded(request):
-    """The address of a scheduler with two workers that nobody restarts, and the workers."""
-    with (
-        dask.config.set({"distributed.scheduler.allowed-failures": request.param}),
-        LocalCluster(n_workers=0, dashboard_address=":0", silence_logs=100) as bare,
-    ):
-        workers = [_worker(bare.scheduler_address) for _ in range(2)]
-        try:
-            wait_until(lambda: len(bare.scheduler.workers) == 2)
-            yield bare.scheduler_address, workers
-        finally:
-            for worker in workers:
-                worker.kill()
-                worker.wait()
-
-
-def _worker(address):
-    program = [sys.executable, "-m", "distributed.cli.dask_worker", address]
-    options = ["--no-nanny", "--nthreads", "1", "--no-dashboard"]
-    return subprocess.Popen(
-        [*program, *options], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-        cwd=Path(__file__).parents[2],  # where this module is found
-    )  # fmt: skip
-
-
-def kills_its_process(x):
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-@pytest.mark.nightly
-def test_a_task_that_ends_all_workers_is_a_failure(unguarded, monkeypatch, capsys):
-    monkeypatch.setattr(clusters, "SOON", 0.5)
-    monkeypatch.setattr(clusters, "ABSENCE", 1.0)
-    address, _ = unguarded
-    with cluster(address) as executor:
-        found = dict(each_done(kills_its_process, [1], executor))
-    said = "the process that ran it ended, on 2 workers in turn; no worker is left"
-    assert found == {0: Failure(said)}
-    told = f"mars2d: {address}: all workers have ended: waits 1 s for others\n"
-    assert capsys.readouterr().err == told
-
-
-@pytest.mark.nightly
-def test_tasks_for_which_no_worker_is_left_are_an_error(unguarded, monkeypatch):
-    monkeypatch.setattr(clusters, "ABSENCE", 1.0)
-    found = []
-    with cluster(unguarded[0]) as executor, pytest.raises(InputError, match="Start workers: the"):
-        for _, outcome in each_done(kills_its_process, range(20), executor):
-            found.append(outcome)
-    assert 0 < len(found) < 20
-    assert all(failure.error.endswith("; no worker is left") for failure in found)
-
-
-@pytest.mark.nightly
-def test_workers_that_come_in_time_go_on(unguarded, monkeypatch, capsys):
-    monkeypatch.setattr(clusters, "SOON", 0.5)
-    address, workers = unguarded
-    with cluster(address) as executor, ThreadPoolExecutor(1) as beside:
-        tasks = iter(each_done(lambda x: time.sleep(0.5) or x, range(20), executor))
-        found = dict([next(tasks)])
-        for worker in workers:
-            worker.kill()
-        rest = beside.submit(dict, tasks)
-        said = []
-        wait_until(lambda: said.append(capsys.readouterr().err) or "have ended" in "".join(said))
-        workers += [_worker(address) for _ in range(2)]
-        assert found | rest.result() == {k: k for k in range(20)}
 
 
 def test_without_dask_the_line_is_printed_that_installs_it(monkeypatch):

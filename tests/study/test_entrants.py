@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mars2d.core.errors import InputError
-from mars2d.study.tournament.schedule import entrants, law_code, law_files, names_of
+from mars2d.study.tournament.schedule import entrants, law_code, law_files
 from tests.cases import each_case
 
 ROLES = ("pursuer", "evader")
@@ -33,10 +33,6 @@ def test_files_between_commas_are_taken_once_each(laws):
     assert law_files("hunters/_help.py") == (laws / "hunters/_help.py",)  # as it is named
 
 
-def test_a_file_has_one_name_however_it_is_reached(laws):
-    assert law_files("hunters/../c.py") == law_files(laws / "c.py") == (laws / "c.py",)
-
-
 def test_laws_beside_the_experiment_come_first_then_those_in_the_current_folder(laws, tmp_path):
     elsewhere = tmp_path / "shipped"
     elsewhere.mkdir()
@@ -60,12 +56,6 @@ def test_what_is_no_law_is_an_error_with_the_nearest_name(laws, named, message):
         law_files(named)
 
 
-def test_an_empty_folder_is_an_error(laws):
-    (laws / "empty").mkdir()
-    with pytest.raises(InputError, match="empty: no law in this folder"):
-        law_files("empty")
-
-
 def test_players_play_every_role_beside_those_given_for_one(laws):
     found = entrants(ROLES, {"pursuer": "hunters"}, ["c.py"])
     assert [path.name for path in found["pursuer"]] == ["a.py", "b.py", "c.py"]
@@ -79,11 +69,6 @@ def test_roles_that_are_not_there_or_that_nobody_plays_are_errors(laws):
         entrants(ROLES, {"pursuer": "c.py"})
     with pytest.raises(InputError, match="expected files of laws"):
         entrants(ROLES, {"pursuer": [3]})  # type: ignore[dict-item]
-
-
-def test_names_are_as_short_as_they_can_be():
-    files = ["/x/a/law.py", "/x/b/law.py", "/x/b/other.py", "/y/b/law.py"]
-    assert list(names_of(files).values()) == ["a/law", "x/b/law", "other", "y/b/law"]
 
 
 def test_the_code_of_a_law_is_its_file_and_what_it_imports_from_beside_it(laws):

@@ -9,7 +9,6 @@ from mars2d.study.tournament.league import Tournament, head_to_head, league
 from mars2d.study.tournament.league_text import league_text
 from mars2d.study.tournament.match import Match, Played
 from mars2d.study.tournament.page import save_html
-from tests.cases import each_case
 
 ROLES = ("pursuer", "evader")
 
@@ -80,11 +79,6 @@ def test_of_equal_points_the_quicker_hunter_and_the_evader_that_lasts_longer_sta
     assert [s.law for s in league([*matches, *never], ROLES)][2:] == ["z", "x", "y"]
 
 
-def test_then_names_decide():
-    standings = league([played(k, law, "x", "evader") for k, law in enumerate("cab")], ROLES)
-    assert [s.law for s in standings] == ["a", "b", "c", "x"]
-
-
 def test_equal_points_share_a_place_in_table_page_and_csv(tmp_path):
     winners = {"a": ["pursuer", "evader"], "b": ["evader", "pursuer"], "c": ["evader"] * 2}
     winners["d"] = ["pursuer"] * 2
@@ -118,15 +112,6 @@ def test_laws_that_play_both_roles_stand_in_one_table_with_the_time_that_they_hu
         2,
     )
     assert (second.law, second.lost, second.capture_time) == ("b", 2, None)
-
-
-def test_who_played_more_matches_does_not_stand_higher_for_that():
-    matches = [played(1, "a", "b", "pursuer"), played(2, "b", "a", "evader")]
-    matches += [played(k, "c", law, "evader") for k, law in enumerate("abb", 3)]
-    matches += [played(k, "c", "d", "pursuer") for k in range(6, 12)]
-    assert [(s.law, s.points) for s in league(matches, ROLES)] == [
-        ("a", 3.0), ("c", 6.0), ("b", 2.0), ("d", 0.0),
-    ]  # fmt: skip
 
 
 def test_points_of_one_against_the_other_do_not_count_what_has_no_result():
@@ -172,35 +157,3 @@ x                   1         1
 
 c: 2 matches forfeited: slow: c.py, line 7: no command after 1 s (match 2 and 1 other)"""
     )
-
-
-def test_matches_without_a_result_are_told_with_their_error():
-    lost = [Played.without_result(played(k, "a", "x", None).match, "it died") for k in (1, 2)]
-    text = league_text(tournament(*lost))
-    assert "2 matches without a result: it died (match 1 and 1 other)" in text
-    assert "1  a             0             -       0" in text
-
-
-@each_case(
-    "digests, said",
-    [
-        ("aabb", "The 2 seeds gave the same match in each pairing: nothing in it is random."),
-        ("aabc", "The 2 seeds gave the same match, since nothing in it is random: a against x."),
-        ("abcd", None),
-    ],
-)
-def test_seeds_that_gave_the_same_match_are_told(digests, said):
-    pairs = [("a", "x", 0), ("a", "x", 1), ("b", "x", 0), ("b", "x", 1)]
-    matches = [
-        played(k, first, second, "evader", seed=seed, digest=digest)
-        for k, ((first, second, seed), digest) in enumerate(zip(pairs, digests, strict=True), 1)
-    ]
-    text = league_text(tournament(*matches))
-    assert text.endswith(said) if said else "same match" not in text
-
-
-def test_a_table_that_is_wider_than_a_terminal_is_left_to_the_page():
-    laws = [f"a_law_with_a_long_name_{k}" for k in range(12)]
-    text = league_text(tournament(*(played(k, "a", law, "evader") for k, law in enumerate(laws))))
-    assert "Points of each" not in text
-    assert max(map(len, text.splitlines())) <= 100

@@ -11,16 +11,13 @@ from mars2d import Robot, Scenario
 from mars2d.addons import Game
 from mars2d.output.pages.replay import page as replay_page
 from mars2d.output.pages.replay import replay_data
-from mars2d.output.raster.theme import DARK, LIGHT, contrast
 from mars2d.study.isolation import Verdict
-from mars2d.study.tournament import page as pages
 from mars2d.study.tournament.league import Tournament, league
 from mars2d.study.tournament.match import Match, Played
 from mars2d.study.tournament.page import league_page, save_html
-from mars2d.study.tournament.page.tables import COLOR_STEPS, shades
+from mars2d.study.tournament.page.tables import COLOR_STEPS
 from mars2d.study.tournament.page.words import DASH
 from tests.browser import Tab
-from tests.cases import each_case
 
 EVIL = "</script><script>alert(1)</script>'\"&amp;<img src=x onerror=alert(1)>\u2028{{title}}"
 HUNTERS, RUNNERS = ("lead", "straight", f"hunt {EVIL}"), ("zigzag", f"run {EVIL}")
@@ -145,15 +142,6 @@ def press_inside(tab, key, done):
     tab.until(pressed)
 
 
-def press_out(frame, key):
-    """Press a key that may take the replay away: real ones wait for ever for its answer then."""
-    frame.evaluate(
-        """key => setTimeout(() => document.body.dispatchEvent(
-        new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true })))""",
-        key,
-    )
-
-
 def leave(tab):
     """Close the replay by a key that it does not get itself."""
     tab.page.locator("#close").focus()
@@ -207,73 +195,7 @@ def test_the_league_tables_have_the_numbers_of_the_standings(tab, tournament):
         assert line[9] == (DASH if mean is None else f"{mean:.1f} s")
 
 
-def test_a_bar_shows_the_interval_of_a_share(tab, tournament):
-    bars = tab.page.locator("table.league .interval").all()
-    for bar, standing in zip(bars, tournament.standings, strict=True):
-        low, width = (float(bar.get_attribute(name)) for name in ("x", "width"))
-        assert low == pytest.approx(100 * standing.share.low, abs=0.1)
-        assert low + width == pytest.approx(100 * standing.share.high, abs=0.2)
-
-
-def test_a_match_has_its_round_seed_laws_winner_time_and_words(tab):
-    words = tab.page.locator('tr[data-match="13"]').inner_text().replace("\xa0", " ").split("\t")
-    assert [word.strip() for word in words] == [
-        "13", "mu = 3", "0", "lead", "zigzag", "lead", "7.00 s", "caught after 7.0 s",
-    ]  # fmt: skip
-    assert "draw" in tab.text('tr[data-match="5"]')
-    assert tab.text('tr[data-match="10"] .forfeit') == "forfeit"
-
-
-def test_who_plays_all_roles_stands_in_one_table_and_the_matrix_adds_both_ways_up(
-    open_tab, tmp_path
-):
-    names = ("a", "b")
-    matches = tuple(
-        Played(Match(k + 1, "x", {}, k, dict(zip(ROLES, laws, strict=True))), winner)
-        for k, (laws, winner) in enumerate(
-            [(names, "pursuer"), (names, "pursuer"), (names, "evader"), (names[::-1], None)]
-        )
-    )
-    broken = Played.without_result(
-        Match(5, "x", {}, 9, dict(zip(ROLES, names, strict=True))), "no disk"
-    )
-    every = (*matches, broken)
-    cup = Tournament("Cup", "x", ROLES, every, tuple(league(every, ROLES)))
-    tab = open_tab(save_html(cup, tmp_path / "cup.html"))
-    assert tab.text("table.league caption") == "All laws"
-    cells = [row.split() for row in tab.page.locator("table.matrix tbody tr").all_inner_texts()]
-    assert cells == [["a", DASH, "62"], ["b", "38", DASH]]
-    assert "no result" in tab.text('tr[data-match="5"]')
-    assert tab.page.locator("#round").count() == 0
-    assert "5, 1 without a result" in tab.text("#facts")
-    tab.page.get_by_role("button", name="b against a: 38 % of the points in 4 matches").click()
-    assert shown(tab) == [1, 2, 3, 4, 5]
-
-
 # -- sorting and choosing -------------------------------------------------------------------------
-
-
-def test_a_click_on_a_header_sorts_by_numbers_words_and_leaves_dashes_last(tab):
-    header = tab.page.locator("table.matches").get_by_role("button", name="Capture time")
-    where = tab.page.locator("table.matches th[aria-sort]")
-    assert (where.inner_text(), where.get_attribute("aria-sort")) == ("Match", "ascending")
-    orders = []
-    for order in ("ascending", "descending"):
-        header.click()
-        times = column(tab, ".matches", 7)
-        orders.append([float(time[:-2]) for time in times if time != DASH])
-        assert times[len(orders[-1]) :] == [DASH] * (24 - len(orders[-1]))
-        assert (where.inner_text(), where.get_attribute("aria-sort")) == ("Capture time", order)
-    assert len(orders[0]) > 3
-    assert orders[0] == sorted(orders[0]) == orders[1][::-1]
-    tab.page.locator("table.matches").get_by_role("button", name="Match", exact=True).click()
-    assert shown(tab) == list(range(1, 25))
-    tab.page.locator("table.league").first.get_by_role("button", name="Law").click()
-    assert [law.split()[0] for law in column(tab, ".league >> nth=0 >>", 2)] == [
-        "hunt",
-        "lead",
-        "straight",
-    ]
 
 
 def test_matches_are_chosen_by_law_rival_round_and_forfeit(tab, tournament):
@@ -313,14 +235,6 @@ def test_a_cell_of_the_matrix_has_the_share_and_picks_its_matches(tab):
     assert tab.page.locator("#law").input_value() == last.get_attribute("data-law")
 
 
-@each_case("theme", [LIGHT, DARK])
-def test_shares_can_be_read_on_their_colours(theme):
-    root = ":root.dark" if theme.dark else ":root"
-    colors = re.findall(rf"^{root} \.s\d+ {{ background: (#\w+)", shades(), flags=re.M)
-    assert len(set(colors)) == COLOR_STEPS + 1
-    assert min(contrast(theme.ink, color) for color in colors) >= 4.5
-
-
 # -- replays --------------------------------------------------------------------------------------
 
 
@@ -339,51 +253,6 @@ def test_a_click_on_a_match_plays_it(open_tab, path):
     press_inside(tab, "Space", lambda: "Paused at" in frame.locator("#live").text_content())
 
 
-def test_keys_and_buttons_go_to_other_matches_and_back(tab):
-    tab.page.get_by_label("Round").select_option(index=2)
-    frame = watch(tab, 13)
-    assert tab.page.locator("#previous").is_disabled()
-    press_out(frame, "ArrowDown")
-    playing(tab, 14)
-    tab.page.locator("#next").click()
-    playing(tab, 15)
-    tab.page.locator("#close").focus()
-    tab.press("ArrowDown")
-    playing(tab, 16)
-    tab.page.locator("#previous").focus()
-    tab.press("ArrowUp")
-    frame = playing(tab, 15)
-    frame.locator("#slider").focus()
-    press_inside(tab, "ArrowUp", lambda: frame.locator("#slider").input_value() != "0")
-    assert title(tab).startswith("15.")  # the key is the slider's
-    assert tab.page.url.endswith("#match-15")
-    press_out(frame, "Escape")
-    tab.page.locator("#show").wait_for(state="hidden")
-    assert tab.page.locator("iframe").count() == 0
-    assert tab.page.evaluate("document.activeElement.textContent") == "15"
-    assert "#" not in tab.page.url
-
-
-def test_escape_closes_what_is_open_in_the_replay_first(tab):
-    frame = watch(tab, 13)
-    frame.locator("#bodies").select_option(index=1)
-    frame.locator("#panel").wait_for()
-    press_out(frame, "Escape")
-    frame.locator("#panel").wait_for(state="hidden")
-    press_inside(tab, "F1", frame.locator("#helping").is_visible)
-    press_out(frame, "Escape")
-    frame.locator("#helping .close").click()
-    assert tab.page.locator("#show").is_visible()
-    press_out(frame, "Escape")
-    tab.page.locator("#show").wait_for(state="hidden")
-
-
-def test_an_address_leads_to_a_match(open_tab, path):
-    tab = open_tab(path, mark="#match-14")
-    playing(tab, 14)
-    assert title(tab).startswith("14.")
-
-
 def test_a_forfeit_shows_what_the_law_printed_and_one_before_the_start_no_replay(tab):
     watch(tab, 22)
     assert f"NameError: {EVIL}".split("\u2028")[0] in tab.text("#ending")
@@ -396,31 +265,6 @@ def test_a_forfeit_shows_what_the_law_printed_and_one_before_the_start_no_replay
     assert tab.page.locator("iframe").count() == 0
     tab.press("ArrowDown")
     assert title(tab).startswith("11.")
-
-
-def test_replays_that_are_too_many_are_left_out_from_the_end_and_it_says_so(
-    open_tab, tournament, tmp_path, monkeypatch
-):
-    sizes = [len(each.replay) for each in tournament.matches]
-    monkeypatch.setattr(pages, "MAX_REPLAYS_SIZE", sum(sizes[:15]))
-    left = sum(size > 0 for size in sizes[15:])
-    tab = open_tab(save_html(tournament, tmp_path / "few.html"))
-    assert f"{left} are left out, from match 16 on" in tab.text("#facts")
-    tab.page.locator('tr[data-match="16"] .watch').click()
-    tab.page.get_by_text("This replay is left out").wait_for()
-    tab.press("ArrowUp")
-    playing(tab, 15)
-
-
-def test_it_is_dark_where_one_likes_it_and_so_is_the_replay(open_tab, path):
-    tab = open_tab(path, color_scheme="dark")
-    ground = "getComputedStyle(document.body).backgroundColor"
-    dark, frame = tab.page.evaluate(ground), watch(tab, 1)
-    assert frame.evaluate(ground) == dark
-    leave(tab)
-    tab.click("Dark")
-    assert tab.page.evaluate(ground) != dark
-    assert watch(tab, 1).evaluate(ground) != dark  # though the system is dark
 
 
 # -- everybody ------------------------------------------------------------------------------------
@@ -437,42 +281,6 @@ def test_names_messages_and_output_are_text(tab, tournament):
     frame = watch(tab, 22)
     assert frame.locator("img").count() == 0
     assert frame.locator("script").count() == 2
-
-
-@each_case("size", [(1920, 1080), (360, 640)])
-def test_it_fits_screens_of_all_sizes(open_tab, path, size):
-    tab = open_tab(path, size)
-    assert tab.page.evaluate("document.documentElement.scrollWidth") <= size[0]
-    watch(tab, 22)
-    for selector in ("#next", "#close", "iframe"):
-        box = tab.page.locator(selector).bounding_box()
-        assert box["x"] >= 0
-        assert box["y"] >= 0
-        assert box["x"] + box["width"] <= size[0]
-        assert box["y"] + box["height"] <= size[1]
-    assert tab.page.locator("iframe").bounding_box()["height"] > 0.35 * size[1]
-
-
-def test_on_a_phone_a_side_fades_beyond_which_there_are_more_columns(open_tab, path):
-    tab = open_tab(path, size=(390, 844))
-    wide = tab.page.locator(".wide").first
-    edges = "(wide) => ['before', 'beyond'].map((name) => wide.classList.contains(name))"
-    assert wide.evaluate("(wide) => wide.scrollWidth - wide.clientWidth") > 100
-    tab.until(lambda: wide.evaluate(edges) == [False, True])
-    faded = wide.evaluate("(wide) => getComputedStyle(wide).maskImage")
-    assert faded.startswith("linear-gradient")
-    wide.evaluate("(wide) => wide.scrollTo(40, 0)")
-    tab.until(lambda: wide.evaluate(edges) == [True, True])
-    wide.evaluate("(wide) => wide.scrollTo(9999, 0)")
-    tab.until(lambda: wide.evaluate(edges) == [True, False])
-    tab.page.set_viewport_size({"width": 1600, "height": 900})
-    tab.until(lambda: wide.evaluate(edges) == [False, False])
-
-
-def test_without_scripts_all_tables_are_there(open_tab, path):
-    tab = open_tab(path, java_script_enabled=False)
-    assert tab.page.locator("table.matches tbody tr:visible").count() == 24
-    assert tab.page.locator("noscript").is_visible()
 
 
 def test_a_screen_reader_finds_tables_and_controls(tab):

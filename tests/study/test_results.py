@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
 import pytest
 
 from mars2d import InputError, Table
@@ -32,11 +29,6 @@ def path(tmp_path):
 def test_a_table_comes_back_from_its_file_as_it_was(path):
     assert load_table(save_table(TABLE, path)) == TABLE
     assert Table.load(TABLE.save(path)) == TABLE
-
-
-def test_a_cell_may_be_long(path):
-    table = of(Result(1, {"n": 1, "red": "a"}, 0, {"time": 1.0, "won": "x" * 200_000}))
-    assert load_table(save_table(table, path)) == table
 
 
 def test_the_file_is_as_rfc_4180_has_it(path):
@@ -89,14 +81,6 @@ def test_a_line_that_was_broken_off_is_left_out_and_the_next_begins_anew(path, c
     assert load_table(path) == of(ROWS[0], ROWS[2])
 
 
-def test_a_header_that_was_broken_off_is_written_anew(path):
-    path.write_bytes(b"row,exper")
-    with Results(path, of()) as file:
-        assert file.known == ()
-        file.add(ROWS[0])
-    assert load_table(path) == of(ROWS[0])
-
-
 def test_a_file_is_written_by_one_at_a_time(path):
     with Results(path, of()):
         with pytest.raises(InputError, match="another process is writing to it"):
@@ -145,48 +129,6 @@ def test_what_is_no_table_says_so_in_one_line(path, data, said):
         load_table(path)
     assert said in str(caught.value)
     assert str(path) in str(caught.value)
-
-
-def test_a_table_that_a_spreadsheet_has_saved_is_read(path):
-    save_table(TABLE, path)
-    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\r\n", b"\n"))
-    assert load_table(path) == TABLE
-
-
-def test_a_file_that_can_not_be_written_or_read_is_named(tmp_path):
-    with pytest.raises(InputError, match=r"none.csv: can't be written"):
-        Results(tmp_path / "none" / "none.csv", of()).__enter__()
-    with pytest.raises(InputError, match=r"none.csv: can't be read"):
-        load_table(tmp_path / "none.csv")
-    with pytest.raises(InputError, match=r"ends in .csv"):
-        save_table(TABLE, tmp_path / "table.xlsx")
-
-
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no full disk to try")
-def test_a_full_disk_is_told_in_one_line(path):
-    with (
-        pytest.raises(InputError, match=r"results.csv: can't be written: No space left"),
-        Results(path, of()) as file,
-        Path("/dev/full").open("wb") as full,
-    ):
-        os.dup2(full.fileno(), file._file.fileno())  # from now on it is written to a full disk
-        file.add(ROWS[0])
-
-
-@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="this system has no devices as files")
-def test_a_device_is_not_read_as_a_table(path):
-    path.symlink_to("/dev/zero")
-    with pytest.raises(InputError, match=r"results.csv: .* a device; expected a file"):
-        Results(path, of()).__enter__()
-
-
-def test_a_notebook_shows_the_first_rows_and_no_tags_of_the_users():
-    table = of(*(Result(k, {"n": k, "red": "<b>"}, 0, {"time": 1.0}) for k in range(1, 31)))
-    html = table._repr_html_()
-    assert html.count("<tr>") == 21
-    assert "and 10 rows more" in html
-    assert "&lt;b&gt;" in html
-    assert "<b>" not in html
 
 
 def test_a_frame_has_a_row_a_run_and_columns_of_settings_and_measures():

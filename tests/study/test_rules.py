@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from mars2d import Robot, Scenario
-from mars2d.addons import Game, Ring
+from mars2d.addons import Game
 from mars2d.cli.command_line import main
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import contest_of
@@ -37,11 +37,6 @@ def test_rules_are_those_of_the_games_file():
     assert rules.colors == {"pursuer": ("#d62728",), "evader": ("#1f77b4",)}
 
 
-def test_without_forces_the_rules_say_so():
-    assert "go through each other" in rules_of("corner_game", physics="ideal").arena
-    assert "1.5 m from the middle" in rules_of("sumo").counts
-
-
 @each_case(
     "fields, hunter, evader, counted",
     [
@@ -64,21 +59,6 @@ def test_a_pursuit_says_what_is_counted(fields, hunter, evader, counted):
     assert game.aim("wolf", scenario) == hunter
     assert game.aim("sheep", scenario).startswith(evader)
     assert counted in game.counts
-
-
-def test_a_bout_of_teams_says_who_is_to_go():
-    robots = [Robot(name=name, pose=(k, 0, 0)) for k, name in enumerate("abcdef")]
-    ring = Ring({"red": ["a"], "blue": ["b", "c", "d", "e", "f"]}, radius=9)
-    scenario = Scenario(robots=robots, addons=[ring])
-    assert ring.aim("red", scenario) == "shove all 5 out of the ring"
-    assert ring.aim("blue", scenario) == "shove a out of the ring"
-    assert "the role whose robots are all out has lost" in ring.counts
-
-
-def test_tables_of_a_docstring_keep_their_columns():
-    page = rules_page(rules_of("corner_game"))
-    assert "<p>Question: who catches whom" in page
-    assert "<pre>            away            corners" in page
 
 
 @each_case("size", [(1280, 900), (390, 800)])
@@ -107,22 +87,3 @@ def test_the_command_writes_the_page_without_any_law(tmp_path, monkeypatch, caps
     assert capsys.readouterr().out.strip() == "rules: rules.html"
     assert "more than 3 s for one step" in (tmp_path / "rules.html").read_text(encoding="utf-8")
     assert [path.name for path in tmp_path.iterdir()] == ["rules.html"]
-
-
-def test_a_tournament_shows_the_rules_and_the_colours_of_its_roles(browser, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    command = ["tournament", "corner_game", "--seeds", "1", "--stop-time", "2"]
-    roles = ["--role", "pursuer=corner_pursuers", "--role", "evader=corner_evaders/away.py"]
-    assert main([*command, *roles]) == 0
-    tab = Tab(browser, (1280, 900))
-    tab.page.goto((tmp_path / "tournament_corner_game" / "league.html").as_uri())
-    tab.page.get_by_text("The rules").click()
-    tab.page.get_by_text("Catch blue.").wait_for()
-    tab.page.locator("tr[data-match='2'] .watch").click()
-    colors = tab.page.locator("#showTitle .dot").evaluate_all(
-        "dots => dots.map(dot => getComputedStyle(dot).backgroundColor)"
-    )
-    assert colors == ["rgb(214, 39, 40)", "rgb(31, 119, 180)"]
-    assert "as pursuer against" in tab.page.locator("#showTitle").inner_text()
-    assert tab.complaints == []
-    tab.close()

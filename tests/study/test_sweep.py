@@ -6,19 +6,14 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
 import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
-from mars2d.core import deadline
-from mars2d.scenario.experiment import open_experiment
-from mars2d.study.code import code_of_run
-from mars2d.study.results import Results
-from mars2d.study.run import TRIALS, StudyFailedError
+from mars2d.study.run import TRIALS
 from mars2d.study.table import load_table
 from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
@@ -110,23 +105,6 @@ def test_measures_are_the_files_the_ones_built_in_or_functions_given(here):
     }  # fmt: skip
 
 
-def test_without_measures_there_are_those_that_fit_any_run(here):
-    assert sweep(None, 1, ()).measures == ("end_time", "collisions")
-    game = sweep({"stop_time": 0.5}, 1, (), "pursuit_corners")
-    assert game.measures == ("capture_time", "end_time", "collisions")
-
-
-def test_a_scenario_and_a_module_are_run_as_well(here):
-    scenario = Scenario(robots=[Robot(pose=(0, 0, 0))], stop_time=0.5)
-    table = sweep(
-        {"sampling_time": [0.1, 0.05]}, 1, "collisions", scenario, control=lambda w: (1, 0)
-    )
-    assert [result.error for result in table.results] == ["", ""]
-    assert table.results[0].digest == mars2d.run(scenario, control=lambda w: (1, 0)).digest
-    module = mars2d.scenario.experiment.open_module("drift.py")
-    assert sweep(experiment=module).results[0].digest == sweep().results[0].digest
-
-
 def test_a_run_that_fails_is_a_row_with_its_error_and_the_others_go_on(here):
     law = "return 1 / (robot.rng.uniform() - 1.5) if gain < 1 else robot.speeed, 0.0"
     (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
@@ -156,17 +134,6 @@ def test_a_run_that_takes_too_long_is_a_row_that_names_the_line(here):
     hangs, ends = sweep({"gain": [2.0, 1.0]}, 1, time_limit=0.5).results
     assert hangs.error == "took longer than 0.5 s, in drift.py, line 10"
     assert (ends.error, bool(ends.digest)) == ("", True)
-
-
-def test_a_run_that_waits_for_the_system_is_left_behind(here, monkeypatch):
-    monkeypatch.setattr(deadline, "GRACE", 0.2)
-    wait = "import time; time.sleep(2.5 if gain == 2.0 else 0)\n    return 0.1, 0.0"
-    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", wait))
-    start = time.monotonic()
-    hangs, ends = sweep({"gain": [2.0, 1.0]}, 1, time_limit=0.3).results
-    assert time.monotonic() - start < 2.4
-    assert hangs.error == "took longer than 0.3 s, in drift.py, line 10"
-    assert ends.error == ""
 
 
 def test_units_are_stated_with_the_sweep_or_with_its_table(here, capsys):
@@ -204,26 +171,6 @@ def test_a_sweep_whose_every_run_fails_stops_with_the_reason_and_exit_code_1(her
     assert runs(here) == made
 
 
-def test_one_trial_that_works_is_enough_to_go_on(here):
-    law = "return 1 / (gain == 8), 0.0"
-    (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
-    assert len(sweep({"gain": [1, 2, 3, 4, 5, 6, 7, 8]}, 1).failed) == 7
-
-
-def test_a_point_that_can_be_opened_is_among_the_trials(here):
-    table = sweep({"n": [40, 50, 60, 1, *range(70, 100)]}, 1)
-    assert len(table) - len(table.failed) == 1
-
-
-def test_a_measure_that_fails_in_the_first_run_is_found_before_the_grid_is_run(here, capsys):
-    with pytest.raises(StudyFailedError) as caught:
-        sweep({"gain": [0.5, 1.0]}, 50, ["far", "broken"], out="r.csv")
-    assert "the first run can't be measured, so the other " in str(caught.value)
-    assert "row 1, gain = 0.5, seed 0: drift.py, line 24: broken raised" in str(caught.value)
-    assert len(load_table("r.csv")) == len(caught.value.table) < 100
-    assert caught.value.table.results[0].measures["far"] > 0
-
-
 # -- records that are kept -------------------------------------------------------------------------
 
 NEW = """
@@ -249,25 +196,6 @@ def test_kept_records_are_measured_again_without_a_run(here, capsys):
         assert result.measures == {"near": -before.measures["far"], **before.measures}
 
 
-def test_the_built_in_measures_are_the_same_from_kept_records(here):
-    settings, measures = {"stop_time": [2.0]}, ["capture_time", "winner", "path_length", "effort"]
-    first = sweep(settings, 2, measures, "pursuit_corners", out="r.csv", keep=True)
-    (here / "r.csv").unlink()
-    made = [file.stat().st_mtime_ns for file in (here / "r_records").iterdir()]
-    assert sweep(settings, 2, measures, "pursuit_corners", out="r.csv", keep=True) == first
-    assert made == [file.stat().st_mtime_ns for file in (here / "r_records").iterdir()]
-
-
-def test_a_measure_that_failed_is_corrected_without_a_run(here):
-    with pytest.raises(StudyFailedError):
-        sweep(None, 2, "broken", out="r.csv", keep=True)
-    (here / "drift.py").write_text(DRIFT.replace("1 / 0", "1 / 2"))
-    made = runs(here)
-    table = sweep(None, 2, "broken", out="r.csv", keep=True)
-    assert [result.measures for result in table.results] == [{"broken": 0.5}] * 2
-    assert runs(here) <= max(2, made)
-
-
 @pytest.mark.parametrize(
     ("change", "again"),
     [
@@ -287,34 +215,6 @@ def test_records_of_laws_that_have_changed_are_not_measured(here, change, again)
         (here / "r.csv").unlink()
     sweep(out="r.csv", keep=True)
     assert runs(here) == (4 if again else 2)
-
-
-def test_a_measure_that_a_law_uses_is_part_of_the_law(here):
-    used = DRIFT.replace("0.0\n\ndef scenario", "0.0 * far(robot.history)\n\ndef scenario")
-    assert "history" in used
-    drift = here / "drift.py"
-    codes = []
-    for text in (used, used.replace("abs(", "1 + abs("), used.replace("much", "more")):
-        drift.write_text(text)
-        codes.append(code_of_run(open_experiment("drift.py")))
-    assert codes[0] not in codes[1:2]
-    assert codes[0] == codes[2]
-
-
-def test_a_broken_record_is_made_again(here):
-    first = sweep(None, 1, out="r.csv", keep=True)
-    (file,) = (here / "r_records").iterdir()
-    file.write_bytes(b"PK")
-    (here / "r.csv").unlink()
-    assert sweep(None, 1, out="r.csv", keep=True) == first
-    assert (runs(here), file.stat().st_size > 100) == (2, True)
-
-
-def test_rows_without_kept_records_are_never_lost(here):
-    sweep(out="r.csv")
-    with pytest.raises(InputError, match="its measures: far; now: word"):
-        sweep(measures="word", out="r.csv", keep=True)
-    assert load_table("r.csv").measures == ("far",)
 
 
 @each_case(
@@ -389,21 +289,6 @@ def test_what_is_in_the_file_is_not_run_again_and_seeds_and_values_may_become_mo
     assert (here / "r.csv").read_bytes() == (here / "again.csv").read_bytes()
 
 
-def test_rows_that_move_have_their_new_numbers_before_the_next_is_added(here):
-    sweep({"gain": [0.5, 1.0]}, 2, out="r.csv")
-    with pytest.raises(KeyboardInterrupt):
-        sweep({"gain": [0.5, 1.0]}, 4, out="r.csv", measures="far", executor=Interrupting())
-    rows = [(r.row, r.options["gain"], r.seed) for r in load_table("r.csv").results]
-    assert rows == [(1, 0.5, 0), (2, 0.5, 1), (5, 1.0, 0), (6, 1.0, 1)]
-
-
-class Interrupting(Executor):
-    """Takes tasks, and is interrupted."""
-
-    def submit(self, function, *arguments, **named):
-        raise KeyboardInterrupt
-
-
 def test_a_torn_line_is_run_again(here):
     whole = sweep(None, 3, out="r.csv")
     data = (here / "r.csv").read_bytes()
@@ -456,30 +341,6 @@ def test_a_file_made_by_other_code_is_refused(here):
         sweep({"gain": [0.5]}, 3, out="r.csv")
     (here / "beside.py").write_text("STEP = 0.4\n")
     assert len(sweep({"gain": [0.5]}, 3, out="r.csv")) == 3
-
-
-def test_a_file_that_changes_meanwhile_ends_the_study_with_the_rows_until_then(here):
-    change = 'Path("drift.py").write_text(Path("drift.py").read_text() + "#")'
-    law = f"gain == 0.3 and robot.time == 0.5 and written() and {change}\n    return 0.1, 0.0"
-    written = (
-        "def written():  # the row of 0.2 may still be on its way when 0.3 begins\n"
-        "    import time\n"
-        "    for _ in range(6000):\n"
-        "        if ',0.2,' in Path('r.csv').read_text():\n"
-        "            return True\n"
-        "        time.sleep(0.01)\n"
-    )
-    drift = DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law)
-    (here / "drift.py").write_text(f"{drift}\n\n{written}")
-    with pytest.raises(InputError, match=r"drift.py has changed while the study was running"):
-        sweep({"gain": [0.1, 0.2, 0.3, 0.4]}, 1, out="r.csv")
-    assert [result.options["gain"] for result in load_table("r.csv").results] == [0.1, 0.2]
-
-
-def test_two_studies_do_not_write_to_one_file(here):
-    table = sweep(out="r.csv")
-    with Results(here / "r.csv", table), pytest.raises(InputError, match="another process"):
-        sweep(out="r.csv")
 
 
 # -- the command -----------------------------------------------------------------------------------
@@ -548,36 +409,6 @@ def test_a_row_is_run_again_alone(here, capsys):
     assert (here / "run.html").stat().st_size > 10_000
 
 
-def test_a_row_of_code_that_has_changed_is_another_run(here, capsys):
-    sweep(out="sweep.csv")
-    (here / "drift.py").write_text(DRIFT.replace("0.4 * k, seed", "1.0, seed"))
-    assert main(["sweep", "sweep.csv", "--row", "1"]) == 0
-    out, errors = capsys.readouterr()
-    assert "this is another run" in out
-    assert "drift.py, what it reads, or MARS2D has changed" in errors
-
-
-def test_a_row_of_a_law_that_fails_shows_its_error(here, capsys):
-    (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / int(robot.pose[2]) * robot"))
-    sweep(out="sweep.csv")
-    assert main(["sweep", "--row", "1"]) == 2
-    out, errors = capsys.readouterr()
-    assert "then: drift.py, line 10: law raised ZeroDivisionError" in out
-    assert errors == (
-        "mars2d: drift.py, line 10: law raised ZeroDivisionError: division by zero "
-        "(robot0, at 0 s)\n"
-    )
-
-
-def test_the_newest_study_of_the_folder_is_meant_where_none_is_named(here, capsys):
-    sweep(out="old.csv")
-    os.utime("old.csv", (1, 1))
-    sweep(out="new.csv")
-    (here / "other.csv").write_text("a,b\n1,2\n")
-    assert main(["sweep", "--row", "1"]) == 0
-    assert "row 1 of new.csv" in capsys.readouterr().out
-
-
 def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
     sweep({"gain": [0.5, 1.0]}, 3, out="r.csv")
     before = runs(here)
@@ -590,39 +421,6 @@ def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
     assert main(["sweep", "r.csv", "--figure", "r.svg", "--style", "print"]) == 0
     assert 'width="240.9' in (here / "r.svg").read_text()  # 85 mm in points
     assert runs(here) == before
-
-
-@each_case(
-    "arguments, said",
-    [
-        ([], "an EXPERIMENT is needed"),
-        (["--row", "1"], "there is no study in this folder"),
-        (["r.csv", "--row", "9"], "--row 9: is not in r.csv; it has rows up to 2"),
-        (["drift.py", "--row", "1"], "expected the .csv of a study, not drift.py"),
-        (["r.csv", "--seeds", "3"], "--seeds: r.csv is there already"),
-        (["r.csv", "--row", "1", "--set", "gain=1"], "--set: --row N runs one row as it was"),
-        (["drift.py", "--view"], "--view: it is of one run: give --row N"),
-        (["drift.py", "--set", "gain=1", "--set", "gain=2"], "--set gain: is given twice"),
-        (["drift.py", "--set", "stop_time=1", "--stop-time", "2"], "--stop-time: is given twice"),
-        (["drift.py", "--set", "gain=1,2", "--compare", "gian"], "did you mean 'gain'?"),
-        (["drift.py", "--set", "gain=1", "--compare", "gain"], "it has one value"),
-        (["drift.py", "--confidence", "95"], "expected a number between 0 and 1"),
-        (["drift.py", "--out", "a.txt"], "--out a.txt: expected a name that ends in .csv"),
-        (["drift.py", "--figure", "a.txt"], "--figure a.txt: expected a name that ends in"),
-        (["drift.py", "--style", "print"], "--style: it is of a figure: give --figure OUT"),
-        (["drift.py", "--figure", "a.png", "--style", "prnt"], "did you mean 'print'?"),
-        (["r.csv", "--row", "1", "--figure", "a.png", "--style", "print"], "--style: --row N runs"),
-        (["drift.py", "--unit", "far"], "--unit far: expected NAME=UNIT"),
-        (["nothing.csv"], "nothing.csv: can't be read"),
-    ],
-)
-def test_a_mistake_on_the_command_line_is_one_line(here, arguments, said, capsys):
-    if "r.csv" in arguments:
-        sweep(out="r.csv")
-    assert main(["sweep", *arguments]) == 2
-    errors = capsys.readouterr().err
-    assert said in errors
-    assert errors.count("\n") == 1
 
 
 def test_points_that_can_not_be_opened_are_said_before_the_first_run(here, capsys):

@@ -8,7 +8,6 @@ import os
 import signal
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -21,7 +20,7 @@ from mars2d.core.errors import InputError
 from mars2d.study.isolation import Limits
 from mars2d.study.tournament.folder import PLAYED, Folder, played_before
 from mars2d.study.tournament.schedule import schedule
-from mars2d.study.tournament.tournament import LIMITS, play_all
+from mars2d.study.tournament.tournament import LIMITS
 from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
 
@@ -196,18 +195,6 @@ def test_the_folder_has_a_row_for_each_match_and_law_and_a_page(evening):
     assert "no command after 1 s" in page
 
 
-def test_tables_of_pandas_and_a_notebook_have_the_same(evening):
-    matches, league = evening.result.to_frame(), evening.result.to_frame("league")
-    assert matches["digest"].tolist() == [m.digest for m in evening.result.matches]
-    assert league["points"].tolist() == [s.points for s in evening.result.standings]
-    shown = evening.result._repr_html_()
-    assert shown.count("<tr>") == 1 + len(league)
-    assert "<td>quick</td>" in shown
-    for call in (evening.result.to_frame, lambda t: evening.result.save_csv("x.csv", t)):
-        with pytest.raises(InputError, match="expected 'matches' or 'league'"):
-            call("laws")
-
-
 # -- going on --------------------------------------------------------------------------------------
 
 
@@ -220,28 +207,6 @@ def test_the_same_command_plays_nothing_twice(evening, command, words):
     assert "nan: 4 matches forfeited: command: nan.py, line 1:" in printed
     assert printed.endswith(f"page: {Path('out/league.html')}\n")
     assert (evening.out / PLAYED).read_bytes() == before
-
-
-def test_what_was_not_written_to_its_end_is_played_again(evening, tmp_path):
-    lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
-    (tmp_path / PLAYED).write_bytes(b"".join(lines[:-1]) + lines[-1][:-40])
-    planned = planned_as_before(evening)
-    last = max(json.loads(lines[-1])["match"]["number"] for _ in lines)
-    with Folder(tmp_path, planned, LIMITS, replays=True) as folder:
-        assert len(folder.before) == 11
-        assert last not in [played.match.number for played in folder.before]
-        folder.keep(evening.result.matches[last - 1])
-    assert played_before(tmp_path, planned, LIMITS) == evening.result.matches
-
-
-def test_matches_that_another_process_played_meanwhile_are_not_played_again(evening, tmp_path):
-    planned = planned_as_before(evening)
-    mine, other = (Folder(tmp_path, planned, LIMITS, replays=True) for _ in range(2))
-    with other:
-        for played in evening.result.matches:
-            other.keep(played)
-    with mine:
-        assert mine.before == evening.result.matches
 
 
 def planned_as_before(evening, **more):
@@ -260,13 +225,6 @@ def test_matches_of_a_law_that_has_changed_are_played_again(evening):
         path.write_text(text)
     assert {m.match.laws["evader"] for m in found} == {"crash", "still"}
     assert len(played_before(evening.out, planned_as_before(evening), LIMITS)) == 12
-
-
-def test_a_folder_is_written_by_one_tournament_at_a_time(evening, command):
-    with Folder(evening.out, planned_as_before(evening), LIMITS, replays=True):
-        code, _, said = command("chase.py", *ALL, "--out", "out")
-    assert code == 2
-    assert "another process is writing to it" in said
 
 
 def test_with_other_limits_seeds_or_rounds_matches_are_others(evening):
@@ -340,29 +298,6 @@ def test_a_match_that_was_changed_in_the_file_is_refused(evening, tmp_path, chan
     assert (tmp_path / PLAYED).read_bytes() == forged
 
 
-@each_case("line", [b"[]", b"3", b'"winner"', b'{"sum": 3}'])
-def test_a_line_that_is_no_match_is_refused(evening, tmp_path, line):
-    lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
-    (tmp_path / PLAYED).write_bytes(_with_line(lines, 3, line + b"\n"))
-    with pytest.raises(InputError, match="line 4"):
-        Folder(tmp_path, planned_as_before(evening), LIMITS, replays=True)
-
-
-def test_a_line_that_is_there_twice_counts_once(evening, tmp_path):
-    lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
-    (tmp_path / PLAYED).write_bytes(b"".join([*lines, *lines[1:], lines[3]]))
-    planned = planned_as_before(evening)
-    assert played_before(tmp_path, planned, LIMITS) == evening.result.matches
-
-
-def test_a_folder_of_another_version_says_so(evening, tmp_path):
-    lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
-    head = json.loads(lines[0]) | {"mars2d tournament": 1}
-    (tmp_path / PLAYED).write_bytes(_with_line(lines, 0, json.dumps(head).encode() + b"\n"))
-    with pytest.raises(InputError, match="is not of this version; name another folder by --out"):
-        Folder(tmp_path, planned_as_before(evening), LIMITS, replays=True)
-
-
 # -- one match, once more --------------------------------------------------------------------------
 
 
@@ -377,14 +312,6 @@ def test_a_match_can_be_played_again_alone(evening, command):
     assert same == "the same as before, to the last bit"
     assert output[:2] == ["quick printed:", "here I am"]
     assert mars2d.load(evening.folder / "11.npz").digest == digest
-
-
-def test_a_match_that_was_not_played_before_is_played(evening, command):
-    code, printed, _ = command("chase.py", *ALL, "--first-seed", "7", "--match", "3")
-    assert code == 0
-    assert "nan forfeits as evader after 0 s: command: nan.py, line 1:" in printed
-    assert "it was not played before with these files, as far as tournament_chase says" in printed
-    assert not (evening.folder / "tournament_chase").exists()
 
 
 # -- rounds, players, matches without a result -----------------------------------------------------
@@ -420,28 +347,6 @@ def test_players_play_both_roles_in_each_round_and_an_experiment_that_fails_cost
     path = result.save_csv(tmp_path / "matches.csv")
     header = path.read_text().splitlines()[0]
     assert header.startswith("match,speed,broken,seed,pursuer,evader,winner,pursuer_score")
-
-
-def test_a_law_that_changes_meanwhile_has_no_result_from_then_on(evening, tmp_path):
-    law = tmp_path / "still.py"
-    law.write_text((evening.folder / "evaders" / "still.py").read_text())
-    laws = {"pursuer": evening.folder / "pursuers" / "quick.py", "evader": law}
-    planned = schedule(evening.folder / "chase.py", laws, seeds=3, stop_time=0.2)
-    with ThreadPoolExecutor(1) as threads:
-        matches = play_all(planned.matches, LIMITS, replays=False, executor=threads)
-        first = next(matches)
-        law.write_text("def control(robot): return 1, 1\n")
-        later = list(matches)
-    assert first.error == ""
-    assert [match.error for match in later] == ["still.py has changed meanwhile"] * 2
-
-
-def test_shipped_laws_are_found_beside_their_example(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    planned = schedule("sumo", players="sumo_players/*.py", seeds=1)
-    assert planned.roles == ("red", "blue")
-    assert len(planned.matches) >= 6
-    assert all(len({*m.laws.values()}) == 2 for m in planned.matches)
 
 
 # -- what can't be played --------------------------------------------------------------------------
@@ -505,15 +410,3 @@ def test_what_can_not_be_played_is_said_in_one_line(command, words, message):
     code, _, said = command(*words)
     assert (code, said.count("\n")) == (2, 1)
     assert said.startswith(f"mars2d: {message}")
-
-
-def test_two_contests_are_one_too_many(evening, tmp_path):
-    text = CHASE.replace("addons=[", 'addons=[Game({"a": [0], "b": [1]}, name="b"), ')
-    (tmp_path / "two.py").write_text(text.replace('"pursuers/', f'"{evening.folder}/pursuers/').replace('"evaders/', f'"{evening.folder}/evaders/'))  # fmt: skip  # noqa: E501
-    with pytest.raises(InputError, match="this experiment has 2"):
-        schedule(tmp_path / "two.py", players=evening.folder / "evaders")
-
-
-def test_a_scenario_has_no_file_that_other_processes_could_open():
-    with pytest.raises(InputError, match="expected a file, or the name of an example"):
-        mars2d.tournament(mars2d.Scenario(), players="laws")  # type: ignore[arg-type]

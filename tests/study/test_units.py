@@ -50,10 +50,6 @@ def test_tables_and_their_heads_show_units():
     assert "<th>stop_time [s]</th><th>seed</th><th>end_time [s]</th>" in table._repr_html_()
 
 
-def test_what_is_stated_comes_before_what_is_known():
-    assert study("stop_time", {"stop_time": "min"}).unit("stop_time") == "min"
-
-
 def test_a_unit_that_is_stated_is_kept_in_the_file_and_no_other(tmp_path):
     path = tmp_path / "r.csv"
     table = study("stop_time", {"far": "1/s"})
@@ -75,8 +71,3 @@ def test_a_unit_that_is_stated_is_kept_in_the_file_and_no_other(tmp_path):
 def test_a_unit_that_can_not_be_is_said(texts, said):
     with pytest.raises(InputError, match=re.escape(said)):
         checked_units(parse_units(texts), ["far", "gain"])
-
-
-def test_units_are_given_as_a_dict():
-    with pytest.raises(InputError, match="units = 'm': expected a dict"):
-        checked_units("m", ["far"])

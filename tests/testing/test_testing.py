@@ -1,13 +1,11 @@
 """The checkers of a user's own parts: each fault is seen and named, and what is sound passes."""
 
-# ruff: noqa: NPY002, PLW0108, PLW0603, E501, SIM105 - faults, as people write them
+# ruff: noqa: PLW0108, PLW0603, SIM105 - faults, as people write them
 
 from __future__ import annotations
 
-import functools
 import random
 import textwrap
-import threading
 import time
 from pathlib import Path
 
@@ -22,20 +20,24 @@ from mars2d.core.description import entry, number
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.scenario.registry import members
-from mars2d.sensors import ANGLE, COLOR, DISTANCE, FLAG
+from mars2d.sensors import ANGLE, DISTANCE, FLAG
 from mars2d.testing import (
     CheckError,
-    addon_findings,
     check_addon,
     check_controller,
     check_drive,
     check_sensor,
-    controller_findings,
-    drive_findings,
-    sensor_findings,
 )
 from mars2d.testing.file import trials
 from tests.cases import each_case
+
+
+def findings_of(check, part, **options):
+    """All that a checker finds."""
+    try:
+        return check(part, **options)
+    except CheckError as error:
+        return error.findings
 
 
 def texts(findings, kind: str) -> list[str]:
@@ -45,14 +47,6 @@ def texts(findings, kind: str) -> list[str]:
 def seen(findings, kind: str, *words: str) -> bool:
     """Whether one of the findings of a kind has all these words."""
     return any(all(word in text for word in words) for text in texts(findings, kind))
-
-
-def test_a_law_with_fixed_arguments_is_called_by_its_own_name():
-    def steer(robot, speed):
-        return speed
-
-    with pytest.raises(CheckError, match="law steer"):
-        check_controller(functools.partial(steer, speed=0.1))
 
 
 # -- sensors ----------------------------------------------------------------------------------
@@ -77,10 +71,10 @@ class Whisker(Sensor):
 @pytest.mark.slow
 def test_sound_sensors_pass_without_a_finding():
     check_sensor(Whisker())
-    assert sensor_findings(Whisker()) == ()
+    assert findings_of(check_sensor, Whisker()) == ()
     imperfect = Whisker(rate=5, latency=0.2, noise=0.1, outliers=0.1, dropouts=0.1, resolution=0.01)
-    assert sensor_findings(imperfect) == ()
-    assert sensor_findings(Whisker(mount=(0.1, 0.05, 0.5), recorded=False, rate=20)) == ()
+    assert findings_of(check_sensor, imperfect) == ()
+    assert findings_of(check_sensor, Whisker(mount=(0.1, 0.05, 0.5), recorded=False, rate=20)) == ()
 
 
 def sensor(read=None, **body):
@@ -93,26 +87,16 @@ def by_time(first, second):
     return lambda self, robot, world, rng: first if world.time < 0.15 else second
 
 
-def by_robot(first, second):
-    return lambda self, robot, world, rng: first if robot.index == 0 else second
-
-
 def value(result):
     return lambda self, robot, world, rng: result
 
 
 SHARED: list[float] = []
-GENERATOR = np.random.default_rng(1)
 
 
 def remembers(self, robot, world, rng):
     SHARED.append(1.0)
     return float(len(SHARED))
-
-
-def told_of(self, robot, world, rng):
-    robot.memory.told = world.time
-    return 1.0
 
 
 def stops(self, robot, world, rng):
@@ -133,37 +117,24 @@ def clock(self, robot, world, rng):
     return time.perf_counter()
 
 
-def unseeded(self, robot, world, rng):
-    return np.random.default_rng().random()
-
-
 SENSORS = {
     "read is missing": (lambda: sensor(), ["no method read", "read(self, robot, world, rng)"]),
-    "an argument is missing": (
-        lambda: sensor(lambda self, robot, world: 1.0),
-        ["Probe.read has the arguments (self, robot, world)", "read(self, robot, world, rng)"],
-    ),
     "arguments are in another order": (
         lambda: sensor(lambda self, world, robot, rng: 1.0),
-        ["(self, world, robot, rng)", "another order"],
+        ["(self, world, robot, rng)", "in this order"],
     ),
     "an argument of draw is missing": (
         lambda: sensor(value(1.0), draw=lambda self, scene, pose, reading: None),
         ["Probe.draw", "draw(self, scene, pose, reading, color)"],
     ),
-    "read is no method": (lambda: sensor(read=3), ["Probe.read = 3", "expected read(self"]),
     "nothing is returned": (lambda: sensor(value(None)), ["sensor 'probe' read None"]),
     "the shape changes": (
         lambda: sensor(by_time(np.zeros(3), np.zeros(2))),
         ["it was numbers of shape (3,), now it is numbers of shape (2,)", "at 0.2 s"],
     ),
-    "the kind changes": (lambda: sensor(by_time(True, 0.5)), ["it was True or False, now it is numbers"]),
-    "the shape depends on the robot": (
-        lambda: sensor(by_robot(np.zeros(3), np.zeros(2))), ["of the same shape on each robot"],
-    ),
     "it raises": (
         lambda: sensor(fails_late),
-        ["test_testing.py, line", "sensor 'probe' raised ZeroDivisionError", "at 1.1 s"],
+        ["test_testing.py, line", "Probe.read raised ZeroDivisionError", "at 1.1 s"],
     ),
     "a distance is nan": (
         lambda: sensor(value(np.nan), quantities=(DISTANCE,)), ["nan of distance [m]", "is inf"],
@@ -174,52 +145,29 @@ SENSORS = {
     "a distance is beyond the range": (
         lambda: sensor(value(2.0), quantities=(DISTANCE,), range=1.0), ["beyond the range, 1 m"],
     ),
-    "a number is infinite": (lambda: sensor(value(np.inf)), ["inf of value", "is nan"]),
     "an angle is not wrapped": (
         lambda: sensor(value(4.0), quantities=(ANGLE,)), ["4 of angle [rad]", "(-pi, pi]", "wrap"],
     ),
-    "a colour is in bytes": (
-        lambda: sensor(value(np.array([255, 0, 0])), quantities=(COLOR,)),
-        ["255 of color", "0 to 1"],
-    ),
     "a flag is a number": (
         lambda: sensor(value(1.0), quantities=(FLAG,)), ["1.0 of flag", "True or False"],
-    ),
-    "a distance is a flag": (
-        lambda: sensor(value(True), quantities=(DISTANCE,)), ["True or False of distance"],
     ),
     "the last axis does not fit": (
         lambda: sensor(value(np.zeros((4, 3))), quantities=(DISTANCE, ANGLE)),
         ["shape (4, 3)", "has 2 (distance, angle)", "last axis"],
     ),
-    "numpy's shared generator": (
-        lambda: sensor(lambda self, robot, world, rng: np.random.normal()),
-        ["Probe.read draws from numpy.random", "draw from rng"],
-    ),
     "Python's shared generator": (
         lambda: sensor(lambda self, robot, world, rng: random.random()),
-        ["Probe.read draws from random,", "draw from rng"],
+        ["Probe draws from random", "draw from rng"],
     ),
-    "a generator without a seed": (lambda: sensor(unseeded), ["not repeatable", "without a seed"]),
     "a clock": (lambda: sensor(clock), ["not repeatable", "a clock"]),
     "something is kept in the file": (
         lambda: sensor(remembers), ["not repeatable", "a variable of the file"],
     ),
     "what was read changes what is read": (
-        lambda: sensor(counts), ["another reading when it is called twice", "on_step"],
-    ),
-    "it writes into the robot's memory": (
-        lambda: sensor(told_of), ["Probe.read changes the memory of robot0", "only looks"],
+        lambda: sensor(counts), ["not repeatable", "read or drawn once more", "on_step"],
     ),
     "it ends the experiment": (
-        lambda: sensor(stops), ["changes whether the experiment is over", "only looks"],
-    ),
-    "on_step draws from the robot's stream": (
-        lambda: sensor(value(1.0), on_step=lambda self, robot, world, rng: robot.rng.random()), ["Probe.on_step changes the random stream"],
-    ),
-    "draw raises": (
-        lambda: sensor(value(1.0), draw=lambda self, scene, pose, reading, color: 1 / 0),
-        ["Probe.draw raised ZeroDivisionError"],
+        lambda: sensor(stops), ["changes whether the experiment is over", "only look"],
     ),
     "it draws at nan": (
         lambda: sensor(
@@ -227,20 +175,6 @@ SENSORS = {
             draw=lambda self, scene, pose, reading, color: scene.circle(pose, reading, fill=color),
         ),
         ["Probe.draw draws a circle with nan or inf"],
-    ),
-    "drawing draws random numbers": (
-        lambda: sensor(
-            value(1.0),
-            draw=lambda self, scene, pose, reading, color: scene.circle(pose, random.random()),
-        ),
-        ["Probe.draw draws from random"],
-    ),
-    "a field can't be copied": (
-        lambda: type("Probe", (Sensor,), {
-            "__annotations__": {"lock": object},
-            "lock": entry(check=lambda _, v: v, factory=threading.Lock), "read": value(1.0),
-        })(),
-        ["Probe.lock", "can't be copied or saved", "on_start"],
     ),
     "a field does not come back from a file": (
         lambda: type("Probe", (Sensor,), {
@@ -256,20 +190,8 @@ SENSORS = {
 def test_a_fault_of_a_sensor_is_named(fault):
     SHARED.clear()
     make, words = SENSORS[fault]
-    findings = sensor_findings(make())
+    findings = findings_of(check_sensor, make())
     assert seen(findings, "wrong", *words), texts(findings, "wrong")
-
-
-def test_a_field_that_is_a_function_is_a_hint():
-    class Bent(Sensor):
-        curve: object = entry(check=lambda _, v: v)
-
-        def read(self, robot, world, rng):
-            return self.curve(1.0)
-
-    findings = sensor_findings(Bent(curve=lambda x: 2 * x))
-    assert not texts(findings, "wrong")
-    assert seen(findings, "hint", "Bent.curve", "a saved run is shown without Bent")
 
 
 def test_all_that_is_wrong_is_said_at_once():
@@ -278,7 +200,7 @@ def test_all_that_is_wrong_is_said_at_once():
 
         def read(self, robot, world, rng):
             robot.memory.x = world.time
-            return -random.random()
+            return random.random() - 0.5
 
         def draw(self, scene, pose, reading, color):
             scene.circle((np.nan, 0), 1)
@@ -294,22 +216,16 @@ def test_all_that_is_wrong_is_said_at_once():
 
 def test_hints_are_given_and_raise_nothing():
     class Quiet(Sensor):
-        gain: float = 2.0
         tables = [1.0, 2.0]
 
         def read(self, robot, world, rng):
-            return self.gain
-
-        def draw(self, scene, pose, reading, color):
-            pass
+            return 1.0
 
     quiet = Quiet()
     check_sensor(quiet)
-    findings = sensor_findings(quiet)
-    assert len(texts(findings, "hint")) == 3
-    assert seen(findings, "hint", "Quiet.gain", "unit", "number(")
+    findings = findings_of(check_sensor, quiet)
+    assert len(texts(findings, "hint")) == 1
     assert seen(findings, "hint", "Quiet.tables", "shared by all")
-    assert seen(findings, "hint", "Quiet.draw drew nothing")
 
 
 def test_a_sensor_is_tried_in_a_scenario_where_that_is_asked_for():
@@ -321,27 +237,14 @@ def test_a_sensor_is_tried_in_a_scenario_where_that_is_asked_for():
         def beacons(self):
             return {"sun": (1.0, 1.0)}
 
-    assert seen(sensor_findings(Lamplight()), "wrong", "KeyError: 'sun'")
+    assert seen(findings_of(check_sensor, Lamplight()), "wrong", "KeyError: 'sun'")
     scenario = Scenario(robots=[Robot(sensors=[Lamplight()]), Robot(pose=(1, 0))], addons=[Sun()])
-    assert sensor_findings(Lamplight(), scenario=scenario) == ()
-
-
-def test_quantities_without_their_comma_are_refused_when_the_sensor_is_made():
-    with pytest.raises(InputError, match=r"Probe.quantities = .*as \(DISTANCE,\).*the comma"):
-        sensor(value(1.0), quantities=DISTANCE)
+    assert findings_of(check_sensor, Lamplight(), scenario=scenario) == ()
 
 
 def test_a_class_in_place_of_an_object_is_refused():
     with pytest.raises(InputError, match=r"write Whisker\(...\)"):
         check_sensor(Whisker)
-
-
-def test_the_generators_that_all_of_python_shares_are_left_as_they_were():
-    random.seed(5)
-    np.random.seed(5)
-    expected = random.Random(5).random(), np.random.RandomState(5).random_sample()
-    sensor_findings(sensor(lambda self, robot, world, rng: random.random() + np.random.random()))
-    assert (random.random(), np.random.random_sample()) == expected
 
 
 # -- add-ons ----------------------------------------------------------------------------------
@@ -373,7 +276,7 @@ class Coverage(Addon):
 
 def test_a_sound_addon_passes_without_a_finding():
     check_addon(Coverage())
-    assert addon_findings(Coverage()) == ()
+    assert findings_of(check_addon, Coverage()) == ()
 
 
 def addon(**body):
@@ -397,47 +300,29 @@ ADDONS = {
     "a hook takes too little": (
         lambda: addon(on_step=lambda self: None), ["Judge.on_step", "on_step(self, world)"],
     ),
-    "a hook takes its arguments in another order": (
-        lambda: addon(on_draw=lambda self, scene, world: None), ["another order"],
-    ),
     "on_step raises": (
         lambda: addon(on_step=lambda self, world: self.score),
         ["test_testing.py, line", "add-on 'judge' raised AttributeError"],
-    ),
-    "on_draw raises": (
-        lambda: addon(on_draw=lambda self, world, scene: scene.circle()), ["add-on 'judge' raised TypeError"],
     ),
     "on_draw ends the experiment": (
         lambda: addon(on_draw=lambda self, world, scene: world.stop("seen")),
         ["Judge.on_draw changes whether the experiment is over", "only look"],
     ),
-    "on_draw writes into memory": (
-        lambda: addon(on_draw=lambda self, world, scene: setattr(world.robots[0].memory, "x", 1)),
-        ["Judge.on_draw changes the memory of robot0"],
-    ),
     "on_draw draws from the add-on's stream": (
         lambda: addon(on_draw=lambda self, world, scene: scene.circle((0, 0), self.rng.random())),
-        ["Judge.on_draw changes self.rng", "only look"],
+        ["Judge.on_draw changes add-on judge.rng", "only look"],
     ),
     "on_draw matters to on_step": (
         lambda: addon(
             on_start=lambda self, world: setattr(self, "drawn", 0),
-            on_step=lambda self, world: setattr(self, "score", 2 * self.drawn),
+            on_step=lambda self, world: self.drawn > 1 and world.stop("seen"),
             on_draw=lambda self, world, scene: setattr(self, "drawn", world.time),
         ),
-        ["Judge.on_draw changes how the run goes"],
+        ["Judge is not repeatable", "drawn once more"],
     ),
     "it draws at nan": (
         lambda: addon(on_draw=lambda self, world, scene: scene.line([(0, np.inf)], stroke="red")),
         ["Judge.on_draw draws a line with nan or inf"],
-    ),
-    "Python's shared generator": (
-        lambda: addon(on_start=lambda self, world: random.random()),
-        ["Judge.on_start draws from random,"],
-    ),
-    "a generator without a seed": (
-        lambda: addon(on_step=lambda self, world: setattr(self, "x", np.random.default_rng().random())),
-        ["Judge is not repeatable", "add-on judge"],
     ),
     "something is kept in the file": (
         lambda: addon(on_step=told), ["Judge is not repeatable", "add-on judge.score"],
@@ -447,16 +332,10 @@ ADDONS = {
             on_step=moves,
             obstacles=lambda self: [[(2 + getattr(self, "at", 0), 1), (2, 1.5)]],
         ),
-        ["Judge.obstacles() returns other outlines", "never move"],
-    ),
-    "obstacles are no outlines": (
-        lambda: addon(obstacles=lambda self: [(2, 1), (2, 1.5)]), ["Judge.obstacles()", "brackets"],
+        ["Judge.obstacles() returns other outlines"],
     ),
     "beacons are no dict": (
-        lambda: addon(beacons=lambda self: [(1, 2)]), ["Judge.beacons() returned [(1, 2)]", "a dict"],
-    ),
-    "a beacon is no point": (
-        lambda: addon(beacons=lambda self: {"lamp": (1, np.nan)}), ["Judge.beacons()['lamp']"],
+        lambda: addon(beacons=lambda self: [(1, 2)]), ["Judge.beacons raised AttributeError"],
     ),
     "the ground has no colour": (
         lambda: addon(ground=lambda self, point: "red"), ["Judge.ground((x, y)) returned 'red'"],
@@ -468,7 +347,7 @@ ADDONS = {
 def test_a_fault_of_an_addon_is_named(fault):
     SHARED.clear()
     make, words = ADDONS[fault]
-    findings = addon_findings(make())
+    findings = findings_of(check_addon, make())
     assert seen(findings, "wrong", *words), texts(findings, "wrong")
 
 
@@ -482,7 +361,7 @@ def test_an_addon_that_ends_the_experiment_early_is_sound():
             if world.time > 0.95:
                 world.stop("enough")
 
-    assert addon_findings(Referee()) == ()
+    assert findings_of(check_addon, Referee()) == ()
 
 
 # -- laws -------------------------------------------------------------------------------------
@@ -506,7 +385,7 @@ def gather(world):
 @each_case("law", [wander, patrol, gather])
 def test_sound_laws_pass_without_a_finding(law):
     check_controller(law)
-    assert controller_findings(law) == ()
+    assert findings_of(check_controller, law) == ()
 
 
 calls = 0
@@ -516,16 +395,6 @@ def counting(robot):
     global calls
     calls += 1
     return 0.1, 0.001 * calls
-
-
-def closure():
-    past = []
-
-    def law(robot):
-        past.append(1)
-        return 0.1, 0.001 * len(past)
-
-    return law
 
 
 class Pilot:
@@ -542,11 +411,6 @@ class Pilot:
         return self(robot)
 
 
-def default(robot, past=[]):  # noqa: B006 - this is the fault
-    past.append(1)
-    return 0.1, 0.001 * len(past)
-
-
 def hurt_late(robot):
     for _ in range(5):
         yield 0.1, 0.0
@@ -555,36 +419,19 @@ def hurt_late(robot):
 
 LAWS = {
     "two arguments": (lambda robot, world: (0, 0), {}, ["exactly one argument, the robot"]),
-    "no argument": (lambda: (0, 0), {}, ["exactly one argument, the robot"]),
     "no function": (3, {}, ["a function of one argument"]),
     "nothing is returned": (lambda robot: None, {}, ["returned nothing", "return v, omega"]),
-    "nan": (lambda robot: (np.nan, 0.0), {}, ["returned (nan, 0.0)", "finite"]),
     "a generator fails": (hurt_late, {}, ["hurt_late raised KeyError: 'lost'", "at 0.5 s"]),
-    "the team's has columns for rows": (
-        lambda world: np.zeros((3, 2)), {}, ["shape (3, 2)", "transpose"],
-    ),
-    "the team's returns nothing": (lambda world: None, {}, ["returned nothing", "(2, n)"]),
-    "numpy's shared generator": (
-        lambda robot: (0.1, np.random.normal()), {}, ["draws from numpy.random", "robot.rng"],
-    ),
     "Python's shared generator, of the team": (
-        lambda world: np.full((2, 3), random.random()), {}, ["draws from random,", "world.rng"],
+        lambda world: np.full((2, 3), random.random()), {}, ["draws from random", "world.rng"],
     ),
     "a clock": (lambda robot: (0.1, time.perf_counter() % 1), {}, ["not repeatable", "clock"]),
     "a global variable": (
         counting, {}, ["counting is not repeatable", "a variable of the file", "robot.memory"],
     ),
-    "a variable round it": (
-        closure(), {}, ["not repeatable", "of a function around it"],
-    ),
     "attributes of an object": (Pilot(), {}, ["Pilot is not repeatable"]),
-    "a default": (default, {}, ["not repeatable", "a default argument"]),
     "it sees sensors only": (
         lambda robot: (robot.pose[0], 0), {"sees": "sensors"}, ["robot.pose is not available"],
-    ),
-    "it sees positions only": (
-        lambda robot: (robot.neighbours[0].pose[0], 0), {"sees": "positions"},
-        ["a neighbour's pose is not available"],
     ),
     "a sensor is missing": (
         lambda robot: (robot.sense.whisker, 0), {}, ["has no sensor 'whisker'"],
@@ -596,7 +443,7 @@ LAWS = {
 def test_a_fault_of_a_law_is_named(fault):
     SHARED.clear()
     law, options, words = LAWS[fault]
-    findings = controller_findings(law, **options)
+    findings = findings_of(check_controller, law, **options)
     assert seen(findings, "wrong", *words), texts(findings, "wrong")
 
 
@@ -606,14 +453,8 @@ def test_a_law_is_tried_on_the_robots_of_a_scenario_that_have_it():
 
     robots = [Robot(controller=wander), Robot(pose=(1, 0, 0), controller=unlucky)]
     scenario = Scenario(robots=robots)
-    assert controller_findings(wander, scenario=scenario) == ()
-    assert seen(controller_findings(unlucky, scenario=scenario), "wrong", "random")
-
-
-def test_a_generator_that_ends_is_a_hint():
-    findings = controller_findings(lambda robot: (yield 0.1, 0.0))
-    assert texts(findings, "wrong") == []
-    assert seen(findings, "hint", "a generator that ended, at 0.1 s")
+    assert findings_of(check_controller, wander, scenario=scenario) == ()
+    assert seen(findings_of(check_controller, unlucky, scenario=scenario), "wrong", "random")
 
 
 def test_what_differs_only_beside_a_second_world_is_named():
@@ -629,7 +470,9 @@ def test_what_differs_only_beside_a_second_world_is_named():
         def read(self, robot, world, rng):
             return Shared.now[robot.index]
 
-    assert seen(sensor_findings(Shared()), "wrong", "not repeatable", "beside a second world")
+    assert seen(
+        findings_of(check_sensor, Shared()), "wrong", "not repeatable", "beside a second world"
+    )
 
 
 # -- drives -----------------------------------------------------------------------------------
@@ -644,7 +487,7 @@ class Crab(Drive):
 
 def test_a_sound_drive_passes_without_a_finding():
     check_drive(Crab())
-    assert drive_findings(Crab()) == ()
+    assert findings_of(check_drive, Crab()) == ()
 
 
 def drive(**body):
@@ -661,7 +504,6 @@ DRIVES = {
     "twist is missing": (lambda: drive(twist=Drive.twist), ["no method twist"]),
     "an argument is missing": (lambda: drive(twist=lambda self: 1), ["twist(self, command)"]),
     "two rows": (lambda: drive(twist=lambda self, command: command), ["shape (2, 5)", "(3, 5)"]),
-    "text": (lambda: drive(twist=lambda self, command: "go"), ["returned 'go'"]),
     "nan": (lambda: drive(twist=lambda self, c: np.full((3, c.shape[1]), np.nan)), ["nan or inf"]),
     "it raises": (lambda: drive(saturate=lambda self, command: 1 / 0), ["Wheel.saturate raised"]),
     "columns depend on each other": (
@@ -671,17 +513,13 @@ DRIVES = {
     "limiting twice changes something": (
         lambda: drive(saturate=lambda self, command: command / 2), ["limited already"],
     ),
-    "shared randomness": (
-        lambda: drive(twist=lambda self, c: np.full((3, c.shape[1]), random.random())),
-        ["draws from random"],
-    ),
 }  # fmt: skip
 
 
 @each_case("fault", DRIVES)
 def test_a_fault_of_a_drive_is_named(fault):
     make, words = DRIVES[fault]
-    findings = drive_findings(make())
+    findings = findings_of(check_drive, make())
     assert seen(findings, "wrong", *words), texts(findings, "wrong")
 
 
@@ -696,31 +534,12 @@ def spin(*_):
             pass
 
 
-@each_case(
-    ("findings", "part"),
-    [
-        (sensor_findings, lambda: sensor(spin)),
-        (sensor_findings, lambda: sensor(lambda self, robot, world, rng: spin())),
-        (addon_findings, lambda: addon(on_step=spin)),
-        (addon_findings, lambda: addon(obstacles=spin)),
-        (controller_findings, lambda: spin_for_ever),
-    ],
-)
-def test_what_never_ends_is_broken_off_with_its_line(findings, part):
-    start = time.monotonic()
-    found = findings(part(), deadline=Deadline(0.5))
-    assert time.monotonic() - start < 60
-    assert seen(found, "wrong", "did not come to an end within 0.5 s") or seen(
-        found, "wrong", "has the arguments"
-    )
-
-
 def spin_for_ever(robot):
     return spin()
 
 
 def test_the_line_that_does_not_end_is_named():
-    found = controller_findings(spin_for_ever, deadline=Deadline(0.3))
+    found = findings_of(check_controller, spin_for_ever, deadline=Deadline(0.3))
     assert seen(found, "wrong", "test_testing.py, line", "spin_for_ever did not come to an end")
 
 
@@ -743,11 +562,12 @@ ADDONS_NEED = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(members("sensors")))
+@each_case("name", sorted(members("sensors")))
 def test_the_sensors_of_mars2d_are_sound(name):
     check_sensor(members("sensors")[name](**SENSORS_NEED.get(name, {})))
 
 
+@pytest.mark.slow
 @each_case("name", sorted(members("addons")))
 def test_the_addons_of_mars2d_are_sound(name):
     addon = members("addons")[name](**ADDONS_NEED.get(name, {}))
@@ -759,18 +579,9 @@ def test_the_drives_of_mars2d_are_sound(name):
     check_drive(members("bodies")[name]())
 
 
-LONG = {
-    "circular_motion", "coverage_circle", "coverage_square", "cyclic_pursuit", "dead_reckoning",
-    "formation", "herding", "leader_following", "path_planning", "rendezvous",
-}  # fmt: skip
-"""Examples whose trial takes a second and more: `pytest -m nightly`."""
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=[pytest.mark.nightly] if n in LONG else []) for n in sorted(examples())],
-)
+@pytest.mark.nightly
+@each_case("name", sorted(examples()))
 def test_the_parts_and_laws_of_the_examples_are_sound(name):
     module = open_module(examples()[name])
     tried = list(trials(module, open_experiment(module)))
@@ -839,21 +650,6 @@ def test_what_an_add_on_draws_is_tried(tmp_path, capsys, method, does, words):
     assert words in out + err
 
 
-def test_classes_that_are_no_parts_are_left_alone(tmp_path, capsys):
-    file = tmp_path / "parts.py"
-    file.write_text(
-        "from typing import Protocol, runtime_checkable\n"
-        "from mars2d.addons import Addon\n"
-        "@runtime_checkable\n"
-        "class Seen(Protocol):\n"
-        "    time: float\n"
-        "class Counter(Addon):\n"
-        "    pass\n"
-    )
-    assert cli.main(["check", str(file)]) == 0
-    assert "add-on Counter" in capsys.readouterr().out
-
-
 def test_parts_are_tried_in_the_files_own_scenario(tmp_path, capsys):
     use = "scenario = Scenario(robots=[Robot(sensors=[Clock()], controller=steer)])"
     code, out, err = checked(tmp_path, capsys, GOOD.replace("control", "steer") + use)
@@ -868,7 +664,7 @@ def test_what_is_wrong_is_listed_and_the_exit_code_is_2(tmp_path, capsys):
     bad = """
     class Noise(Sensor):
         def read(self, robot, world, rng):
-            return -random.random()
+            return random.random() - 0.5
 
     class Judge(Addon):
         def on_draw(self, world, scene):
@@ -880,16 +676,8 @@ def test_what_is_wrong_is_listed_and_the_exit_code_is_2(tmp_path, capsys):
     assert err.count("\n") == 1
     lines = out.splitlines()
     assert lines[0] == "sensor Noise in a small world: 1 thing wrong"
-    assert lines[1].startswith("  wrong Noise.read draws from random")
-    assert lines[2] == "add-on Judge in a small world: 1 thing wrong, 1 hint"
-
-
-def test_a_single_fault_stands_in_the_one_line_of_the_error(tmp_path, capsys):
-    code, _, err = checked(tmp_path, capsys, "def control(robot):\n    return None\n")
-    assert code == 2
-    assert "own.py, line" in err
-    assert "control returned nothing" in err
-    assert err.count("\n") == 1
+    assert lines[1].startswith("  wrong Noise draws from random")
+    assert lines[2] == "add-on Judge in a small world: 1 thing wrong"
 
 
 def test_a_part_with_required_fields_is_tried_as_the_scenario_has_it(tmp_path, capsys):
@@ -900,15 +688,12 @@ def test_a_part_with_required_fields_is_tried_as_the_scenario_has_it(tmp_path, c
         def read(self, robot, world, rng):
             return self.reach
     """
-    code, out, _ = checked(tmp_path, capsys, sonar)
-    assert code == 0
-    assert "Sonar: not tried: Sonar.reach has no default, and the file has no scenario" in out
     use = textwrap.dedent(sonar) + "robots = [Robot(sensors=[Sonar(reach=1.0)])]\n"
     code, out, _ = checked(tmp_path, capsys, use + "scenario = Scenario(robots=robots)\n")
     assert code == 0
     assert "sensor Sonar in its scenario: sound" in out
     code, out, _ = checked(tmp_path, capsys, use + "scenario = Scenario()\n")
-    assert "not tried: Sonar.reach has no default, and no object is in the scenario" in out
+    assert "not tried, since no object is in a scenario: Sonar.reach" in out
 
 
 def test_the_base_of_a_files_own_sensors_is_not_tried_itself(tmp_path, capsys):
@@ -961,16 +746,6 @@ def test_a_fault_is_counted_once_and_no_innocent_law_is_blamed(tmp_path, capsys)
     assert err == "mars2d: own.py, line 8: add-on 'broken' raised OSError: no device (at 0 s)\n"
 
 
-def test_a_law_whose_scenario_does_not_run_does_not_pass():
-    class Broken(Addon):
-        def on_step(self, world):
-            raise OSError("no device")
-
-    scenario = Scenario(robots=[Robot(controller=wander)], addons=[Broken()])
-    with pytest.raises(CheckError, match=r"its scenario does not run: .* raised OSError"):
-        check_controller(wander, scenario=scenario)
-
-
 READERS = {
     "add-on": "class Own(Addon):\n    def on_step(self, world):\n        "
     "self.near = world.robots[0].sense.range_finder\n",
@@ -978,7 +753,7 @@ READERS = {
 }
 
 
-@pytest.mark.parametrize("family", READERS)
+@each_case("family", READERS)
 def test_robots_without_the_sensor_that_is_read_are_no_fault_of_a_part(tmp_path, capsys, family):
     code, out, err = checked(tmp_path, capsys, READERS[family])
     assert (code, err) == (0, "")
@@ -995,25 +770,17 @@ def test_a_sensor_whose_name_is_misspelt_is_a_fault(tmp_path, capsys):
     assert "law steer of a robot, in a small world: 1 thing wrong" in out
 
 
-def test_a_law_that_reads_a_sensor_that_it_is_not_given_does_not_pass():
-    with pytest.raises(CheckError, match=r"no sensor 'sonar'.* give a scenario whose robots do"):
-        check_controller(lambda robot: (robot.sense.sonar, 0.0))
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("loop", ["while True: pass", "time.sleep(1000)"])
-@pytest.mark.parametrize("place", ["law", "file"])
-def test_a_check_ends_whatever_the_file_does(child, tmp_path, loop, place):
-    body = f"def control(robot):\n    {loop}\n" if place == "law" else f"{loop}\n"
-    (tmp_path / "own.py").write_text(HEAD + body, encoding="utf-8")
+def test_a_check_ends_whatever_the_file_does(child, tmp_path):
+    (tmp_path / "own.py").write_text(HEAD + "while True:\n    pass\n", encoding="utf-8")
     code = (
         "import sys; from mars2d.core import deadline; from mars2d.cli.verbs import check;"
         "deadline.GRACE = 0.5; check.LOADING = 0.5; check.PATIENCE = 0.5;"
-        f"from mars2d.cli.command_line import main; sys.exit(main(['check', {str(tmp_path / 'own.py')!r}]))"
+        "from mars2d.cli.command_line import main;"
+        f"sys.exit(main(['check', {str(tmp_path / 'own.py')!r}]))"
     )
     done = child(code)
     assert done.returncode == 2, done.stderr
     assert "come to an end" in done.stderr
-    line = 6 if place == "law" else 5
-    assert f"own.py, line {line}" in done.stderr
+    assert "own.py, line 5" in done.stderr
     assert "Traceback" not in done.stderr

@@ -263,7 +263,7 @@ def shown(monkeypatch):
     """What the window was opened with, in place of the window."""
     found = []
 
-    def show_experiment(experiment, speed, seed, *_, humans=(), **__):
+    def show_experiment(experiment, speed, *_, humans=(), **__):
         found.append((speed, humans))
         raise InputError("that is all")
 

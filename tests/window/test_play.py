@@ -52,7 +52,7 @@ def catch(tmp_path):
 def opened(source, memory, people=(), size=(1280, 720), text=1.0, **options):
     experiment = open_experiment(source, options)
     window = Window(Timeline(experiment), 1.0, size, Preferences(text=text))
-    window.play(memory, game_of(experiment, options), people)
+    window.play(memory, game_of(experiment), people)
     return window
 
 
@@ -93,10 +93,11 @@ def test_scores_are_kept_by_game_and_role(memory):
     assert Scores(again, "corner_game, mu = 0.8").of("evader").won == 1
 
 
-def test_a_file_of_ones_own_is_known_by_its_path_and_its_settings(catch):
+def test_a_file_of_ones_own_is_known_by_its_path_and_its_options(catch):
     experiment = open_experiment(catch, {})
-    assert game_of(experiment, {}) == str(catch)
-    assert game_of(experiment, {"stop_time": 9, "mu": 1}) == f"{catch}, mu = 1, stop_time = 9"
+    assert game_of(experiment) == str(catch)
+    again = experiment.with_options({"stop_time": 9, "sampling_time": 0.5})
+    assert game_of(again) == f"{catch}, sampling_time = 0.5, stop_time = 9"
 
 
 # -- the end of a game ----------------------------------------------------------------------------
@@ -125,7 +126,7 @@ def test_who_stays_free_has_won_and_a_better_time_is_news(memory, catch):
     assert window.game.result.words == "You win"
     assert window.game.tally("evader") == Tally(played=1, won=1)
     window = opened(catch, memory, [1])
-    Scores(memory, game_of(open_experiment(catch), {})).add("evader", won=False, time=0.1)
+    Scores(memory, game_of(open_experiment(catch))).add("evader", won=False, time=0.1)
     run_to_the_end(window)
     assert window.game.result.news.startswith("Your best: ")
 

@@ -294,7 +294,7 @@ def recording(room, tmp_path):
     from mars2d.world.loop import simulate
 
     path = tmp_path / "room.npz"
-    simulate(open_experiment(room, {"stop_time": 6.0}), 1).record.save(path)
+    simulate(open_experiment(room, {"stop_time": 6.0}, seed=1)).record.save(path)
     return path
 
 

@@ -41,7 +41,7 @@ def stepped(world, steps=STEPS):
 
 @each_case("name", sorted(set(examples()) - GENERATORS))
 def test_a_fork_goes_the_way_of_its_world(name):
-    world = stepped(open_world(open_experiment(name), 0))
+    world = stepped(open_world(open_experiment(name, seed=0)))
     fork = world.fork()
     before = world.record.digest
     stepped(fork)
@@ -55,7 +55,7 @@ def test_a_fork_goes_the_way_of_its_world(name):
 
 @each_case("name", ["sumo", "wall_follower"])
 def test_a_generator_that_runs_is_refused_by_name_and_may_be_left_out(name):
-    world = stepped(open_world(open_experiment(name), 0))
+    world = stepped(open_world(open_experiment(name, seed=0)))
     with pytest.raises(InputError, match=r"the law \w+ is a generator.*fork\(laws=False\)"):
         world.fork()
     fork = world.fork(laws=False)

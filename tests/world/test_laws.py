@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Holonomic, LawError, Robot, Scenario, World
-from mars2d.sensors import Proximity, Sensor
+from mars2d import LawError, Robot, Scenario, World
+from mars2d.sensors import Proximity
 from tests.cases import each_case
 
 
 def team(*laws, **fields) -> Scenario:
     robots = [Robot(pose=(0, i, 0), controller=law, **fields) for i, law in enumerate(laws)]
     return Scenario(robots=robots, stop_time=0.5)
-
-
-def commands(scenario: Scenario, control=None) -> list:
-    return mars2d.run(scenario, control=control).command.tolist()
 
 
 # -- kinds of laws --------------------------------------------------------------------------
@@ -50,16 +44,6 @@ def test_when_a_generator_returns_its_robot_stands_still():
     assert record.command[0, :, 0].tolist() == [0.3, 0.1]
     assert not record.command[1:].any()
     assert record.finished
-
-
-def test_when_a_teams_generator_returns_the_team_stands_still():
-    def brief(world):
-        yield np.full((2, 3), 0.1)
-        yield np.full((2, 3), 0.2)
-
-    record = mars2d.run(Scenario(robots=3, stop_time=0.5), control=brief)
-    assert record.command[:, 0, 0].tolist() == [0.1, 0.2, 0, 0, 0, 0]
-    assert not record.command[2:].any()
 
 
 def test_each_robot_runs_its_own_copy_of_a_generator():
@@ -103,15 +87,6 @@ def test_without_a_law_robots_stand_still():
 )  # fmt: skip
 def test_a_robots_command_is_two_numbers_in_any_container(value):
     assert mars2d.run(team(lambda _robot: value)).command[0].ravel().tolist() == [0.2, 0.1]
-
-
-def test_whole_numbers_are_numbers():
-    scenario = Scenario(robots=[Robot(drive=Holonomic(max_linear_speed=5))], stop_time=0)
-    assert commands(scenario, lambda _world: np.array([[1], [2]])) == [[[1], [2]]]
-
-
-def test_a_team_of_one_may_return_just_two_numbers():
-    assert commands(Scenario(stop_time=0), lambda _world: (0.2, 0.1)) == [[[0.2], [0.1]]]
 
 
 # -- messages -------------------------------------------------------------------------------
@@ -176,25 +151,6 @@ def test_a_law_that_raises_is_shown_with_its_innermost_own_line():
     assert isinstance(raised.value.__cause__, np.linalg.LinAlgError)
 
 
-def test_a_law_of_which_parameters_were_set_is_called_by_its_own_name():
-    def hurry(robot, speed):
-        return None if speed > 1 else (speed, 0.0)
-
-    scenario = Scenario(robots=[Robot(controller=partial(partial(hurry), speed=2.0))])
-    with pytest.raises(LawError, match="hurry returned nothing") as caught:
-        World(scenario).step()
-    assert str(caught.value.where).startswith("test_laws.py, line ")
-
-
-def test_a_generator_that_raises_is_shown_as_well():
-    def law(_robot):
-        yield 0, 0
-        raise RuntimeError("second")
-
-    with pytest.raises(LawError, match="law raised RuntimeError: second"):
-        mars2d.run(team(law))
-
-
 # -- what a law may see ---------------------------------------------------------------------
 
 
@@ -217,42 +173,6 @@ def ask(question, *, sees="full", sensors=()):
     ]
     mars2d.run(Scenario(robots=robots, stop_time=0))
     return answers[0]
-
-
-def test_a_law_with_full_information_sees_poses_and_neighbours():
-    assert ask(lambda robot: robot.pose.tolist()) == [1, 2, 3]
-    assert ask(lambda robot: [(n.index, n.name, n.pose.tolist()) for n in robot.neighbours]) == [
-        (1, "other", [4, 3, 2])
-    ]
-    assert ask(lambda robot: (robot.index, robot.name, robot.time)) == (0, "me", 0.0)
-    assert ask(lambda robot: robot.command.tolist()) == [0, 0]
-    assert ask(lambda robot: len(robot.contacts)) == 0
-
-
-@each_case("what", ["pose", "neighbours", "contacts"])
-def test_a_law_that_sees_sensors_only_may_see_neither_pose_nor_neighbours(what):
-    message = f"this law sees sensors only: robot.{what} is not available"
-    with pytest.raises(LawError, match=message) as raised:
-        ask(lambda robot: getattr(robot, what), sees="sensors")
-    assert "test_laws.py, line" in str(raised.value)
-
-
-def test_a_law_that_sees_sensors_only_may_use_the_rest():
-    def question(robot):
-        assert robot.rng.random() < 1
-        robot.memory.x = 1
-        return robot.sense.proximity, robot.time, robot.index, robot.name
-
-    found = ask(question, sees="sensors", sensors=[Proximity(range=9)])
-    assert found == (True, 0.0, 0, "me")
-
-
-def test_a_sensor_knows_the_pose_even_if_the_law_does_not():
-    class Compass(Sensor):
-        def read(self, robot, world, rng):
-            return robot.pose[2]
-
-    assert ask(lambda robot: robot.sense.compass, sees="sensors", sensors=[Compass()]) == 3
 
 
 @each_case(

@@ -12,34 +12,6 @@ from mars2d.output.pages.notebook import Shown
 from mars2d.sensors import RangeFinder
 from tests.cases import each_case
 
-MACHINERY = {
-    "rebuild", "change", "follow", "break_off", "go_on", "recorder", "engine", "simulation",
-    "operator", "watch",
-}  # fmt: skip
-
-
-def reached(start, depth=5):
-    """Every object of the package or its containers that public attributes lead to, by its path."""
-    found, known, level = {}, set(), [("subject", start)]
-    for _ in range(depth):
-        following = []
-        for path, thing in level:
-            if id(thing) in known:
-                continue
-            known.add(id(thing))
-            found[path] = thing
-            if isinstance(thing, (list, tuple)):
-                following += [(f"{path}[{i}]", item) for i, item in enumerate(thing[:3])]
-            elif type(thing).__module__.startswith(("mars2d", "types")):
-                for name in dir(thing):
-                    if not name.startswith("_"):
-                        try:
-                            following.append((f"{path}.{name}", getattr(thing, name)))
-                        except Exception:
-                            continue
-        level = following
-    return found
-
 
 def scenario(law=None, **fields):
     return Scenario(
@@ -56,36 +28,6 @@ def scenario(law=None, **fields):
         workspace=[(-5, -5), (5, -5), (5, 5), (-5, 5)],
         **fields,
     )  # fmt: skip
-
-
-@each_case("sees", ["full", "positions"])
-def test_no_public_attribute_of_what_a_law_is_given_leads_to_the_machinery(sees):
-    given = []
-
-    def law(robot):
-        given.append(reached(robot))
-        return 0, 0
-
-    def control(world):
-        given.append(reached(world))
-        return np.zeros((2, 2))
-
-    World(scenario(law, sees=sees), control).step()
-    assert len(given) == 2
-    for found in given:
-        assert len(found) > 50
-        for path, thing in found.items():
-            assert not isinstance(thing, World), path
-            names = {name for name in MACHINERY if name in dir(thing)}
-            if not type(thing).__module__.startswith("mars2d.world"):
-                names &= {"rebuild", "follow", "break_off", "go_on", "recorder", "engine"}
-            assert not names, (path, names)
-
-
-def test_a_law_that_wants_the_machinery_is_told_that_there_is_none():
-    world = World(Scenario(), lambda world: world.operator.hold(0))
-    with pytest.raises(LawError, match="a world has no 'operator'"):
-        world.step()
 
 
 def test_a_law_that_steps_its_world_is_refused():

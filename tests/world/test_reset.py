@@ -8,7 +8,7 @@ import pytest
 from mars2d import Differential, Robot, Scenario, World
 from mars2d.addons import Game
 from mars2d.bodies.props import Box
-from mars2d.core.errors import InputError, LawError
+from mars2d.core.errors import InputError
 from mars2d.sensors import RangeFinder
 from tests.cases import each_case
 
@@ -66,19 +66,6 @@ def test_a_record_from_before_a_reset_stays_as_it_was():
     world.reset(seed=9)
     ended(world)
     assert before.digest == digest
-
-
-def test_a_law_can_not_reset_its_world():
-    made = []
-    one = scenario(
-        robots=[
-            Robot(name="red", controller=lambda robot: made[0].reset()),
-            Robot(name="blue").at(1, 0),
-        ]
-    )
-    made.append(World(one))
-    with pytest.raises(LawError, match=r"world\.reset\(\) was called from within a step"):
-        made[0].step()
 
 
 def test_a_reset_refuses_wrong_seeds_and_scenarios():
@@ -156,22 +143,3 @@ def test_without_a_record_the_motion_is_the_same_and_nothing_is_kept():
     assert world.frame.path.shape == (0, 3, 2)
     with pytest.raises(InputError, match="keeps no record"):
         _ = world.record
-
-
-def test_without_a_record_an_error_of_a_law_is_still_its_own():
-    robot = Robot(controller=lambda robot: 1 / 0)
-    world = World(Scenario(robots=[robot]), record=False)
-    with pytest.raises(LawError, match="ZeroDivisionError") as raised:
-        world.step()
-    assert raised.value.record is None
-
-
-def test_what_a_step_has_brought_is_seen_after_observing():
-    red = Robot(name="red", controller=lambda robot: (0.5, 0))
-    near = scenario(robots=[red.at(0, 0, 0), Robot(name="blue").at(0.5, 0, 0)], props=[])
-    world = World(near)
-    while not len(world.contacts):
-        world.step()
-    world.observe()
-    assert world.over
-    assert world.addons.game.winner == "pursuer"

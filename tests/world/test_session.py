@@ -12,9 +12,8 @@ import pytest
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario
 from mars2d.output.formats.mcap import Log
-from mars2d.record.columns import DiskError
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.world.loop import Interrupted, simulate, watch_by
+from mars2d.world.loop import Interrupted, simulate
 from tests.cases import each_case
 
 SQUARE = Scenario(robots=[Robot()], sampling_time=0.1, stop_time=1.0)
@@ -49,14 +48,6 @@ def test_a_file_an_example_and_a_module_are_experiments(tmp_path):
     assert by_path.filename == "mine.py"
 
 
-def test_a_file_leaves_no_module_behind(tmp_path):
-    path = tmp_path / "mine.py"
-    path.write_text("from mars2d import Scenario\nscenario = Scenario(stop_time=1)\n")
-    before = set(sys.modules)
-    mars2d.run(path)
-    assert not [name for name in set(sys.modules) - before if "mine" in name]
-
-
 def test_what_no_world_can_be_made_of_is_said_with_its_file(tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(
@@ -66,16 +57,6 @@ def test_what_no_world_can_be_made_of_is_said_with_its_file(tmp_path):
     with pytest.raises(InputError, match=r"Car\.dead_time") as caught:
         mars2d.run(path)
     assert caught.value.where == "mine.py"
-
-
-def test_two_files_of_one_name_do_not_meet(tmp_path):
-    for k in (1, 2):
-        (tmp_path / str(k)).mkdir()
-        (tmp_path / str(k) / "same.py").write_text(
-            f"from mars2d import Scenario\nscenario = Scenario(stop_time={k})\n"
-        )
-    ends = [mars2d.run(tmp_path / str(k) / "same.py").time[-1] for k in (1, 2)]
-    assert ends == [1.0, 2.0]
 
 
 def test_stop_time_and_options_override_the_scenario():
@@ -105,25 +86,6 @@ def test_watchers_see_every_step_after_sensing():
     assert seen == pytest.approx(np.arange(11) * 0.1)
 
 
-def test_a_world_that_nobody_watches_calls_nobody():
-    assert watch_by([]) is None
-
-
-def test_without_a_seed_a_run_is_that_of_seed_0():
-    assert simulate(open_experiment(SQUARE)).record.seed == 0
-
-
-def test_ctrl_c_within_a_step_keeps_what_was_recorded_until_then():
-    def press(world):
-        if world.iteration == 3:
-            signal.raise_signal(signal.SIGINT)
-
-    with pytest.raises(Interrupted, match=r"^interrupted$") as caught:
-        mars2d.run(SQUARE, watchers=[press])
-    assert caught.value.record.over_message == "Interrupted by Ctrl-C"
-    assert len(caught.value.record) == 3
-
-
 class AfterThreeSteps(Log):
     """A log that does something of its own once it has followed the third step."""
 
@@ -146,25 +108,6 @@ def test_ctrl_c_between_two_steps_keeps_them(tmp_path):
         simulate(open_experiment(SQUARE), log=log)
     assert caught.value.record.over_message == "Interrupted by Ctrl-C"
     assert len(caught.value.record) == len(mars2d.load(tmp_path / "run.mcap")) == 3
-
-
-def test_columns_of_a_run_that_is_logged_are_kept_beside_its_file(tmp_path):
-    log, made = Log(tmp_path / "run.mcap"), []
-    beside = log.storage
-    log.storage = lambda *shape: made.append(beside(*shape)) or made[-1]
-    simulate(open_experiment(SQUARE), log=log)
-    assert made
-
-
-def test_a_disk_that_fails_between_two_steps_is_said_and_they_are_kept(tmp_path):
-    def fail():
-        raise DiskError("run.mcap: gone")
-
-    log = AfterThreeSteps(tmp_path / "run.mcap", fail)
-    with pytest.raises(DiskError) as caught:
-        simulate(open_experiment(SQUARE), log=log)
-    assert caught.value.record.over_message == "Error: run.mcap: gone"
-    assert len(caught.value.record) == 3
 
 
 def test_seeds_make_runs_that_differ_and_repeat():
@@ -251,12 +194,6 @@ def test_a_law_is_found_in_the_current_folder_and_by_its_full_path(duel, tmp_pat
         assert np.all(record.command[:, 1] == [1.0, 0.0])
 
 
-def test_a_law_beside_the_experiment_comes_before_one_in_the_current_folder(duel, tmp_path):
-    (tmp_path / "mine" / "players").mkdir()
-    (tmp_path / "mine" / "players" / "forward.py").write_text("1 / 0\n")
-    assert mars2d.run(duel).finished
-
-
 def test_a_law_may_have_another_name_and_import_what_lies_beside_it(duel):
     (duel.parent / "players" / "gains.py").write_text("GAIN = 0.25\n")
     (duel.parent / "players" / "mine.py").write_text(
@@ -324,33 +261,3 @@ def test_a_law_that_fails_late_keeps_the_record_and_its_line(duel, tmp_path):
         mars2d.run(duel, options={"red": "late.py"})
     assert caught.value.where == "late.py, line 2"
     assert len(caught.value.record) == 5
-
-
-def test_a_law_can_be_loaded_without_an_experiment(tmp_path, monkeypatch):
-    (tmp_path / "law.py").write_text(COUNTING)
-    monkeypatch.chdir(tmp_path)
-    robot = Robot(controller=mars2d.load_law("law.py"))
-    assert mars2d.run(Scenario(robots=[robot], stop_time=1)).command[-1, 0, 0] > 0
-    with pytest.raises(InputError, match=r"load_law\(name\) = 3"):
-        mars2d.load_law("law.py", 3)
-
-
-def test_where_the_record_of_a_failed_law_can_not_be_saved_the_laws_error_counts(tmp_path):
-    target = tmp_path / "run.npz"
-
-    def law(world):
-        if world.iteration == 3:
-            target.mkdir()
-            raise ValueError("lost")
-        return 0.1, 0.1
-
-    with pytest.raises(LawError, match="lost") as caught:
-        mars2d.run(SQUARE, control=law, record=target)
-    assert len(caught.value.record) == 3
-    assert "run.npz: can't be written" in caught.value.__notes__[0]
-
-
-@each_case("watchers", [5, [5], "x", print, None])
-def test_watchers_are_functions(watchers):
-    with pytest.raises(mars2d.InputError, match=r"^watchers = .*: expected a list of functions"):
-        mars2d.run("random_walk", stop_time=1, watchers=watchers)

@@ -10,7 +10,7 @@ from mars2d.cli.command_line import main
 from mars2d.output.formats.mcap import Log
 from mars2d.record.interventions import Change
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.world.timeline import Timeline, settings_of
+from mars2d.world.timeline import Timeline, options_of
 from mars2d.world.verify import rerun
 
 FILE = """
@@ -48,12 +48,12 @@ def test_a_law_goes_on_with_another_value_and_the_record_says_so(timeline, tmp_p
     assert after(timeline, 10).set({"speed": 0.4}) == ""
     record = after(timeline, 10).record
     assert speeds(record) == [0.2] * 10 + [0.4] * 9 + [0.4] * (len(record) - 20)
-    assert record.settings == {}
+    assert record.options == {}
     (change,) = record.changes
-    assert (change.row, change.settings) == (10, (("speed", 0.4),))
+    assert (change.row, change.options) == (10, (("speed", 0.4),))
     record.save(tmp_path / "run.npz")
     kept = load(tmp_path / "run.npz")
-    assert kept.changes[0].settings == (("speed", 0.4),)
+    assert kept.changes[0].options == (("speed", 0.4),)
     assert rerun(kept) is None
 
 
@@ -76,7 +76,7 @@ def test_another_shape_or_start_needs_a_new_start_whose_record_has_the_setting(t
     assert after(timeline, 5).set({"y": 1.0}) == "red starts elsewhere"
     record = after(timeline, 5).record
     assert record.pose[0, 1, 0] == 1.0
-    assert record.settings == {"diameter": 0.5, "y": 1.0}
+    assert record.options == {"diameter": 0.5, "y": 1.0}
     assert record.interventions == ()
     record.save(tmp_path / "run.npz")
     assert main(["check", str(tmp_path / "run.npz"), "--laws"]) in (0, None)
@@ -86,7 +86,7 @@ def test_before_the_first_step_a_run_begins_with_the_value_as_if_it_were_its_own
     assert timeline.set({"speed": 0.3}) == ""
     record = after(timeline, 41).record
     assert record.interventions == ()
-    assert record.settings == {"speed": 0.3}
+    assert record.options == {"speed": 0.3}
     assert record.finished
     assert timeline.set({"speed": 0.1}) == "the run is over"
     assert speeds(after(timeline, 3).record) == [0.1] * 2
@@ -104,8 +104,8 @@ def test_a_log_has_the_settings_of_each_start(tmp_path):
         after(timeline, 5).set({"mass": 3.0})
         after(timeline, 5)
     record = load(tmp_path / "run.mcap")
-    assert record.settings == {"speed": 0.3, "mass": 2.0, "diameter": 0.4}
-    assert [(each.row, each.settings) for each in record.changes] == [(5, (("mass", 3.0),))]
+    assert record.options == {"speed": 0.3, "mass": 2.0, "diameter": 0.4}
+    assert [(each.row, each.options) for each in record.changes] == [(5, (("mass", 3.0),))]
     assert rerun(record) is None
 
 
@@ -136,7 +136,7 @@ def test_undo_takes_back_one_slider_and_what_it_says(timeline):
     assert timeline.experiment.options == {}
     assert speeds(after(timeline, 10).record) == [0.2] * len(speeds(timeline.record))
     timeline.other_branch()
-    assert timeline.experiment.options == settings_of(timeline.world) != {}
+    assert timeline.experiment.options == options_of(timeline.world) != {}
 
 
 def test_a_branch_off_the_past_has_the_values_of_now(timeline):
@@ -145,7 +145,7 @@ def test_a_branch_off_the_past_has_the_values_of_now(timeline):
     timeline.change(lambda world: world.operator.place(0, (0, 0, 0)))
     assert timeline.world.scenario.robots[0].mass == 2.0
     record = after(timeline, 5).record
-    assert dict(record.changes[0].settings) == {"mass": 2.0, "speed": 0.4}
+    assert dict(record.changes[0].options) == {"mass": 2.0, "speed": 0.4}
     assert speeds(record)[-1] == 0.4
     assert rerun(record) is None
 
@@ -177,7 +177,7 @@ def test_a_saved_file_with_another_mass_goes_on_and_keeps_what_was_set(timeline,
     assert timeline.world.scenario.robots[0].mass == 3.0
     record = after(timeline, 10).record
     assert speeds(record)[6:] == [0.4] * (len(record) - 7)
-    assert [(each.row, dict(each.settings)) for each in record.changes] == [
+    assert [(each.row, dict(each.options)) for each in record.changes] == [
         (5, {"speed": 0.4}),
         (10, {}),
     ]

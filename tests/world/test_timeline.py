@@ -1,7 +1,6 @@
 """The timeline: going back and on is the same to the bit, whatever laws remember."""
 
 import argparse
-import io
 
 import numpy as np
 import pytest
@@ -14,8 +13,6 @@ from mars2d.core.errors import InputError
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
-from mars2d.world.past import PARKED
-from mars2d.world.simulation import Simulation
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 from tests.cases import each_case
@@ -53,19 +50,11 @@ def written(tmp_path):
 
 
 def simulated(path, seed=3):
-    return simulate(open_experiment(path), seed).record
+    return simulate(open_experiment(path, seed=seed)).record
 
 
 # -- every example ---------------------------------------------------------------------------------
 
-
-LONG = {
-    "circular_motion", "coverage_square", "cyclic_pursuit", "dead_reckoning", "leader_following",
-    "many_push_one", "obstacle_avoidance", "path_planning", "pursuit_corners", "pursuit_voronoi",
-    "push_box", "wall_follower", "crowd", "tug_of_war", "herding", "head_on", "billiards",
-    "corner_game",
-}  # fmt: skip
-"""Examples that take many seconds to go back in: `pytest -m nightly`."""
 
 QUICK = {"go_to_point", "own_sensor_and_addon", "random_walk", "wall_slide"}
 
@@ -73,21 +62,14 @@ QUICK = {"go_to_point", "own_sensor_and_addon", "random_walk", "wall_slide"}
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(
-            name,
-            marks=pytest.mark.nightly
-            if name in LONG
-            else ()
-            if name in QUICK
-            else pytest.mark.slow,
-        )
+        name if name in QUICK else pytest.param(name, marks=[pytest.mark.slow, pytest.mark.nightly])
         for name in examples()
     ],
 )
 def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     options = {"stop_time": 4.0} if name in ("random_walk", "flocking") else {}
-    expected = simulate(open_experiment(name, options), 1).record
-    timeline = Timeline(open_experiment(name, options), 1)
+    expected = simulate(open_experiment(name, options, seed=1)).record
+    timeline = Timeline(open_experiment(name, options, seed=1))
     timeline.go(0)
     finish(timeline)
     assert timeline.record.digest == expected.digest
@@ -176,7 +158,7 @@ def memory(written):
 
 def test_memory_of_every_kind_is_rebuilt(memory):
     expected = simulated(memory)
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     finish(timeline)
     for row in (100, 199, 0):
         timeline.go(row)
@@ -189,7 +171,7 @@ def test_memory_of_every_kind_is_rebuilt(memory):
 @pytest.mark.slow
 def test_worlds_that_wait_change_nothing(memory):
     expected = simulated(memory)
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     run_to(timeline, 120)
     timeline.go(60)
     idle(timeline)
@@ -203,24 +185,6 @@ def test_worlds_that_wait_change_nothing(memory):
     timeline.branch()
     finish(timeline)
     assert timeline.record.digest == expected.digest
-
-
-def test_no_more_worlds_wait_than_said(memory):
-    timeline = Timeline(open_experiment(memory), 3)
-    run_to(timeline, 150)
-    for row in range(149, 0, -21):
-        timeline.go(row)
-        idle(timeline, 30)
-        assert len(timeline._past.waiting) <= PARKED + 1
-    timeline.branch()
-    assert timeline.world.iteration == timeline.row
-
-
-def test_nothing_waits_before_somebody_goes_back(memory):
-    timeline = Timeline(open_experiment(memory), 3)
-    run_to(timeline, 100)
-    idle(timeline, 10)
-    assert not timeline._past.waiting
 
 
 # -- hands -----------------------------------------------------------------------------------------
@@ -249,7 +213,7 @@ def poke(timeline, upto=150):
 
 @each_case("row", [20, 25, 45, 70, 120])
 def test_what_hands_did_is_done_again(memory, row):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     poke(timeline)
     before = timeline.world.record
     timeline.go(row)
@@ -309,36 +273,12 @@ scenario = Scenario(
 """
 
 
-def test_hands_let_go_where_a_branch_begins(memory):
-    timeline = Timeline(open_experiment(memory), 3)
-    poke(timeline)
-    timeline.go(45)
-    assert not timeline.branch().operator.pulls
-    timeline.go(45)
-
-
-def test_a_change_that_is_refused_leaves_no_branch(memory):
-    timeline = Timeline(open_experiment(memory), 3)
-    run_to(timeline, 50)
-    world = timeline.world
-    timeline.go(30)
-    with pytest.raises(InputError, match="robot1"):
-        timeline.change(lambda w: w.operator.place(0, (*w.pose[:2, 1], 0.0)))
-    assert timeline.world is world
-    assert timeline.branches == []
-    assert timeline.row == 30
-    timeline.change(lambda w: w.operator.place(0, (-4.0, -4.0, 0.0)))
-    assert timeline.branches == [world]
-    assert timeline.frame.pose[:, 0].tolist() == [-4.0, -4.0, 0.0]
-    assert len(timeline.world.operator.log) == 1
-
-
 # -- branches --------------------------------------------------------------------------------------
 
 
 def test_a_branch_of_a_branch_and_back(memory):
     expected = simulated(memory)
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     finish(timeline)
     timeline.go(80)
     timeline.change(lambda w: w.operator.place(0, (-4.0, -4.0, 0.0)))
@@ -365,24 +305,6 @@ def test_a_branch_of_a_branch_and_back(memory):
     assert timeline.remark == ""
 
 
-def test_branches_that_part_by_a_prop_alone_are_told_apart(written):
-    path = written("""
-from mars2d import Robot, Scenario
-from mars2d.bodies.props import Box
-scenario = Scenario(robots=[Robot(controller=lambda robot: (0, 0))], props=[Box(pose=(2, 2, 0))])
-""")
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 40)
-    timeline.go(10)
-    timeline.change(lambda w: w.operator.place(1, (3.0, 3.0, 0.0)))
-    run_to(timeline, 40)
-    timeline.go(30)
-    idle(timeline, 20)
-    timeline.other_branch()
-    assert timeline.row == 30
-    assert timeline.branch().prop_pose[:2, 0].tolist() == [2.0, 2.0]
-
-
 def test_a_world_at_its_start_and_one_that_is_over_can_be_changed(written):
     path = written("""
 from mars2d import Robot, Scenario
@@ -407,28 +329,6 @@ scenario = Scenario(robots=[Robot(controller=law)], stop_time=50, sampling_time=
     finish(timeline)
     assert timeline.frame.over_message == "there"
     assert len(timeline.branches) == 2
-
-
-def test_where_an_addon_ends_the_run_nothing_can_be_changed(written):
-    path = written("""
-from mars2d import Addon, Robot, Scenario
-class Referee(Addon):
-    def on_step(self, world):
-        if world.time >= 1:
-            world.stop("enough")
-scenario = Scenario(robots=[Robot(controller=lambda robot: (0.1, 0))], addons=[Referee()])
-""")
-    timeline = Timeline(open_experiment(path))
-    finish(timeline)
-    world = timeline.world
-    with pytest.raises(InputError, match="nothing follows this step, whatever is changed: enough"):
-        timeline.branch()
-    assert timeline.world is world
-    assert timeline.branches == []
-    timeline.go(timeline.newest - 1)
-    timeline.branch()
-    finish(timeline)
-    assert timeline.frame.over_message == "enough"
 
 
 # -- errors ----------------------------------------------------------------------------------------
@@ -461,18 +361,6 @@ def test_the_past_of_a_failed_run_can_be_looked_at_and_mended(written):
     assert timeline.world.history.command[-1].ravel().tolist() == [0.3, 0.0]
 
 
-def test_a_law_that_fails_again_does_so_at_the_same_step(written):
-    timeline = Timeline(open_experiment(written(FAILING)))
-    with pytest.raises(LawError):
-        finish(timeline)
-    failed = timeline.newest
-    timeline.branch()
-    with pytest.raises(LawError, match="division by zero"):
-        timeline.advance()
-    assert timeline.newest == failed
-    assert len(timeline.record) == failed
-
-
 def test_a_file_that_is_broken_in_between_is_told_of_and_nothing_is_lost(written):
     path = written(FAILING)
     timeline = Timeline(open_experiment(path))
@@ -488,19 +376,6 @@ def test_a_file_that_is_broken_in_between_is_told_of_and_nothing_is_lost(written
     assert (timeline.world, timeline.row, timeline.newest) == (world, 4, 8)
     path.write_text(FAILING)
     assert timeline.branch().iteration == 4
-
-
-def test_a_file_with_other_robots_is_refused(written):
-    path = written(FAILING)
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 8)
-    path.write_text(FAILING.replace("[Robot(", "[Robot().at(3, 3), Robot("))
-    timeline.go(4)
-    idle(timeline, 5)
-    with pytest.raises(InputError, match="2 robots"):
-        timeline.branch()
-    timeline.restart()
-    assert len(timeline.scenario.robots) == 2
 
 
 @each_case(
@@ -525,35 +400,15 @@ scenario = Scenario(robots=[Robot(name="red", controller=lambda robot: (0.1, {so
     assert len(timeline.branches) == 1
 
 
-def test_a_law_that_ends_the_run_by_chance_is_told_of(written):
-    path = written("""
-import itertools
-import numpy as np
-from mars2d import Robot, Scenario
-count = np.__dict__.setdefault("_ending_of_a_test", itertools.count())
-def law(robot):
-    if next(count) == 45:
-        robot.world.stop("by chance")
-    return 0.1, 0.0
-scenario = Scenario(robots=[Robot(controller=law)])
-""")
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 30)
-    timeline.go(20)
-    with pytest.raises(InputError, match="run again, it ended before: by chance"):
-        timeline.branch()
-    assert (timeline.newest, timeline.branches) == (30, [])
-
-
 def test_an_experiment_that_is_not_from_a_file(capsys):
     def law(robot):
         print("asked")
         robot.memory.k = getattr(robot.memory, "k", 0) + 1
         return 0.2, 0.01 * robot.memory.k
 
-    experiment = Experiment(Scenario(robots=[Robot(controller=law)], stop_time=3))
-    expected = simulate(experiment, 3).record
-    timeline = Timeline(experiment, 3)
+    experiment = Experiment(Scenario(robots=[Robot(controller=law)], stop_time=3), seed=3)
+    expected = simulate(experiment).record
+    timeline = Timeline(experiment)
     finish(timeline)
     timeline.go(11)
     idle(timeline, 20)
@@ -566,39 +421,6 @@ def test_an_experiment_that_is_not_from_a_file(capsys):
     assert timeline.record.digest == expected.digest
     timeline.restart()
     assert timeline.newest == 0
-
-
-def test_a_law_that_keeps_its_memory_in_a_closure_is_told_of():
-    calls = []
-
-    def law(robot):
-        calls.append(robot.time)
-        return 0.2, 0.01 * len(calls)
-
-    timeline = Timeline(Experiment(Scenario(robots=[Robot(controller=law)], stop_time=3)))
-    finish(timeline)
-    timeline.go(11)
-    timeline.branch()
-    assert "the law of robot0" in timeline.remark
-
-
-def test_own_random_places_stay_where_they_are(written):
-    path = written("""
-import random
-from mars2d import Robot, Scenario
-from mars2d.addons import Map
-x = random.uniform(1, 4)
-scenario = Scenario(
-    robots=[Robot(pose=(-x, x, 0), controller=lambda robot: (0.2, 0.5))],
-    addons=[Map([[(x, -1), (x, 1)]])],
-)
-""")
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 20)
-    timeline.go(10)
-    timeline.branch()
-    assert timeline.remark == ""
-    assert timeline.scenario.obstacles == timeline.branches[0].scenario.obstacles
 
 
 # -- what laws do outside --------------------------------------------------------------------------
@@ -626,33 +448,8 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=1)
     assert capsys.readouterr().out == "at 3.0\n"
 
 
-def test_without_a_standard_output(memory, monkeypatch):
-    for name in ("stdin", "stdout", "stderr"):
-        monkeypatch.setattr(f"sys.{name}", None)
-    timeline = Timeline(open_experiment(memory), 3)
-    run_to(timeline, 20)
-    timeline.go(10)
-    timeline.branch()
-
-
-def test_nobody_is_asked_for_input_again(written, monkeypatch):
-    path = written("""
-from mars2d import Robot, Scenario
-def law(robot):
-    return float(input("How fast? ")), 0
-scenario = Scenario(robots=[Robot(controller=law)])
-""")
-    monkeypatch.setattr("sys.stdin", io.StringIO("0.1\n" * 5))
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 5)
-    timeline.go(3)
-    with pytest.raises(InputError, match="EOF"):
-        timeline.branch()
-    assert timeline.newest == 5
-
-
 def test_a_way_back_can_be_broken_off(memory, monkeypatch):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     run_to(timeline, 190)
     timeline.go(180)
     told = []
@@ -669,68 +466,6 @@ def test_a_way_back_can_be_broken_off(memory, monkeypatch):
     assert (timeline.newest, timeline.branches) == (190, [])
     timeline.branch()
     assert timeline.newest == 180
-
-
-def test_ctrl_c_on_a_way_back_breaks_nothing(written):
-    path = written("""
-import numpy as np
-from mars2d import Robot, Scenario
-def law(robot):
-    if np.__dict__.get("_interrupts_a_test") and robot.time > 0.5:
-        raise KeyboardInterrupt
-    return 0.1, 0.0
-scenario = Scenario(robots=[Robot(controller=law)], sampling_time=0.1)
-""")
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 20)
-    timeline.go(10)
-    np._interrupts_a_test = True
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            timeline.branch()
-    finally:
-        del np._interrupts_a_test
-    assert not timeline.world.over
-    assert len(timeline.record) == 20
-    assert timeline.branch().iteration == 10
-
-
-# -- time ------------------------------------------------------------------------------------------
-
-
-def test_idle_is_late_by_no_more_than_a_control_step(written, monkeypatch):
-    """The clock goes on by 4 ms with each control step, and by nothing else."""
-    steps = 0
-    follow = Simulation.follow
-
-    def counted(simulation, *arguments):
-        nonlocal steps
-        steps += 1
-        return follow(simulation, *arguments)
-
-    monkeypatch.setattr(Simulation, "follow", counted)
-    monkeypatch.setattr("mars2d.world.past.perf_counter", lambda: 0.004 * steps)
-    path = written("""
-from mars2d import Robot, Scenario
-def law(robot):
-    return 0.1, 0.0
-scenario = Scenario(robots=[Robot(controller=law)])
-""")
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 100)
-    timeline.go(90)
-    timeline.idle(0.02)  # it opens the file, and gets to know how long a control step takes
-    for _ in range(10):
-        before = steps
-        timeline.idle(0.010)
-        assert 0.004 * (steps - before) - 0.010 < 0.0041
-    reached = timeline._past.waiting[0].iteration
-    assert reached > 10
-    before = steps
-    for _ in range(20):
-        timeline.idle(0.001)  # less than a control step takes
-    assert steps - before <= 1
-    assert timeline._past.waiting[0].iteration <= reached + 1
 
 
 # -- the experiment read again ---------------------------------------------------------------------
@@ -850,71 +585,8 @@ def test_what_needs_a_new_start_is_said_and_nothing_happens(written, old, new, w
     assert (timeline.row, timeline.newest) == (0, 0)
 
 
-def test_a_law_read_again_that_fails_is_not_taken(written):
-    path = written(STRAIGHT)
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 10)
-    world = timeline.world
-    path.write_text(STRAIGHT.replace("return 0.2, 0.0", "return 0.2 / (robot.time - 0.5), 0.0"))
-    with pytest.raises(LawError, match=r"walk\.py, line 6: law raised ZeroDivisionError"):
-        timeline.take(open_experiment(path))
-    assert timeline.world is world
-    timeline.advance()
-    assert timeline.newest == 11
-
-
-def test_a_run_that_has_ended_is_not_gone_on_with(written):
-    path = written(STRAIGHT.replace("sampling_time=0.1", "sampling_time=0.1, stop_time=1"))
-    timeline = Timeline(open_experiment(path))
-    finish(timeline)
-    digest = timeline.record.digest
-    changed = path.read_text().replace("0.2, 0.0", "0.1, 0.5")
-    path.write_text(changed)
-    assert "where you go back" in timeline.take(open_experiment(path))
-    assert timeline.record.digest == digest
-    timeline.go(5)
-    timeline.branch()
-    assert timeline.remark == ""
-    timeline.advance()
-    assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
-
-
-OWN = """
-import numpy as np
-from mars2d import Addon, Robot, Scenario, Sensor
-from mars2d.sensors import Quantity
-class Nose(Sensor):
-    quantities = (Quantity("smell", "1"),)
-    def read(self, robot, world, rng):
-        return robot.pose[0] + rng.normal()
-class Count(Addon):
-    def on_step(self, world):
-        self.steps = getattr(self, "steps", 0) + 1
-def law(robot):
-    return 0.2, 0.1 * robot.sense.nose + 0.01 * robot.world.addons.count.steps
-scenario = Scenario(robots=[Robot(sensors=[Nose()], controller=law)], addons=[Count()])
-"""
-
-
-def test_sensors_and_addons_of_ones_own_do_not_need_a_new_start(written):
-    path = written(OWN)
-    timeline = Timeline(open_experiment(path))
-    run_to(timeline, 10)
-    path.write_text(OWN.replace("0.2, 0.1", "0.1, 0.2"))
-    timeline.take(open_experiment(path))
-    assert timeline.world.addons.count.steps == 11
-    run_to(timeline, 20)
-    assert timeline.world.history.command[-1, 0, 0] == 0.1
-    timeline.go(15)
-    timeline.branch()
-    assert timeline.remark == ""
-    path.write_text(OWN.replace("Sensor):", "Sensor):\n    gain: float = 1.0"))
-    timeline.take(open_experiment(path))
-    assert timeline.newest == 15
-
-
 def test_the_record_of_a_window_run_is_run_again_to_the_bit(memory, tmp_path):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     poke(timeline)
     timeline.go(100)
     timeline.change(lambda w: w.operator.place(0, (-4.0, -4.0, 0.0)))
@@ -929,7 +601,7 @@ def test_the_record_of_a_window_run_is_run_again_to_the_bit(memory, tmp_path):
 
 
 def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path, capsys):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     run_to(timeline, 30)
     for row, y in ((20, -4.0), (10, -3.0)):
         timeline.go(row)
@@ -947,32 +619,11 @@ def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path
     assert "another branch, left at 1.45 s, is in" in capsys.readouterr().err
 
 
-@pytest.mark.slow
-def test_boxes_are_where_they_were(written):
-    path = written("""
-from mars2d import Robot, Scenario
-from mars2d.bodies.props import Box
-scenario = Scenario(
-    robots=[Robot(mass=5, controller=lambda robot: (0.5, 0.2)).at(-1, 0, 0)],
-    props=[Box(pose=(0, 0, 0)), Box(pose=(1.1, 0.3, 1))], stop_time=8,
-)
-""")
-    expected = simulated(path)
-    assert expected.collisions
-    timeline = Timeline(open_experiment(path), 3)
-    finish(timeline)
-    for row in (30, 50, 10):
-        timeline.go(row)
-        timeline.branch()
-        finish(timeline)
-        assert timeline.record.digest == expected.digest
-
-
 # -- started again --------------------------------------------------------------------------------
 
 
 def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
-    timeline = Timeline(open_experiment(memory), 3)
+    timeline = Timeline(open_experiment(memory, seed=3))
     run_to(timeline, 60)
     timeline.go(40)
     timeline.change(lambda w: w.operator.place(0, (-4.0, -4.0, 0.0)))
@@ -991,12 +642,3 @@ def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
     timeline.go(50)
     assert timeline.branch() is not changed
     assert len(timeline.branches) == 2
-
-
-def test_a_run_that_can_be_run_again_is_not_kept(memory):
-    timeline = Timeline(open_experiment(memory), 3)
-    run_to(timeline, 60)
-    timeline.restart()
-    timeline.restart()
-    assert timeline.others == []
-    assert not timeline.changed

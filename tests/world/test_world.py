@@ -88,12 +88,6 @@ def test_the_last_row_is_at_the_stop_time_and_nothing_moves_after_it():
         world.step()
 
 
-def test_a_stop_time_of_zero_senses_and_commands_once():
-    record = mars2d.run(Scenario(stop_time=0), control=lambda _world: [[0.2], [0]])
-    assert record.time.tolist() == [0]
-    assert record.command[0, 0, 0] == 0.2
-
-
 def test_stop_ends_the_experiment_with_this_step_and_the_first_reason_counts():
     def control(world):
         if world.iteration == 3:
@@ -126,16 +120,6 @@ def test_a_given_command_that_cannot_be_used_is_an_input_error(command):
         world.step(command)
     world.step([[0.1], [0]])  # and the world goes on
     assert world.iteration == 1
-
-
-def test_a_given_command_is_copied():
-    command = np.array([[9.0], [0.0]])
-    world = World(Scenario())
-    world.step(command)
-    assert command[0, 0] == 9.0
-    command[:] = 7
-    assert world.command[0, 0] == 0.5
-    assert world.record.command[0, 0, 0] == 0.5
 
 
 # -- saturation -----------------------------------------------------------------------------
@@ -178,24 +162,6 @@ def test_saturating_twice_changes_nothing(first, second):
         assert drive.saturate(once.copy()).tolist() == once.tolist()
 
 
-def test_algorithm_2_is_not_clipped_by_the_defaults():
-    commands = np.array([[0.2, -0.2, 0.0], [0.0, 0.0, 3 * np.pi / 2]])
-    assert Unicycle().saturate(commands.copy()).tolist() == commands.tolist()
-
-
-def test_robots_are_saturated_each_by_its_own_drive():
-    robots = [
-        Robot(drive=Unicycle(max_linear_speed=0.1)),
-        Robot(pose=(1, 0, 0), drive=Holonomic(max_linear_speed=0.2)),
-        Robot(pose=(2, 0, 0), drive=Unicycle(max_linear_speed=0.3)),
-        Robot(pose=(3, 0, 0), drive=Unicycle(max_linear_speed=0.1)),
-    ]
-    world = World(Scenario(robots=robots))
-    world.step([[1, 1, 1, -1], [0, 0, 0, 0]])
-    assert world.command[0] == pytest.approx([0.1, 0.2, 0.3, -0.1])
-    assert world.record.command[0, 0] == pytest.approx([0.1, 0.2, 0.3, -0.1])
-
-
 # -- what is read only ----------------------------------------------------------------------
 
 
@@ -215,16 +181,6 @@ def test_pose_command_history_and_contacts_cannot_be_written():
             array[...] = 0
 
 
-def test_poses_kept_from_before_do_not_change():
-    world = World(Scenario())
-    before = world.pose
-    history = world.history.pose
-    world.step([[0.3], [0]])
-    assert before[0, 0] == 0
-    assert len(history) == 0
-    assert len(world.history) == 1
-
-
 def test_a_law_cannot_change_a_reading_that_is_recorded():
     class Beams(Sensor):
         def read(self, robot, world, rng):
@@ -241,30 +197,6 @@ def test_a_law_cannot_change_a_reading_that_is_recorded():
 # -- stepping from within -------------------------------------------------------------------
 
 
-class Inner(Addon):
-    hook: str = "on_step"
-
-    def on_start(self, world):
-        if self.hook == "on_start":
-            world.step()
-
-    def on_step(self, world):
-        if self.hook == "on_step":
-            world.step()
-
-    def on_stop(self, world):
-        if self.hook == "on_stop":
-            world.step()
-
-
-@each_case("hook", ["on_step", "on_stop"])
-def test_a_hook_that_steps_the_world_is_an_error(hook):
-    world = World(Scenario(addons=[Inner(hook=hook)], stop_time=0.2))
-    with pytest.raises(LawError, match=r"add-on 'inner' raised"):
-        while not world.over:
-            world.step()
-
-
 def test_a_law_that_steps_the_world_is_an_error_and_nothing_is_recorded_twice():
     def control(world):
         if world.iteration == 2:
@@ -278,18 +210,6 @@ def test_a_law_that_steps_the_world_is_an_error_and_nothing_is_recorded_twice():
         world.step()
     assert len(world.record) == 2
     assert world.iteration == 2
-
-
-def test_a_world_whose_law_failed_is_over():
-    def control(world):
-        raise KeyError("oops")
-
-    world = World(Scenario(), control)
-    with pytest.raises(LawError, match="control raised KeyError: 'oops'"):
-        world.step()
-    assert "KeyError" in world.over_message
-    with pytest.raises(InputError, match="the experiment is over: Error"):
-        world.step([[0.1], [0]])
 
 
 # -- errors keep the record -----------------------------------------------------------------
@@ -347,18 +267,6 @@ def test_ctrl_c_keeps_the_record_as_well():
 # -- what a world tells ---------------------------------------------------------------------
 
 
-def test_a_world_tells_what_mars_tells():
-    robot = Robot(pose=(1, 0, np.pi / 2), center_offset=0.1)
-    world = World(Scenario(robots=[robot]), seed=3)
-    assert world.bounds == (-5, 5, -5, 5)
-    assert world.workspace == world.scenario.workspace
-    assert world.geometric_center.ravel() == pytest.approx([1, -0.1])
-    assert (world.seed, world.time, world.iteration, world.over) == (3, 0, 0, False)
-    assert world.pose.shape == (3, 1)
-    assert world.command.tolist() == [[0], [0]]
-    assert [view.name for view in world.robots] == ["robot0"]
-
-
 @each_case("physics", ["contact", "stop", "ideal"])
 @each_case("delay", [0.0, 0.25])
 def test_velocity_is_that_of_the_instant_not_of_the_last_chord(physics, delay):
@@ -412,16 +320,6 @@ def test_worlds_of_one_scenario_share_nothing():
     assert second.pose.tolist() == scenario.initial_pose.tolist()
     assert second.iteration == 0
     assert len(second.record) == 0
-
-
-def test_the_record_so_far_does_not_grow():
-    world = World(Scenario())
-    world.step()
-    early = world.record
-    world.step()
-    assert len(early) == 1
-    assert len(world.record) == 2
-    assert world.record.over_message == "not over"
 
 
 # -- props and effort -----------------------------------------------------------------------------
@@ -490,46 +388,3 @@ def test_a_frame_shows_props_contacts_and_efforts_of_this_instant():
     assert frame.contacts.tobytes() == world.contacts.tobytes()
     assert frame.effort.tolist() == world.effort.tolist()
     assert len(frame.contact_log()) == len(world.record.contacts) > len(frame.contacts) == 1
-
-
-# -- a step that is broken off --------------------------------------------------------------------
-
-
-@each_case("hook", ["on_step", "law"])
-def test_a_world_that_was_interrupted_within_a_step_is_over(hook):
-    class Stop(Addon):
-        def on_step(self, world):
-            if hook == "on_step" and world.iteration == 2:
-                raise KeyboardInterrupt
-
-    def law(robot):
-        if hook == "law" and robot.time > 0.15:
-            raise KeyboardInterrupt
-        return 0.1, 0.0
-
-    world = World(Scenario(robots=[Robot(controller=law)], addons=[Stop()]))
-    world.step()
-    world.step()
-    with pytest.raises(KeyboardInterrupt):
-        world.step()
-    assert world.over
-    assert world.over_message == "Interrupted by Ctrl-C"
-    assert len(world.record) == 2
-    with pytest.raises(InputError, match="the experiment is over"):
-        world.step()
-
-
-def test_a_command_that_is_refused_does_not_end_the_experiment():
-    world = World(Scenario())
-    with pytest.raises(InputError, match="was given"):
-        world.step("fast")
-    world.step([[0.1], [0]])
-    assert len(world.record) == 1
-
-
-def test_to_observe_a_world_that_was_broken_off_does_nothing():
-    world = World(Scenario())
-    world.step([[0], [0]])
-    world.break_off("enough")
-    world.observe()
-    assert len(world.record) == 1

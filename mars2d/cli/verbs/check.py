@@ -24,8 +24,7 @@ from mars2d.output.figures import figure
 from mars2d.output.figures.map import save_map
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
-from mars2d.scenario.map_option import reading_options
-from mars2d.scenario.options import parse_setting, settings_in_words
+from mars2d.scenario.options import options_in_words, parse_option, reading_options
 from mars2d.scenario.policy import SUFFIX as LEARNED
 from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
@@ -90,7 +89,7 @@ def execute(arguments: argparse.Namespace) -> None:
         return
     if path.suffix.lower() in maps.SUFFIXES:
         check_outputs(arguments, {"figure": figure.SUFFIXES})
-        _check_map(path, dict(map(parse_setting, arguments.set)), arguments.figure)
+        _check_map(path, dict(map(parse_option, arguments.set)), arguments.figure)
         return
     of_record = path.suffix.lower() in formats.SUFFIXES
     if arguments.laws is not None and not of_record:
@@ -101,7 +100,7 @@ def execute(arguments: argparse.Namespace) -> None:
     if of_record:
         record = _check_record(path)
         if arguments.laws is not None:
-            _ask_laws(path, record, arguments.laws, dict(map(parse_setting, arguments.set)))
+            _ask_laws(path, record, arguments.laws, dict(map(parse_option, arguments.set)))
     elif path.suffix in ("", ".py", ".toml", LEARNED):
         _check_code(arguments.file)
     else:
@@ -119,8 +118,8 @@ def _check_in_game(path: Path, arguments: argparse.Namespace) -> None:
         raise InputError(
             f"{there} needs {missing}: the game, and the role that the law plays in it"
         )
-    settings = dict(map(parse_setting, arguments.set))
-    matches = trial_matches(arguments.game, arguments.role, path, settings)
+    options = dict(map(parse_option, arguments.set))
+    matches = trial_matches(arguments.game, arguments.role, path, options)
     won = 0
     for match in matches:
         played = play(match, LIMITS, replays=False)
@@ -142,14 +141,14 @@ def _check_in_game(path: Path, arguments: argparse.Namespace) -> None:
     )
 
 
-def _check_map(path: Path, settings: dict[str, Any], picture: Path | None) -> None:
+def _check_map(path: Path, options: dict[str, Any], picture: Path | None) -> None:
     """Describe a map, and draw it if a figure is asked for."""
     known = reading_options()
-    for name in settings:
+    for name in options:
         if name not in known:
             raise InputError(f"--set {name}: no option{nearest(name, known)}")
-    tolerance = settings.pop("tolerance", maps.TOLERANCE)
-    drawing = maps.read(path, **settings)
+    tolerance = options.pop("tolerance", maps.TOLERANCE)
+    drawing = maps.read(path, **options)
     for name, text in maps.described(drawing, maps.obstacles(drawing, tolerance), tolerance):
         tell(f"{name:<12}{text}")
     if picture is not None:
@@ -240,7 +239,7 @@ def _run(experiment: Experiment, source: str, limit: Deadline) -> int:
     trial = Experiment(scenario.replace(stop_time=stop_time), experiment.control)
     try:
         with limit:
-            return len(run_headless(trial, 0, [lambda _: limit.alive()]).history)
+            return len(run_headless(trial, [lambda _: limit.alive()]).history)
     except Late:
         raise _late(source, limit) from None
 
@@ -323,12 +322,12 @@ def _check_record(path: Path) -> Record:
     tell(f"ended       {one_line(record.over_message)}")
     tell(f"made with   {one_line(versions)}")
     tell(f"digest      {record.digest}")
-    if record.settings:
-        tell(f"settings    {settings_in_words(record.settings)}")
+    if record.options:
+        tell(f"options     {options_in_words(record.options)}")
     for change in record.changes:
-        if change.settings:
+        if change.options:
             when = change.row * record.scenario.sampling_time
-            tell(f"set         at {when:g} s: {settings_in_words(dict(change.settings))}")
+            tell(f"set         at {when:g} s: {options_in_words(dict(change.options))}")
     if record.missing:
         tell(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
     if not len(record):
@@ -350,11 +349,11 @@ def _check_record(path: Path) -> Record:
     return record
 
 
-def _ask_laws(path: Path, record: Record, source: str, settings: dict[str, Any]) -> None:
+def _ask_laws(path: Path, record: Record, source: str, options: dict[str, Any]) -> None:
     """Ask the laws of an experiment again in the states of a record."""
     if source == SAME:
-        source, settings = _source_of(path, record), {**record.settings, **settings}
-    experiment = open_experiment(source, settings, seed=record.seed)
+        source, options = _source_of(path, record), {**record.options, **options}
+    experiment = open_experiment(source, options, seed=record.seed)
     bar = Progress(max(len(record), 1), "rows")
     try:
         departures = ask_again(record, experiment, bar.update)

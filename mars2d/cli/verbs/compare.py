@@ -18,7 +18,6 @@ from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import has_display, make_folder, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
-from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.output.figures import figure
 from mars2d.output.figures.comparison import MODES, Comparison
@@ -68,7 +67,7 @@ def execute(arguments: argparse.Namespace) -> None:
     """
     start = time.perf_counter()
     check_outputs(arguments, OUTPUTS)
-    options, seed = _options(arguments), check_seed(arguments.seed)
+    options, seed = _options(arguments), arguments.seed
     outputs = arguments.figure, arguments.video
     if not (arguments.headless or arguments.json or any(outputs)) and has_display():
         _show(arguments, options, seed)
@@ -80,7 +79,7 @@ def execute(arguments: argparse.Namespace) -> None:
     for mode, experiment in experiments.items():
         with _saying(mode):
             footage = _footage(arguments, experiment) if "video" in paths else None
-            world = run_headless(experiment, seed, [footage] if footage else [])
+            world = run_headless(experiment, [footage] if footage else [])
         records[mode] = world.record
         if footage is not None:
             reels[mode] = footage, world.frame
@@ -110,7 +109,7 @@ def _show(arguments: argparse.Namespace, options: dict[str, Any], seed: int) -> 
     own = open_experiment(arguments.experiment, options, seed=seed).scenario.animation
     speed = own.playback_speed if arguments.speed is None else arguments.speed
     opened = partial(_opened, arguments.experiment, options, seed)
-    records = show_comparison(opened, speed, seed, preferences_of(arguments))
+    records = show_comparison(opened, speed, preferences_of(arguments))
     if all(len(record) for record in records.values()):
         tell(_as_table(Comparison(**records)))
 

@@ -23,7 +23,6 @@ from mars2d.cli.runs import (
     warn_unchecked,
 )
 from mars2d.core.errors import InputError, likely, one_line
-from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import examples
@@ -53,20 +52,20 @@ def execute(arguments: argparse.Namespace) -> None:
     known = examples()
     if name not in known:
         raise InputError(f"{name}: there is no such example{likely(name, known) or LISTED}")
-    experiment = open_experiment(known[name], theory_of(arguments), seed=check_seed(arguments.seed))
+    experiment = open_experiment(known[name], theory_of(arguments), seed=arguments.seed)
     look = preferences_of(arguments)
     try:
         if not arguments.headless and has_display():
-            record = show(experiment, None, arguments.seed, look)
+            record = show(experiment, None, look)
         else:
-            record = _make_pictures(experiment, name, arguments.seed)
+            record = _make_pictures(experiment, name)
     except Interrupted:
         warn_unchecked(experiment, "cut short")
         raise
     print_predictions(experiment, record)
 
 
-def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
+def _make_pictures(experiment: Experiment, name: str) -> Record:
     """Run, make a picture and a short film, and print their paths."""
     require_pygame("a film")
     from mars2d.output.figures.figure import save_figure
@@ -74,7 +73,7 @@ def _make_pictures(experiment: Experiment, name: str, seed: int) -> Record:
 
     make_folder(FOLDER)
     footage = Footage(experiment.scenario, experiment.scenario.stop_time / DURATION, FPS)
-    world = run_headless(experiment, seed, [footage])
+    world = run_headless(experiment, [footage])
     record = world.record
     tell(f"{record.scenario.title}: {one_line(record.over_message)}")
     tell(f"picture: {save_figure(record, FOLDER / f'{name}.png')}")

@@ -12,7 +12,7 @@ from mars2d.core.terminal import warn
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.options import parse_setting
+from mars2d.scenario.options import parse_option
 from mars2d.scenario.scenario import Scenario
 
 NO_DISPLAY = (
@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace) -> None:
     """Draw a scenario with the mouse, a new one or that of a file, and save it as a file."""
-    options = dict(parse_setting(setting) for setting in arguments.set)
+    options = dict(parse_option(setting) for setting in arguments.set)
     path = None if arguments.scenario is None else Path(arguments.scenario)
     new = path is None or (path.suffix.lower() == ".toml" and not path.exists())
     if new and path is not None and not path.parent.is_dir():

@@ -16,7 +16,6 @@ from mars2d.cli.arguments import (
 )
 from mars2d.cli.runs import has_display, print_table, show
 from mars2d.core.errors import InputError, nearest
-from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import games, title_of
@@ -51,15 +50,15 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.game is None:
         _list()
         return
-    settings, seed = options_of(arguments), check_seed(arguments.seed)
-    experiment = open_experiment(arguments.game, settings | theory_of(arguments), seed=seed)
+    options = options_of(arguments) | theory_of(arguments)
+    experiment = open_experiment(arguments.game, options, seed=arguments.seed)
     people = _people(arguments, experiment)
     if not has_display():
         require_pygame("a window")
         raise InputError(f"play {arguments.game}: people need a window, and there is no display")
     look = preferences_of(arguments)
     show(
-        experiment, arguments.speed, seed, look, people, kept=True, play=True, settings=settings
+        experiment, arguments.speed, look, people, kept=True, play=True
     )  # fmt: skip
 
 

@@ -42,7 +42,6 @@ from mars2d.cli.runs import (
     warn_unchecked,
 )
 from mars2d.core.errors import InputError, counted, likely, one_line
-from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
@@ -91,8 +90,8 @@ def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment, in a window if there is a display, and save the requested files."""
     check_outputs(arguments, OUTPUTS)
     check_snapshots(arguments)
-    options, seed = options_of(arguments) | theory_of(arguments), check_seed(arguments.seed)
-    experiment = open_experiment(arguments.experiment, options, seed=seed)
+    options = options_of(arguments) | theory_of(arguments)
+    experiment = open_experiment(arguments.experiment, options, seed=arguments.seed)
     _check_times(arguments, experiment)
     scenario = experiment.scenario
     check_film(arguments, scenario, scenario.last_iteration * scenario.sampling_time)
@@ -181,13 +180,11 @@ def _run_in_window(
     record = show(
         experiment,
         arguments.speed,
-        arguments.seed,
         look,
         people,
         log,
         watchers,
         kept=arguments.record is not None,
-        settings=options_of(arguments),
     )
     return record, None
 
@@ -199,14 +196,14 @@ def _run_headless(
     log = formats.log_to(arguments.record)
     pace = "max" if arguments.foxglove is None else arguments.speed or 1.0
     if arguments.video is None:
-        world = run_headless(experiment, arguments.seed, watchers, log, pace)
+        world = run_headless(experiment, watchers, log, pace)
         _advise_to_compile(world.simulation.engine_seconds)
         return world.record, None
     from mars2d.output.films.footage import Footage
 
     speed = film_speed(experiment.scenario, arguments.speed)
     footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
-    world = run_headless(experiment, arguments.seed, [footage, *watchers], log, pace)
+    world = run_headless(experiment, [footage, *watchers], log, pace)
     _advise_to_compile(world.simulation.engine_seconds)
     last, path, size = world.frame, arguments.video, arguments.size
     return world.record, lambda: save_footage(footage, last, path, size)

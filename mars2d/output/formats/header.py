@@ -64,15 +64,15 @@ def of_record(record: Rows) -> dict[str, Any]:
         "messages": bool(record.contents),
         "sensor_robots": {name: list(robots) for name, robots in record.sensor_robots.items()},
         "interventions": [interventions.to_plain(each) for each in record.interventions],
-        **_settings_of(record),
+        **_options_of(record),
         "digest": record.digest,
     }
 
 
-def _settings_of(record: Rows) -> dict[str, Any]:
-    """Return the settings that a file can hold; nothing where there are none."""
+def _options_of(record: Rows) -> dict[str, Any]:
+    """Return the options that a file can hold; nothing where there are none."""
     plain = {}
-    for name, value in record.settings.items():
+    for name, value in record.options.items():
         with suppress(TypeError, ValueError):  # such as a Map, or NaN
             plain[str(name)] = json.loads(json.dumps(value, allow_nan=False))
     return {"settings": plain} if plain else {}
@@ -215,7 +215,7 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
         versions=dict(header["versions"]),
         missing=(*missing, *dict.fromkeys(lost)),
         interventions=tuple(interventions.of_plain(each) for each in header["interventions"]),
-        settings=_settings_in(header),
+        options=_options_in(header),
     )
     _check_kinds(header)
     _check(record)
@@ -224,12 +224,12 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
     return record
 
 
-def _settings_in(header: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the settings that a header holds. Raises ValueError where it holds anything else."""
-    settings = header.get("settings", {})
-    if not isinstance(settings, dict):
+def _options_in(header: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options that a header holds. Raises ValueError where it holds anything else."""
+    options = header.get("settings", {})
+    if not isinstance(options, dict):
         raise TypeError("settings")
-    return {name: _tuples(value) for name, value in settings.items()}
+    return {name: _tuples(value) for name, value in options.items()}
 
 
 def _tuples(value: Any) -> Any:

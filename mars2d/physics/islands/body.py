@@ -63,9 +63,9 @@ class Body(DrivenBody):
     after_x: cython.double
     after_y: cython.double
     # impulses of its drive, or of the floor under it, on the centre of mass
-    drag_x: cython.double
-    drag_y: cython.double
-    drag_turn: cython.double
+    reaction_x: cython.double
+    reaction_y: cython.double
+    reaction_turn: cython.double
     # impulses of contacts in a substep, and for the group of bodies that touch: how they work
     tied: cython.bint  # whether a joint may have acted on it
     group: object  # another body on the way to that which stands for the group
@@ -80,10 +80,10 @@ class Body(DrivenBody):
     eased: cython.bint  # whether a blow has put it back out of what it hit
     shift: cython.double  # s, since when the impulses have acted, in the mean
     push_work: cython.double
-    rub_work: cython.double
+    friction_work: cython.double
     excess: cython.double
     push_power: cython.double
-    rub_power: cython.double
+    friction_power: cython.double
     share: cython.double
     crowd: cython.int  # how many bodies are in the group
     driven: cython.bint  # whether a robot in it is told to move
@@ -195,7 +195,7 @@ class Body(DrivenBody):
 
     @cython.cfunc
     def correct(self, h: cython.double) -> cython.void:
-        """Go as far as the engine moved it in h s to mend overlaps, beyond its velocity's way."""
+        """Go as far as the engine moved it in h s to correct overlaps, beyond its own way."""
         x: cython.double = self.moved_x - (self.back.x + h * self.back.vx)
         y: cython.double = self.moved_y - (self.back.y + h * self.back.vy)
         turn: cython.double = self.moved_angle - (self.back.angle + h * self.back.spin)

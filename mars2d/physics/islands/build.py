@@ -22,6 +22,48 @@ MODULES = (
 )  # fmt: skip
 """The modules, each after those that it imports."""
 
+FUNCTIONS = """
+void(Handle, double): SpaceStep SpaceSetCurrentTimeStep SpaceSetCollisionSlop
+  SpaceSetCollisionBias ShapeSetFriction ShapeSetElasticity BodySetAngularVelocity BodySetTorque
+  PinJointSetDist RotaryLimitJointSetMin RotaryLimitJointSetMax ConstraintSetMaxForce
+  ConstraintSetMaxBias ConstraintSetErrorBias ArbiterSetFriction ArbiterSetRestitution
+Handle(): SpaceNew BodyNewKinematic BodyNewStatic PivotJointAlloc GrooveJointAlloc GearJointAlloc
+  SlideJointAlloc PinJointAlloc DampedSpringAlloc RotaryLimitJointAlloc DampedRotarySpringAlloc
+Handle(Handle): SpaceGetStaticBody BodyGetUserData ConstraintGetSpace ConstraintGetBodyA
+  ConstraintGetBodyB SpaceAddGlobalCollisionHandler ShapeGetUserData ShapeGetBody
+void(Handle, Handle): BodySetUserData SpaceRemoveBody SpaceRemoveShape SpaceRemoveConstraint
+  ShapeSetUserData
+void(Handle): SpaceFree BodyFree ShapeFree ConstraintFree
+double(Handle): BodyGetAngle BodyGetAngularVelocity SpaceGetCurrentTimeStep ConstraintGetImpulse
+Handle(Handle, Handle): SpaceAddBody SpaceAddShape SpaceAddConstraint
+void(Handle, Vector): BodySetCenterOfGravity BodySetVelocity BodySetForce
+Vector(Handle): BodyGetPosition BodyGetVelocity ArbiterTotalImpulse
+Vector(Handle, int): ArbiterGetPointA ArbiterGetPointB PolyShapeGetVert
+Handle(Handle, Handle, Handle, Vector, Vector): PivotJointInit PinJointInit
+Handle(Handle, Handle, Handle, double, double): GearJointInit RotaryLimitJointInit
+void(Handle, double (*)(Handle, double) noexcept): DampedSpringSetSpringForceFunc
+  DampedRotarySpringSetSpringTorqueFunc
+int(Handle): ArbiterGetCount PolyShapeGetCount
+void(Handle, int): SpaceSetIterations
+void(Handle, unsigned int): SpaceSetCollisionPersistence
+Handle(double, double): BodyNew
+Handle(Handle, double, Vector): CircleShapeNew
+Handle(Handle, Vector, Vector, double): SegmentShapeNew
+Handle(Handle, int, Vector *, double): PolyShapeNewRaw
+void(Handle, void (*)(Handle, double) noexcept): BodySetPositionUpdateFunc
+Handle(Handle, Handle, Handle, Vector, Vector, Vector): GrooveJointInit
+Handle(Handle, Handle, Handle, Vector, Vector, double, double): SlideJointInit
+Handle(Handle, Handle, Handle, Vector, Vector, double, double, double): DampedSpringInit
+Handle(Handle, Handle, Handle, double, double, double): DampedRotarySpringInit
+void(Handle, unsigned char): ConstraintSetCollideBodies
+void(Handle, void (*)(Handle, Handle, Handle) noexcept, Handle): BodyEachArbiter
+double(Handle, int): ArbiterGetDepth
+Handle(Handle, uintptr_t): SpaceAddWildcardHandler
+void(Handle, uintptr_t): ShapeSetCollisionType
+Vector(Handle, Vector): BodyLocalToWorld
+"""
+"""The engine's functions that are called, without their "cp", behind their types in C."""
+
 HEAD = """
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
 # cython: initializedcheck=False, nonecheck=False, binding=False, auto_pickle=False
@@ -47,12 +89,19 @@ def fingerprint() -> str:
 
 def functions() -> list[tuple[str, str]]:
     """Return the engine's functions that are called: their names and types, as declared in C."""
-    text = (HERE / "chipmunk.pxi").read_text(encoding="utf-8")
-    declared = text[text.index("cdef struct Engine:") : text.index("cdef Engine engine")]
-    found = re.findall(r"^    (\w+) \(\*(\w+)\)\((.*?)\) noexcept$", declared, flags=re.M | re.S)
-    kinds = [f"{result}(*)({' '.join(taken.split())})" for result, _, taken in found]
-    plain = [kind.replace("Handle", "void *").replace(" noexcept", "") for kind in kinds]
-    return [(name, kind) for (_, name, _), kind in zip(found, plain, strict=True)]
+    lines = FUNCTIONS.strip().replace("\n  ", " ").splitlines()
+    kinds = [line.replace("(", "(*)(", 1).split(": ") for line in lines]
+    return [
+        (f"cp{name}", kind.replace("Handle", "void *"))
+        for kind, names in kinds
+        for name in names.split()
+    ]
+
+
+def struct() -> str:
+    """Return a struct of these functions, for Cython."""
+    fields = [kind.replace("(*)", f"(*{name})", 1) for name, kind in functions()]
+    return "cdef struct Engine:\n" + "".join(f"    {field} noexcept\n" for field in fields)
 
 
 def in_c() -> dict[str, str]:
@@ -68,7 +117,9 @@ def in_c() -> dict[str, str]:
 
 def joined() -> str:
     """Return the modules as one for Cython."""
-    parts = [HEAD.format(fingerprint=fingerprint()), (HERE / "chipmunk.pxi").read_text("utf-8")]
+    engine = (HERE / "chipmunk.pxi").read_text("utf-8")
+    engine = engine.replace("cdef Engine engine", f"{struct()}\ncdef Engine engine")
+    parts = [HEAD.format(fingerprint=fingerprint()), engine]
     named = in_c()
     for name in MODULES:
         text = (HERE / f"{name}.py").read_text(encoding="utf-8")

@@ -9,95 +9,6 @@ ctypedef void *Handle
 cdef struct Vector:
     double x, y
 
-cdef struct Engine:
-    Handle (*cpSpaceNew)() noexcept
-    void (*cpSpaceFree)(Handle) noexcept
-    void (*cpSpaceStep)(Handle, double) noexcept
-    void (*cpSpaceSetCurrentTimeStep)(Handle, double) noexcept
-    void (*cpSpaceSetIterations)(Handle, int) noexcept
-    void (*cpSpaceSetCollisionSlop)(Handle, double) noexcept
-    void (*cpSpaceSetCollisionBias)(Handle, double) noexcept
-    void (*cpSpaceSetCollisionPersistence)(Handle, unsigned int) noexcept
-    Handle (*cpSpaceGetStaticBody)(Handle) noexcept
-    Handle (*cpBodyNew)(double, double) noexcept
-    Handle (*cpBodyNewKinematic)() noexcept
-    Handle (*cpBodyNewStatic)() noexcept
-    void (*cpBodyFree)(Handle) noexcept
-    void (*cpBodySetUserData)(Handle, Handle) noexcept
-    Handle (*cpBodyGetUserData)(Handle) noexcept
-    Handle (*cpCircleShapeNew)(Handle, double, Vector) noexcept
-    Handle (*cpSegmentShapeNew)(Handle, Vector, Vector, double) noexcept
-    Handle (*cpPolyShapeNewRaw)(Handle, int, Vector *, double) noexcept
-    void (*cpShapeSetFriction)(Handle, double) noexcept
-    void (*cpShapeSetElasticity)(Handle, double) noexcept
-    void (*cpShapeFree)(Handle) noexcept
-    Handle (*cpSpaceAddBody)(Handle, Handle) noexcept
-    void (*cpSpaceRemoveBody)(Handle, Handle) noexcept
-    Handle (*cpSpaceAddShape)(Handle, Handle) noexcept
-    void (*cpSpaceRemoveShape)(Handle, Handle) noexcept
-    Handle (*cpSpaceAddConstraint)(Handle, Handle) noexcept
-    void (*cpSpaceRemoveConstraint)(Handle, Handle) noexcept
-    void (*cpConstraintFree)(Handle) noexcept
-    void (*cpBodySetCenterOfGravity)(Handle, Vector) noexcept
-    void (*cpBodySetPositionUpdateFunc)(Handle, void (*)(Handle, double) noexcept) noexcept
-    void (*cpBodySetVelocity)(Handle, Vector) noexcept
-    void (*cpBodySetAngularVelocity)(Handle, double) noexcept
-    Vector (*cpBodyGetPosition)(Handle) noexcept
-    double (*cpBodyGetAngle)(Handle) noexcept
-    Vector (*cpBodyGetVelocity)(Handle) noexcept
-    double (*cpBodyGetAngularVelocity)(Handle) noexcept
-    void (*cpBodySetForce)(Handle, Vector) noexcept
-    void (*cpBodySetTorque)(Handle, double) noexcept
-    Handle (*cpPivotJointAlloc)() noexcept
-    Handle (*cpPivotJointInit)(Handle, Handle, Handle, Vector, Vector) noexcept
-    Handle (*cpGrooveJointAlloc)() noexcept
-    Handle (*cpGrooveJointInit)(Handle, Handle, Handle, Vector, Vector, Vector) noexcept
-    Handle (*cpGearJointAlloc)() noexcept
-    Handle (*cpGearJointInit)(Handle, Handle, Handle, double, double) noexcept
-    Handle (*cpSlideJointAlloc)() noexcept
-    Handle (*cpSlideJointInit)(Handle, Handle, Handle, Vector, Vector, double, double) noexcept
-    Handle (*cpPinJointAlloc)() noexcept
-    Handle (*cpPinJointInit)(Handle, Handle, Handle, Vector, Vector) noexcept
-    void (*cpPinJointSetDist)(Handle, double) noexcept
-    void (*cpRotaryLimitJointSetMin)(Handle, double) noexcept
-    void (*cpRotaryLimitJointSetMax)(Handle, double) noexcept
-    Handle (*cpDampedSpringAlloc)() noexcept
-    Handle (*cpDampedSpringInit)(
-        Handle, Handle, Handle, Vector, Vector, double, double, double) noexcept
-    Handle (*cpRotaryLimitJointAlloc)() noexcept
-    Handle (*cpRotaryLimitJointInit)(Handle, Handle, Handle, double, double) noexcept
-    Handle (*cpDampedRotarySpringAlloc)() noexcept
-    Handle (*cpDampedRotarySpringInit)(Handle, Handle, Handle, double, double, double) noexcept
-    void (*cpDampedSpringSetSpringForceFunc)(Handle, double (*)(Handle, double) noexcept) noexcept
-    void (*cpDampedRotarySpringSetSpringTorqueFunc)(
-        Handle, double (*)(Handle, double) noexcept) noexcept
-    Handle (*cpConstraintGetSpace)(Handle) noexcept
-    Handle (*cpConstraintGetBodyA)(Handle) noexcept
-    Handle (*cpConstraintGetBodyB)(Handle) noexcept
-    double (*cpSpaceGetCurrentTimeStep)(Handle) noexcept
-    void (*cpConstraintSetMaxForce)(Handle, double) noexcept
-    void (*cpConstraintSetMaxBias)(Handle, double) noexcept
-    void (*cpConstraintSetErrorBias)(Handle, double) noexcept
-    void (*cpConstraintSetCollideBodies)(Handle, unsigned char) noexcept
-    double (*cpConstraintGetImpulse)(Handle) noexcept
-    void (*cpBodyEachArbiter)(Handle, void (*)(Handle, Handle, Handle) noexcept, Handle) noexcept
-    Vector (*cpArbiterTotalImpulse)(Handle) noexcept
-    int (*cpArbiterGetCount)(Handle) noexcept
-    double (*cpArbiterGetDepth)(Handle, int) noexcept
-    Vector (*cpArbiterGetPointA)(Handle, int) noexcept
-    Vector (*cpArbiterGetPointB)(Handle, int) noexcept
-    void (*cpArbiterSetFriction)(Handle, double) noexcept
-    void (*cpArbiterSetRestitution)(Handle, double) noexcept
-    Handle (*cpSpaceAddGlobalCollisionHandler)(Handle) noexcept
-    Handle (*cpSpaceAddWildcardHandler)(Handle, uintptr_t) noexcept
-    void (*cpShapeSetCollisionType)(Handle, uintptr_t) noexcept
-    void (*cpShapeSetUserData)(Handle, Handle) noexcept
-    Handle (*cpShapeGetUserData)(Handle) noexcept
-    Handle (*cpShapeGetBody)(Handle) noexcept
-    int (*cpPolyShapeGetCount)(Handle) noexcept
-    Vector (*cpPolyShapeGetVert)(Handle, int) noexcept
-    Vector (*cpBodyLocalToWorld)(Handle, Vector) noexcept
-
 cdef Engine engine
 
 # The first fields of the engine's structs, as far as they are used.
@@ -128,7 +39,7 @@ cdef struct cpCollisionHandler:
 
 cdef enum:  # where the engine has its numbers, and its collision types: see chipmunk.py
     LEAD = 6, CENTER = 8, FAST = 10, ANGLE = 14, SPIN = 15, TURN = 17, BIAS = 24, SPIN_BIAS = 26
-    REST = 17, REST_ANGLE = 13, LOST = 22, LOST_TURNING = 18, FELT = 27, FELT_TURNING = 19
+    REST = 17, REST_ANGLE = 13, LOST = 22, LOST_TURNING = 18, EFFECTIVE_MASS = 27, EFFECTIVE_MOMENT = 19
     PIVOT_IMPULSE = 25, GEAR_IMPULSE = 18, GROOVE_IMPULSE = 32
     SEWN = 1, JOINED = 2
 
@@ -159,7 +70,7 @@ cdef Handle new_space(double slop) noexcept:
     cdef Handle space = engine.cpSpaceNew()
     engine.cpSpaceSetCollisionSlop(space, slop)
     engine.cpSpaceSetCollisionPersistence(space, 1)
-    set_handler(engine.cpSpaceAddWildcardHandler(space, SEWN), mend_contact, NULL)
+    set_handler(engine.cpSpaceAddWildcardHandler(space, SEWN), correct_contact, NULL)
     set_handler(engine.cpSpaceAddWildcardHandler(space, JOINED), straighten_contact, NULL)
     return space
 
@@ -293,24 +204,24 @@ cdef Handle make_joint(
 cdef double pull(Handle spring, double length) noexcept:
     cdef double *n = <double *>spring
     cdef double *arms = n + LOST + 1
-    cdef double *normal = n + FELT + 1
+    cdef double *normal = n + EFFECTIVE_MASS + 1
     cdef double *a = <double *>engine.cpConstraintGetBodyA(spring)
     cdef double *b = <double *>engine.cpConstraintGetBodyB(spring)
     cdef double x = (b[FAST] - b[SPIN] * arms[3]) - (a[FAST] - a[SPIN] * arms[1])
     cdef double y = (b[FAST + 1] + b[SPIN] * arms[2]) - (a[FAST + 1] + a[SPIN] * arms[0])
-    return (n[REST] - length) * damped(spring, REST, LOST, FELT, x * normal[0] + y * normal[1])
+    return (n[REST] - length) * damped(spring, REST, LOST, EFFECTIVE_MASS, x * normal[0] + y * normal[1])
 
 cdef double twist_back(Handle spring, double angle) noexcept:
     cdef double *a = <double *>engine.cpConstraintGetBodyA(spring)
     cdef double *b = <double *>engine.cpConstraintGetBodyB(spring)
     cdef double closing = a[SPIN] - b[SPIN]
-    cdef double stiffness = damped(spring, REST_ANGLE, LOST_TURNING, FELT_TURNING, closing)
+    cdef double stiffness = damped(spring, REST_ANGLE, LOST_TURNING, EFFECTIVE_MOMENT, closing)
     return (angle - (<double *>spring)[REST_ANGLE]) * stiffness
 
-cdef double damped(Handle spring, int rest, int lost, int felt, double closing) noexcept:
+cdef double damped(Handle spring, int rest, int lost, int effective, double closing) noexcept:
     cdef double *n = <double *>spring
     cdef double h = engine.cpSpaceGetCurrentTimeStep(engine.cpConstraintGetSpace(spring))
-    cdef double fades = n[rest + 2] * h / n[felt], theta = implicitness(fades)
+    cdef double fades = n[rest + 2] * h / n[effective], theta = implicitness(fades)
     n[lost - 1] = -closing * (1.0 - theta) / theta
     n[lost] = fades * theta / (1.0 + fades * theta)
     return n[rest + 1]
@@ -321,7 +232,7 @@ cdef inline void set_joint(Handle joint, double bias, bint collide) noexcept:
 cdef inline void set_limits(Handle joint, double least, double largest) noexcept:
     engine.cpRotaryLimitJointSetMin(joint, least)
     engine.cpRotaryLimitJointSetMax(joint, largest)
-cdef inline Vector drag_of(Handle joint, int kind) noexcept:
+cdef inline Vector reaction_of(Handle joint, int kind) noexcept:
     cdef double *n = <double *>joint + (GROOVE_IMPULSE if kind == GROOVE else PIVOT_IMPULSE)
     return vector(n[0], n[1])
 cdef inline double twist_of(Handle joint) noexcept:
@@ -419,10 +330,10 @@ cdef inline int check_signals() except -1:
 
 # -- seams ------------------------------------------------------------------------------------
 
-cdef void mend_contact(Handle touched, Handle space, Handle data) noexcept:
+cdef void correct_contact(Handle touched, Handle space, Handle data) noexcept:
     cdef Arbiter arbiter = <Arbiter>touched
     cdef bint first = first_of(arbiter) < 0
-    (<Seams>engine.cpShapeGetUserData(shape_of(arbiter, not first))).mend(arbiter, first)
+    (<Seams>engine.cpShapeGetUserData(shape_of(arbiter, not first))).correct(arbiter, first)
 
 cdef inline void sew(Handle segment, seams) noexcept:
     engine.cpShapeSetUserData(segment, <void *>seams)

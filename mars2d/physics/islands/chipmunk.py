@@ -1,7 +1,7 @@
 """Chipmunk, pymunk's engine, as the islands use it: spaces, bodies, shapes, joints, contacts.
 
 Python calls its functions through pymunk. The compiled islands call the same functions by their
-addresses: ``chipmunk.pxi`` is this module in C. `layout` finds out where its numbers are.
+addresses: ``chipmunk.pxi`` is this module in C. Tests find out where its numbers are.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def new_space(slop: float) -> Handle:
     space = lib.cpSpaceNew()
     lib.cpSpaceSetCollisionSlop(space, slop)
     lib.cpSpaceSetCollisionPersistence(space, 1)
-    lib.cpSpaceAddWildcardHandler(space, SEWN).preSolveFunc = _MEND
+    lib.cpSpaceAddWildcardHandler(space, SEWN).preSolveFunc = _CORRECT
     lib.cpSpaceAddWildcardHandler(space, JOINED).preSolveFunc = _STRAIGHTEN
     return space
 
@@ -150,7 +150,7 @@ LEAD, CENTER, FAST, ANGLE, SPIN, TURN, BIAS, SPIN_BIAS = (
 """Where the engine's bodies have these, in numbers of eight bytes.
 
 They are the centre of mass in the body's frame and in the world, its velocity, angle and spin, the
-transformation to the world, and the velocity and spin by which overlaps are mended.
+transformation to the world, and the velocity and spin by which overlaps are corrected.
 """
 
 
@@ -195,7 +195,7 @@ def aim(body: Handle, vx: float, vy: float, spin: float) -> None:
 
 
 def settle_down(body: Handle) -> None:
-    """Let a body forget by which velocity its overlaps are to be mended in the next step."""
+    """Let a body forget by which velocity its overlaps are to be corrected in the next step."""
     numbers = ffi.cast("double *", body)
     numbers[BIAS] = numbers[BIAS + 1] = numbers[SPIN_BIAS] = 0.0
 
@@ -262,7 +262,12 @@ REST, REST_ANGLE = _JOINT + 4, _JOINT
 Stiffness and damping follow.
 """
 
-LOST, LOST_TURNING, FELT, FELT_TURNING = _JOINT + 9, _JOINT + 5, _JOINT + 14, _JOINT + 6
+LOST, LOST_TURNING, EFFECTIVE_MASS, EFFECTIVE_MOMENT = (
+    _JOINT + 9,
+    _JOINT + 5,
+    _JOINT + 14,
+    _JOINT + 6,
+)
 """Where they have the share of speed that is lost in a step, and the mass or moment that is felt.
 
 The engine works out that share with the C library's exponential, and asks for the force right after
@@ -278,14 +283,14 @@ def _PULL(spring: Handle, length: float) -> float:  # noqa: N802
     a, b = (ffi.cast("double *", body) for body in _ends_of(spring))
     x = (b[FAST] - b[SPIN] * by) - (a[FAST] - a[SPIN] * ay)
     y = (b[FAST + 1] + b[SPIN] * bx) - (a[FAST + 1] + a[SPIN] * ax)
-    closing = x * n[FELT + 1] + y * n[FELT + 2]
-    return float(n[REST] - length) * _damped(spring, REST, LOST, FELT, closing)
+    closing = x * n[EFFECTIVE_MASS + 1] + y * n[EFFECTIVE_MASS + 2]
+    return float(n[REST] - length) * _damped(spring, REST, LOST, EFFECTIVE_MASS, closing)
 
 
 @ffi.callback("double(cpConstraint *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _TWIST(spring: Handle, angle: float) -> float:  # noqa: N802
     a, b = (ffi.cast("double *", body) for body in _ends_of(spring))
-    stiffness = _damped(spring, REST_ANGLE, LOST_TURNING, FELT_TURNING, a[SPIN] - b[SPIN])
+    stiffness = _damped(spring, REST_ANGLE, LOST_TURNING, EFFECTIVE_MOMENT, a[SPIN] - b[SPIN])
     return float(angle - ffi.cast("double *", spring)[REST_ANGLE]) * stiffness
 
 
@@ -293,7 +298,7 @@ def _ends_of(spring: Handle) -> tuple[Handle, Handle]:
     return lib.cpConstraintGetBodyA(spring), lib.cpConstraintGetBodyB(spring)
 
 
-def _damped(spring: Handle, rest: int, lost: int, felt: int, closing: float) -> float:
+def _damped(spring: Handle, rest: int, lost: int, effective: int, closing: float) -> float:
     """Return a spring's stiffness, and let its damper act on the speed all through the step.
 
     closing: the speed before the step. The engine draws the speed v* that all forces lead to
@@ -303,14 +308,14 @@ def _damped(spring: Handle, rest: int, lost: int, felt: int, closing: float) -> 
     """
     n = ffi.cast("double *", spring)
     h = lib.cpSpaceGetCurrentTimeStep(lib.cpConstraintGetSpace(spring))
-    fades = float(n[rest + 2]) * h / float(n[felt])
+    fades = float(n[rest + 2]) * h / float(n[effective])
     theta = implicitness(fades)
     n[lost - 1] = -closing * (1.0 - theta) / theta
     n[lost] = fades * theta / (1.0 + fades * theta)
     return float(n[rest + 1])
 
 
-def drag_of(joint: Handle, kind: int) -> Vector:
+def reaction_of(joint: Handle, kind: int) -> Vector:
     """Return the impulse of a joint, PIVOT or GROOVE, on its second body in the last step."""
     numbers = ffi.cast("double *", joint)
     place = GROOVE_IMPULSE if kind == GROOVE else PIVOT_IMPULSE
@@ -444,14 +449,14 @@ SEWN, JOINED = 1, 2
 
 
 @ffi.callback("void(cpArbiter *, cpSpace *, void *)", onerror=_catch)  # type: ignore[untyped-decorator]
-def _MEND(arbiter: Arbiter, _space: Handle, _data: Handle) -> None:  # noqa: N802
+def _CORRECT(arbiter: Arbiter, _space: Handle, _data: Handle) -> None:  # noqa: N802
     first = first_of(arbiter) < 0
     data = lib.cpShapeGetUserData(arbiter.a if first else arbiter.b)
-    ffi.from_handle(data).mend(arbiter, first)
+    ffi.from_handle(data).correct(arbiter, first)
 
 
 def sew(segment: Handle, seams: Any) -> None:
-    """Let contacts with a wall be mended at its seams."""
+    """Let contacts with a wall be corrected at its seams."""
     if seams.handle is None:
         seams.handle = ffi.new_handle(seams)
     lib.cpShapeSetUserData(segment, seams.handle)

@@ -15,7 +15,7 @@ from mars2d.physics.islands.body import Body
 ALIKE = 0.9659258262890683
 """The cosine up to which a contact's normal is still that of a touch in the substep before."""
 
-TURNED = 0.7071067811865476
+SAME_TOUCH = 0.7071067811865476
 """The cosine up to which a normal that turns on and on is still that of one touch."""
 
 
@@ -105,7 +105,7 @@ class Touch:
         """Return the cosine of the angle that the normal has turned to be a contact's."""
         x: cython.double = row.normal_x
         y: cython.double = row.normal_y
-        if self.any and self.first.normal_x * x + self.first.normal_y * y < TURNED:
+        if self.any and self.first.normal_x * x + self.first.normal_y * y < SAME_TOUCH:
             return 0.0
         return self.last.normal_x * x + self.last.normal_y * y
 
@@ -117,7 +117,7 @@ class Touch:
         self.impulse_x += row.impulse_x
         self.impulse_y += row.impulse_y
         push: cython.double = row.impulse_x * row.normal_x + row.impulse_y * row.normal_y
-        rub: cython.double = row.impulse_y * row.normal_x - row.impulse_x * row.normal_y
+        friction: cython.double = row.impulse_y * row.normal_x - row.impulse_x * row.normal_y
         if push <= 0.0:
             return
         if self.base is None:
@@ -125,7 +125,7 @@ class Touch:
         self.push += push
         self.turn_x += push * (row.normal_x - self.base.normal_x)
         self.turn_y += push * (row.normal_y - self.base.normal_y)
-        self.steepest = max(self.steepest, abs(rub) / push)
+        self.steepest = max(self.steepest, abs(friction) / push)
 
     @cython.cfunc
     def close(self, time: cython.double, h: cython.double, passes_on: cython.bint) -> cython.void:

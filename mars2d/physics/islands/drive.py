@@ -61,8 +61,7 @@ class DrivenBody(RigidBody):
     def follow(self, angle: cython.double, h: cython.double) -> cython.void:
         """Aim a robot along its command's arc: at the velocity that leads to its end within h s.
 
-        angle: its heading at the beginning. Source: the arc of radius v / omega seen as its chord,
-        of length v h sinc(omega h / 2) in the direction theta + omega h / 2.
+        angle: its heading at the beginning.
         """
         half: cython.double = self.turning * (h / 2) if self.in_robot_frame else 0.0
         turned: cython.double = angle + half if self.in_robot_frame else 0.0
@@ -111,7 +110,7 @@ class DrivenBody(RigidBody):
         return self.force if self.grip_across >= 1e300 else self.grip_across
 
     @cython.cfunc
-    def bear(
+    def set_bound(
         self,
         x: cython.double,
         y: cython.double,
@@ -179,7 +178,7 @@ class DrivenBody(RigidBody):
             return self.takes_more(h)
         off: cython.double = length(self.vx - self.aim_x, self.vy - self.aim_y)
         if self.grips:
-            self.bear(self.aim_x - self.vx, self.aim_y - self.vy, self.angle, self.vx, self.vy)
+            self.set_bound(self.aim_x - self.vx, self.aim_y - self.vy, self.angle, self.vx, self.vy)
         if off * self.mass > self.bound * h:
             return True
         return abs(self.spin - self.turning) * self.moment > self.torque * h
@@ -198,7 +197,7 @@ class DrivenBody(RigidBody):
         push_x: cython.double = self.mass * (self.aim_x - self.vx - spin * y)
         push_y: cython.double = self.mass * (self.aim_y - self.vy + spin * x)
         if self.grip_across < 1e300:
-            self.bear(push_x, push_y, self.angle, self.vx, self.vy)
+            self.set_bound(push_x, push_y, self.angle, self.vx, self.vy)
         if length(push_x, push_y) > self.bound * h:
             return True
         return abs(self.moment * spin + x * push_y - y * push_x) > self.torque * h

@@ -100,13 +100,13 @@ class Flush:
         asks: cython.bint = self.look(arbiter, other.piece, False)
         if not other.look(arbiter, self.piece, True):
             if asks:
-                self.mend(arbiter, other.piece, False)
+                self.correct(arbiter, other.piece, False)
         elif not asks:
-            other.mend(arbiter, self.piece, True)
+            other.correct(arbiter, self.piece, True)
         elif abs(self.x * other.y - self.y * other.x) > ACROSS:
             arbiter.count = 0
         else:
-            self.mend(arbiter, other.piece, False)
+            self.correct(arbiter, other.piece, False)
 
     @cython.cfunc
     def look(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.bint:
@@ -179,7 +179,7 @@ class Flush:
         return True
 
     @cython.cfunc
-    def mend(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.void:
+    def correct(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.void:
         """Let the face that has asked for a contact push, or leave it out."""
         if not self.leans:
             return

@@ -48,7 +48,7 @@ class Impact:
     arm_bx: cython.double
     arm_by: cython.double
     push: cython.double
-    rub: cython.double
+    friction: cython.double
     depth: cython.double
 
     def __init__(self, body: Body) -> None:
@@ -72,24 +72,24 @@ class Impact:
         self.arm_ax, self.arm_ay = arm.x, arm.y
         arm = arbiter.contacts[k].r2
         self.arm_bx, self.arm_by = arm.x, arm.y
-        self.push, self.rub = arbiter.contacts[k].jnAcc, arbiter.contacts[k].jtAcc
+        self.push, self.friction = arbiter.contacts[k].jnAcc, arbiter.contacts[k].jtAcc
         self.depth = chipmunk.depth_of(arbiter, k)
 
     @cython.cfunc
     def hit(self) -> cython.void:
         """Add the impulse in this point to those of the bodies."""
-        x: cython.double = self.push * self.normal_x - self.rub * self.normal_y
-        y: cython.double = self.push * self.normal_y + self.rub * self.normal_x
+        x: cython.double = self.push * self.normal_x - self.friction * self.normal_y
+        y: cython.double = self.push * self.normal_y + self.friction * self.normal_x
         if self.has_a:
             self.a.hit_x -= x
             self.a.hit_y -= y
             self.a.hit_turn -= self.arm_ax * y - self.arm_ay * x
-            self.a.pressure += self.push + abs(self.rub)
+            self.a.pressure += self.push + abs(self.friction)
         if self.has_b:
             self.b.hit_x += x
             self.b.hit_y += y
             self.b.hit_turn += self.arm_bx * y - self.arm_by * x
-            self.b.pressure += self.push + abs(self.rub)
+            self.b.pressure += self.push + abs(self.friction)
 
     @cython.cfunc
     def work(self, bounce: cython.double, h: cython.double) -> cython.void:
@@ -122,7 +122,7 @@ class Impact:
             group.hit_power += self.push * closing
             group.hit_depth += self.push * max(self.depth, 0.0)
         group.push_work += self.push * (parting - closing) / 2
-        group.rub_work += self.rub * ((y + after_y) * nx - (x + after_x) * ny) / 2
+        group.friction_work += self.friction * ((y + after_y) * nx - (x + after_x) * ny) / 2
         group.excess += self.push * (parting + bounce)
 
     @cython.cfunc
@@ -144,7 +144,7 @@ class Impact:
             x -= body.hit_x / body.mass - turn * self.arm_ay
             y -= body.hit_y / body.mass + turn * self.arm_ax
         group.push_power += self.push * (x * self.normal_x + y * self.normal_y)
-        group.rub_power += self.rub * (y * self.normal_x - x * self.normal_y)
+        group.friction_power += self.friction * (y * self.normal_x - x * self.normal_y)
 
 
 @cython.cfunc
@@ -166,11 +166,11 @@ def join_groups(a: Body, b: Body) -> cython.void:
         return
     b.group = a
     a.push_work += b.push_work
-    a.rub_work += b.rub_work
+    a.friction_work += b.friction_work
     a.excess += b.excess
     a.hit_power += b.hit_power
     a.hit_depth += b.hit_depth
-    b.push_work = b.rub_work = b.excess = 0.0
+    b.push_work = b.friction_work = b.excess = 0.0
     a.crowd += b.crowd
     a.driven = a.driven or b.driven
     a.springy = a.springy or b.springy
@@ -187,13 +187,13 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
     for body in solver.bodies:
         body.group, body.springy, body.tied = body, False, False
         body.hit_x = body.hit_y = body.hit_turn = body.pressure = 0.0
-        body.push_work = body.rub_work = body.excess = body.hit_power = body.hit_depth = 0.0
+        body.push_work = body.friction_work = body.excess = body.hit_power = body.hit_depth = 0.0
         body.crowd, body.driven = 1, body.is_told()
     if solver.find_contacts() > 0:
         take_hits(solver, numbers, impact, h)
         gain: cython.bint = False
         for body in solver.bodies:
-            gain = gain or body.push_work + body.rub_work > 0.0 or body.excess > 0.0
+            gain = gain or body.push_work + body.friction_work > 0.0 or body.excess > 0.0
         if gain:
             look_again(solver, numbers, impact, True)
             if weaken_contacts(solver):
@@ -206,7 +206,7 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
     find_shifts(solver, h)
     for body in solver.bodies:
         body.by_push += body.push_work
-        body.by_rub += body.rub_work
+        body.by_friction += body.friction_work
 
 
 @cython.cfunc
@@ -283,9 +283,9 @@ def look_again(
     body: Body
     for body in solver.bodies:
         if at_power:
-            body.push_power = body.rub_power = 0.0
+            body.push_power = body.friction_power = 0.0
         else:
-            body.push_work = body.rub_work = 0.0
+            body.push_work = body.friction_work = 0.0
     for i in range(solver.arbiters.count()):
         arbiter: Arbiter = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
@@ -325,16 +325,16 @@ def share_of(group: Body) -> cython.double:
     normals, is too large by s (R - (1 - s) P), with R what it is now, and P the power of J on the
     velocities that J alone would give.
     """
-    energy: cython.double = (group.push_power + group.rub_power) / 2
+    energy: cython.double = (group.push_power + group.friction_power) / 2
     share: cython.double = 1.0
-    work: cython.double = group.push_work + group.rub_work
+    work: cython.double = group.push_work + group.friction_work
     if work > spare(group) * energy:
         share = min(share, 1.0 - work / energy)
     if group.crowd <= FEW_BODIES and group.excess > REBOUND * group.push_power:
         share = min(share, 1.0 - group.excess / group.push_power)
     share = max(share, 0.0)
     group.push_work = share * (group.push_work - (1 - share) * group.push_power / 2)
-    group.rub_work = share * (group.rub_work - (1 - share) * group.rub_power / 2)
+    group.friction_work = share * (group.friction_work - (1 - share) * group.friction_power / 2)
     return share
 
 
@@ -394,10 +394,10 @@ def take_holds(solver: Solver, h: cython.double) -> cython.void:
             body.held_y -= body.pull_y * h
             body.held_turn -= body.pull_turn * h
         if body.engaged:
-            solver.take_drag(body)
-            body.held_x -= body.drag_x
-            body.held_y -= body.drag_y
-            body.held_turn -= body.drag_turn
+            solver.take_reaction(body)
+            body.held_x -= body.reaction_x
+            body.held_y -= body.reaction_y
+            body.held_turn -= body.reaction_turn
 
 
 @cython.cfunc

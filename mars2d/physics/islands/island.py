@@ -25,7 +25,7 @@ from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
 
 STUCK = 16
-"""After how many substeps in a row with bodies too deep in each other they are mended faster."""
+"""After how many substeps in a row with bodies too deep in each other they are corrected faster."""
 
 
 @cython.final
@@ -42,8 +42,8 @@ class Accuracy:
     closed: cython.double
     touch: cython.double
     impact_depth: cython.double
-    swaying: cython.double
-    turned: cython.double
+    offset_step: cython.double
+    braking_turn: cython.double
     growth: cython.double
     linger: cython.int
     slack: cython.double
@@ -70,7 +70,11 @@ class Accuracy:
         self.bias_rate, self.joint_bias_rate = n["bias_rate"], n["joint_bias_rate"]
         self.preload, self.closed, self.touch = n["preload"], n["closed"], n["touch"]
         self.impact_depth, self.grazing_depth = n["impact_depth"], n["grazing_depth"]
-        self.seam_depth, self.swaying, self.turned = n["seam_depth"], n["swaying"], n["turned"]
+        self.seam_depth, self.offset_step, self.braking_turn = (
+            n["seam_depth"],
+            n["offset_step"],
+            n["braking_turn"],
+        )
         self.growth, self.linger, self.slack = n["growth"], n["linger"], n["slack"]
         self.rope_tolerance, self.joint_tolerance = n["rope_tolerance"], n["joint_tolerance"]
         self.stretch, self.spring_step = n["stretch"], n["spring_step"]
@@ -495,14 +499,14 @@ class Island:
             h = min(h, self.contact_step / (self.most_load * self.most_load))
         for body in self.bodies:
             if body.solved and body.limited and not body.touches:
-                h = min(h, accuracy.swaying)
+                h = min(h, accuracy.offset_step)
             if body.is_robot and body.solved and body.since > accuracy.linger:
-                h = min(h, body.time_to_brake(accuracy.turned))
+                h = min(h, body.time_to_brake(accuracy.braking_turn))
             if body.touches and body.slows > 0.0 and self.push_step >= 1e300:
                 # Where no drive pushes it on the floor stops it: there the substep ends.
                 stop: cython.double = length(body.vx, body.vy) / body.slows
                 if 0.0 < stop < h:
-                    h = max(stop, min(h, accuracy.swaying))
+                    h = max(stop, min(h, accuracy.offset_step))
         self.any_solved = False
         for body in self.bodies:
             if body.solved and not body.touches:

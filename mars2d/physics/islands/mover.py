@@ -424,7 +424,7 @@ class Mover:
         body: Body
         for body in self.bodies:
             work[0 if body.is_robot else 1] += body.by_holder
-            work[2] += body.by_rub
+            work[2] += body.by_friction
             work[3] += body.by_push
             work[4] += body.by_joint
             work[5] += body.by_hand
@@ -449,7 +449,7 @@ class Mover:
         for body in self.bodies:
             body.pulled = False
 
-    def bears(self, i: int, force: float, torque: float) -> bool:
+    def withstands(self, i: int, force: float, torque: float) -> bool:
         """Return whether a body stays where it is held under a force and a torque."""
         body: Body = self.bodies[i]
         if body.slips:

@@ -58,7 +58,7 @@ class Seams:
         self.met = numbers[6:]
 
     @cython.cfunc
-    def mend(self, arbiter: Arbiter, is_first: cython.bint) -> cython.void:
+    def correct(self, arbiter: Arbiter, is_first: cython.bint) -> cython.void:
         """Look at a contact before it is solved. is_first: whether the wall is its first shape."""
         shape: Handle = chipmunk.shape_of(arbiter, True)
         normal: Vector = arbiter.n

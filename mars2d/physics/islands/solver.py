@@ -425,7 +425,7 @@ class Solver:
                 body.held = chipmunk.used_of(body.pivot) / h
                 body.twist_held = chipmunk.used_of(body.gear) / h
             if body.is_robot and body.engaged and body.grip_across < 1e300:
-                self.feel(body, h)
+                self.measure_traction(body, h)
             if body.is_robot and body.solved:
                 share: cython.double = self.used_by(body) / max(body.bound * h, 1e-300)
                 body.effort = max(body.effort, share)
@@ -433,17 +433,20 @@ class Solver:
                 body.effort = max(body.effort, share)
 
     @cython.cfunc
-    def take_drag(self, body: Body) -> cython.void:
+    def take_reaction(self, body: Body) -> cython.void:
         """Find the impulse on a body of its drive, or of the floor under it."""
-        drag: Vector = chipmunk.drag_of(body.pivot, GROOVE if body.wheeled else PIVOT)
-        body.drag_x, body.drag_y = drag.x, drag.y
+        reaction: Vector = chipmunk.reaction_of(body.pivot, GROOVE if body.wheeled else PIVOT)
+        body.reaction_x, body.reaction_y = reaction.x, reaction.y
         if body.wheeled:
-            drag = chipmunk.drag_of(body.side, GROOVE)
-            body.drag_x, body.drag_y = body.drag_x + drag.x, body.drag_y + drag.y
+            reaction = chipmunk.reaction_of(body.side, GROOVE)
+            body.reaction_x, body.reaction_y = (
+                body.reaction_x + reaction.x,
+                body.reaction_y + reaction.y,
+            )
         if body.com != 0.0:
             body.place_com(body.angle)
         turn: cython.double = chipmunk.twist_of(body.gear)
-        body.drag_turn = turn - body.com_x * body.drag_y + body.com_y * body.drag_x
+        body.reaction_turn = turn - body.com_x * body.reaction_y + body.com_y * body.reaction_x
 
     @cython.cfunc
     def used_by(self, body: Body) -> cython.double:
@@ -457,21 +460,21 @@ class Solver:
         return h / 2 if self.ties else h
 
     @cython.cfunc
-    def feel(self, body: Body, h: cython.double) -> cython.void:
+    def measure_traction(self, body: Body, h: cython.double) -> cython.void:
         """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
         angle: cython.double = body.back.angle + self.lag(h) * body.back.spin
         c, s = cosine_sine(angle)
-        self.take_drag(body)
-        body.traction_ahead = (c * body.drag_x + s * body.drag_y) / h
-        body.traction_across = (c * body.drag_y - s * body.drag_x) / h
-        body.bear(body.drag_x, body.drag_y, angle, body.vx, body.vy)
+        self.take_reaction(body)
+        body.traction_ahead = (c * body.reaction_x + s * body.reaction_y) / h
+        body.traction_across = (c * body.reaction_y - s * body.reaction_x) / h
+        body.set_bound(body.reaction_x, body.reaction_y, angle, body.vx, body.vy)
 
     @cython.cfunc
     def share_out(self, body: Body, h: cython.double, shift: cython.double) -> cython.void:
         """Take over a body's motion, and the change of its kinetic energy in the step.
 
         shift: s, since when its impulses have acted, in the mean: it has gone as much further as
-        they have changed its velocity. What a blow has so put back out need not be mended.
+        they have changed its velocity. What a blow has so put back out need not be corrected.
 
         An impulse works on a body as on one that moves at the mean of its velocities before and
         after. On bodies that joints may hold, drives and floors work by the impulses of theirs.
@@ -500,8 +503,8 @@ class Solver:
         if body.tied:
             by_holder: cython.double = 0.0
             if body.engaged:
-                self.take_drag(body)
-                by_holder = body.drag_x * x + body.drag_y * y + body.drag_turn * spin
+                self.take_reaction(body)
+                by_holder = body.reaction_x * x + body.reaction_y * y + body.reaction_turn * spin
             body.by_holder += by_holder
             body.by_joint += gained - by_holder
         elif body.engaged:
@@ -522,12 +525,12 @@ class Solver:
             y: cython.double = body.aim_y
             turning: cython.double = body.aim_spin
             if body.wheeled:
-                self.tread(body, vx, vy, h)
+                self.place_wheels(body, vx, vy, h)
             else:
                 body.follow(body.angle + h * (body.spin if body.solved else body.turning), 0.0)
                 chipmunk.aim(body.control, body.aim_x, body.aim_y, body.aim_spin)
                 if body.grips:
-                    self.grasp(body, h)
+                    self.limit_force(body, h)
             body.aim_x, body.aim_y, body.aim_spin = x, y, turning
         if not body.is_robot and body.rest_grip > 0.0:
             self.brake(body, h)
@@ -581,22 +584,22 @@ class Solver:
         chipmunk.put(body.handle, x, y, angle)
 
     @cython.cfunc
-    def grasp(self, body: Body, h: cython.double) -> cython.void:
+    def limit_force(self, body: Body, h: cython.double) -> cython.void:
         """Bound the force of a robot's drive in the direction in which it will push.
 
         That is where it has pushed in the step before, or where its command is.
         """
-        drag: Vector = chipmunk.drag_of(body.pivot, PIVOT)
-        if length(drag.x, drag.y) > 1e-9 * body.strength * h:
-            body.bear(drag.x, drag.y, body.angle, body.vx, body.vy)
+        reaction: Vector = chipmunk.reaction_of(body.pivot, PIVOT)
+        if length(reaction.x, reaction.y) > 1e-9 * body.strength * h:
+            body.set_bound(reaction.x, reaction.y, body.angle, body.vx, body.vy)
         else:
             x: cython.double = body.aim_x - body.vx
             y: cython.double = body.aim_y - body.vy
-            body.bear(x, y, body.angle, body.vx, body.vy)
+            body.set_bound(x, y, body.angle, body.vx, body.vy)
         chipmunk.set_max_force(body.pivot, body.bound)
 
     @cython.cfunc
-    def tread(
+    def place_wheels(
         self, body: Body, vx: cython.double, vy: cython.double, h: cython.double
     ) -> cython.void:
         """Put the joints of a robot's wheels where it will be, and bound their forces.

@@ -35,7 +35,7 @@ class Progress(State):
     # of contacts that are counted for it; of its joints; of pulls from outside
     by_holder: cython.double
     by_push: cython.double
-    by_rub: cython.double
+    by_friction: cython.double
     by_joint: cython.double
     by_hand: cython.double
 
@@ -45,4 +45,8 @@ class Progress(State):
         self.go_to(other)
         self.slips, self.since, self.effort = other.slips, other.since, other.effort
         self.energy, self.by_holder, self.by_push = other.energy, other.by_holder, other.by_push
-        self.by_rub, self.by_joint, self.by_hand = other.by_rub, other.by_joint, other.by_hand
+        self.by_friction, self.by_joint, self.by_hand = (
+            other.by_friction,
+            other.by_joint,
+            other.by_hand,
+        )

@@ -128,15 +128,15 @@ class Thrust:
         self.way_y += part / 6 * (y + body.aim_y)
 
     @cython.cfunc
-    def grasp(
+    def limit_force(
         self, body: Body, x: cython.double, y: cython.double, part: cython.double
     ) -> cython.void:
         """Take the acceleration that motors and wheels can give towards x, y, half-way through."""
-        body.bear(x, y, self.angle, self.vx, self.vy)
+        body.set_bound(x, y, self.angle, self.vx, self.vy)
         share: cython.double = min(
             0.5 * part * body.bound / body.mass / max(length(x, y), 1e-300), 1.0
         )
-        body.bear(x, y, self.angle, self.vx + share * x, self.vy + share * y)
+        body.set_bound(x, y, self.angle, self.vx + share * x, self.vy + share * y)
         self.quickens = body.bound / body.mass
 
     @cython.cfunc
@@ -147,7 +147,7 @@ class Thrust:
         x: cython.double = body.aim_x - self.vx
         y: cython.double = body.aim_y - self.vy
         if body.grips:
-            self.grasp(body, x, y, part)
+            self.limit_force(body, x, y, part)
         most: cython.double = self.quickens * part
         off: cython.double = length(x, y)
         self.keeps = off <= most

@@ -34,9 +34,10 @@ def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
     setting = ""
     for run in figure.runs:
         try:
-            experiment = open_experiment(run.experiment, {**run.options, "animation.theory": True})
+            options = {**run.options, "animation.theory": True}
+            experiment = open_experiment(run.experiment, options, seed=seed)
             setting = setting or _setting(run.experiment)
-            record = simulate(experiment, seed).record
+            record = simulate(experiment).record
             pictures.append(_of_run(run, experiment, record, figure.number, folder))
             records.append(record)
         except Exception as error:  # the page shows the problem in place of the figure
@@ -46,8 +47,7 @@ def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
             problems.append(f"{name}: not made, since it needs a run that failed")
             continue
         try:
-            stem = f"fig{figure.number}_{name}"
-            pictures.append(_of_study(study, records, folder / stem))
+            pictures.append(_of_study(study, records, folder / f"fig{figure.number}_{name}"))
         except Exception as error:
             problems.append(f"{name}: {described(error)}")
     return Result(figure.number, setting, tuple(pictures), tuple(problems))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -88,7 +88,7 @@ def _played(match: Match, limits: Limits, replays: bool) -> tuple[Played, Record
     teams = dict(zip(_roles(contest), contest.teams(experiment.scenario), strict=True))
     laws = {role: (Path(file), teams[role]) for role, file in match.files.items()}
     with Guard(experiment.scenario, laws, match.seed, limits) as guard:
-        record = _record(experiment, guard, match.seed)
+        record = _record(experiment, guard)
     verdicts = dict(guard.verdicts)
     outcome = contest.outcome(record) if len(record) else Outcome((), {}, None)
     caught = bool(outcome.captures) and not verdicts and not isnan(outcome.capture_time)
@@ -108,11 +108,10 @@ def _played(match: Match, limits: Limits, replays: bool) -> tuple[Played, Record
     return played, record
 
 
-def _record(experiment: Experiment, guard: Guard, seed: int) -> Record:
+def _record(experiment: Experiment, guard: Guard) -> Record:
     """Return the record of a match, even if the failure of a guarded law ended it."""
-    guarded = Experiment(guard.scenario, experiment.control, experiment.source, experiment.options)
     try:
-        return simulate(guarded, seed).record
+        return simulate(replace(experiment, scenario=guard.scenario)).record
     except LawError as error:
         if not guard.verdicts or error.record is None:
             raise

@@ -20,7 +20,7 @@ from mars2d.scenario import serialize
 from mars2d.scenario.code_file import law_in
 from mars2d.scenario.controllers import Controller, FollowRobot, FollowWaypoints, standing_still
 from mars2d.scenario.law_reference import Reference
-from mars2d.scenario.options import parse_setting
+from mars2d.scenario.options import parse_option
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.sensors.base import Sensor
@@ -248,7 +248,7 @@ class Properties:
         """Ask for a value by a field to type in."""
 
         def answer(typed: str) -> None:
-            _, value = parse_setting(f"{name}={typed}")
+            _, value = parse_option(f"{name}={typed}")
             change(name, None if value in ("", "none") else value)
             self._prompted()
 

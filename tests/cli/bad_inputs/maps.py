@@ -59,53 +59,24 @@ def _geo(geometry: object) -> str:
 
 FILES: list[tuple[str, str, Content, tuple[str, ...]]] = [
     ("a drawing of nothing", "a.dxf", _dxf(), ("there are none",)),
-    ("a drawing of text alone", "a.dxf", _dxf((0, "TEXT"), (1, "hello")), ("there are none",)),
-    ("a drawing of a line to nowhere", "a.dxf",
-     _dxf((0, "LINE"), (10, "nan"), (20, "0"), (11, "1"), (21, "1")), ("a.dxf",)),
     ("a drawing without its end", "a.dxf", "0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n", ("a.dxf",)),
-    ("an SVG of nothing", "a.svg", SVG.format(""), ("there are none",)),
-    ("an SVG that is open", "a.svg", "<svg><path", ("a.svg",)),
     ("an SVG of another kind", "a.svg", "<html></html>", ("a.svg",)),
-    ("an SVG of a line to nowhere", "a.svg",
-     SVG.format('<path d="M 0 0 L nan 1" stroke="black"/>'), ("a.svg",)),
-    ("an SVG of a million circles", "a.svg",
-     SVG.format('<defs><g id="a"><circle r="1"/></g></defs>' + '<use href="#a"/>' * 50)
-     .replace("<svg", '<!DOCTYPE svg [<!ENTITY a "b">]><svg'), ("DOCTYPE",)),
     ("a grid without an image", "a.yaml", "resolution: 0.1\n", ("image",)),
-    ("a grid whose image is gone", "a.yaml", GRID.replace("a.pgm", "b.pgm"), ("b.pgm", "no such")),
-    ("a grid of no resolution", "a.yaml", GRID.replace("0.1", "0"), ("resolution", "0")),
     ("a grid of a word", "a.yaml", GRID.replace("0.1", "fine"), ("resolution", "fine")),
-    ("a grid without an origin", "a.yaml", GRID.replace("[0, 0, 0]", "[0]"), ("origin",)),
-    ("a grid with thresholds upside down", "a.yaml", GRID.replace("0.2", "0.9"), ("thresh",)),
     ("a grid of a list", "a.yaml", "- 1\n- 2\n", ("a.yaml",)),
-    ("a grid that runs code", "a.yaml", "!!python/object/apply:os.system ['true']\n", ("a.yaml",)),
-    ("a picture without a resolution", "a.png", _picture, ("resolution",)),
     ("a grey map cut off", "a.pgm", b"P5 100 100 255\n\0\0", ("a.pgm",)),
-    ("a geometry of nothing", "a.geojson", _geo(None), ("there are none",)),
-    ("a geometry of no kind", "a.geojson", _geo({"type": "Blob", "coordinates": []}), ("Blob",)),
     ("a geometry of words", "a.geojson",
      _geo({"type": "LineString", "coordinates": [["a", 0], [1, 1]]}), ("a.geojson",)),
-    ("a geometry of NaN", "a.geojson",
-     _geo({"type": "LineString", "coordinates": [[float("nan"), 0], [1, 1]]}), ("a.geojson",)),
-    ("a geometry of a list", "a.geojson", "[1, 2]", ("a.geojson",)),
     ("other data as JSON", "a.json", '{"x": 1}', ("a.json",)),
-    ("a thousand lists as JSON", "a.json", "[" * 100_000, ("a.json",)),
-    ("words of no kind", "a.wkt", "BLOB (0 0, 1 1)", ("a.wkt",)),
     ("words cut off", "a.wkt", "LINESTRING (0 0, 20", ("a.wkt",)),
-    ("words of one point", "a.wkt", "LINESTRING (0 0)", ("a.wkt",)),
-    ("words of a point alone", "a.wkt", "POINT (0 0)", ("there are none",)),
     ("words of no end", "a.wkt", "LINESTRING (0 0, inf 1)", ("a.wkt",)),
 ]  # fmt: skip
 
 SETTINGS = [
     ("a layer that is none", "layers=wals", "wals"),
-    ("a unit that is none", "unit=mtr", "unit", "mtr"),
     ("a unit of 0", "unit=0", "unit = 0"),
-    ("a unit of NaN", "unit=nan", "unit"),
     ("a tolerance below 0", "tolerance=-1", "tolerance = -1"),
-    ("a resolution of a drawing", "resolution=0.1", "resolution"),
     ("a place of one number", "at=5", "at = 5"),
-    ("a misspelt way to read", "unti=m", "unti", "did you mean 'unit'?"),
     ("a reading without a value", "unit", "NAME=VALUE"),
 ]
 
@@ -116,13 +87,9 @@ PICTURES = [
 
 IN_CODE = [
     ("a map that is a number", "Map.from_file(5)", "5"),
-    ("a map beside nothing", "Map.from_file('hall.svg')", "hall.svg", "no such file"),
     ("a map read with a misspelt word", "Map.from_file('a.svg', unti='m')", "unti"),
-    ("a map of a file's name", "Map('a.svg')", "Map.outlines", "'a.svg'"),
     ("a map of points alone", "Map([(1, 1), (2, 2)])", "Map.outlines = [(1, 1), (2, 2)]"),
-    ("a map of NaN", "Map([[(np.nan, 0), (1, 1)]])", "Map.outlines[0]", "nan"),
     ("a map's friction below 0", "Map([], friction=-1)", "Map.friction = -1", ">= 0"),
-    ("a wall of no length", "Map([[(1, 1), (1, 1)]])", "Map.outlines[0]"),
     ("an outline of no area", "Map([[(1, 1), (2, 1), (3, 1)]])", "Map.outlines[0]"),
 ]
 

@@ -1,68 +1,78 @@
 """Bad inputs as users make them: each ends in a named error with exit code 2, whatever it is.
 
-What is tried stands in table.py, and in a module for each kind; how, in forked.py.
+What is tried stands in a module for each kind.
 """
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
+import runpy
+import shlex
 import sys
-from collections import Counter
 from pathlib import Path
 
 import pytest
 
-from tests.cli.bad_inputs import forked, records
-from tests.cli.bad_inputs.table import KINDS
+from mars2d.cli.command_line import main
+from tests.cases import each_case
+from tests.cli.bad_inputs import (
+    commands,
+    constructors,
+    files,
+    laws,
+    maps,
+    messages,
+    options,
+    records,
+    sensors,
+)
+
+KINDS = (constructors, options, files, laws, commands, sensors, messages, records, maps)
 
 MOST_LINES = 3
 
 LONGEST = 600
 """Characters of a line that is still one to be read."""
 
-ALL = [(kind, case) for kind, cases in KINDS.items() for case in cases]
 
-
-def tried(folder: Path, part: str) -> dict[str, dict]:
-    """Try a part of all inputs, and return what became of each."""
+@pytest.fixture(autouse=True)
+def sound_records(tmp_path_factory, monkeypatch):
+    folder = tmp_path_factory.mktemp("records")
     records.save(folder)
-    done = subprocess.run(
-        [sys.executable, "-P", forked.__file__, str(folder), part],
-        env=os.environ | {records.RECORDS: str(folder)}, capture_output=True,
-        text=True, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    lines = (folder / "outcomes").read_text(encoding="utf-8").splitlines()
-    return {each["name"]: each for each in map(json.loads, lines)}
+    monkeypatch.setenv(records.RECORDS, str(folder))
+    monkeypatch.delenv("DISPLAY", raising=False)
 
 
-def faults(case, became: dict) -> list[str]:
-    """What is wrong with what became of an input."""
-    said, lines = became["stderr"], became["stderr"].splitlines()
-    wrong = {
-        f"exit code {became['code']}": became["code"] != 2,
-        "a traceback": "Traceback" in said + became["stdout"],
-        f"{len(lines)} lines": not 1 <= len(lines) <= MOST_LINES,
-        "a line too long": max(map(len, lines), default=0) > LONGEST,
-        "unprintable": not said.replace("\n", "").isprintable(),
-    } | {f"no {word!r}": word not in said for word in case.words}
+def exit_code(command: str) -> int:
+    """Do what a user types in the current folder, and return the exit code."""
+    program, *arguments = shlex.split(command)
+    try:
+        if program == "mars2d":
+            return main(arguments)
+        runpy.run_path(arguments[0], run_name="__main__")
+    except SystemExit as leaving:
+        return leaving.code
+    return 0
+
+
+@each_case("case", [case for kind in KINDS for case in kind.CASES])
+def test_a_bad_input_is_a_named_error_with_exit_code_2(tmp_path, monkeypatch, capsys, case):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    for name, content in case.files.items():
+        if content is None:
+            Path(name).mkdir(parents=True)
+            continue
+        data = content() if callable(content) else content
+        Path(name).parent.mkdir(parents=True, exist_ok=True)
+        Path(name).write_bytes(data.encode() if isinstance(data, str) else data)
+    code = exit_code(case.command)
+    out, err = capsys.readouterr()
+    lines = err.splitlines()
+    assert code == 2, err
+    assert "Traceback" not in out + err
+    assert 1 <= len(lines) <= MOST_LINES, err
+    assert max(map(len, lines)) <= LONGEST, err
+    assert err.replace("\n", "").isprintable(), err
+    assert [word for word in case.words if word not in err] == [], err
     if case.command.startswith("mars2d"):
-        wrong["who speaks"] = not all(line.startswith("mars2d: ") for line in lines)
-    return [f"{case.name}: {what}\n{said[-2000:]}" for what, is_so in wrong.items() if is_so]
-
-
-@pytest.mark.parametrize("part", ["third", pytest.param("rest", marks=pytest.mark.nightly)])
-def test_a_bad_input_is_a_named_error_with_exit_code_2(tmp_path, part):
-    became = tried(tmp_path, part)
-    assert len(became) > 150
-    every = [case for _, case in ALL if case.name in became]
-    assert [fault for case in every for fault in faults(case, became[case.name])] == []
-
-
-def test_more_than_500_inputs_are_tried_at_least_20_of_each_of_nine_kinds():
-    names = [case.name for _, case in ALL]
-    assert len({*names}) == len(names) > 500, Counter(names).most_common(1)
-    assert len(KINDS) == 9
-    assert [kind for kind, cases in KINDS.items() if len(cases) < 20] == []
+        assert all(line.startswith("mars2d: ") for line in lines), err

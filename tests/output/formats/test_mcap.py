@@ -34,7 +34,7 @@ EXAMPLES = ["token_ring", "many_push_one", "wall_follower", "billiards", "sumo"]
 
 
 def run(name: str, path: Path, until: float = 8.0) -> Record:
-    return simulate(open_experiment(name, {"stop_time": until}), 1, log=Log(path)).record
+    return simulate(open_experiment(name, {"stop_time": until}, seed=1), log=Log(path)).record
 
 
 def torn(path: Path, size: int) -> Path:
@@ -73,7 +73,7 @@ def unclosed(name: str, path: Path, until: float = 8.0) -> Record:
 @each_case("name", EXAMPLES)
 def test_a_log_holds_the_same_bits_as_the_record_of_the_run(name, tmp_path) -> None:
     record = run(name, tmp_path / "run.mcap")
-    without = simulate(open_experiment(name, {"stop_time": 8.0}), 1).record
+    without = simulate(open_experiment(name, {"stop_time": 8.0}, seed=1)).record
     read = mars2d.load(tmp_path / "run.mcap")
     assert read.digest == record.digest == without.digest
     assert (read.over_message, read.finished, read.seed) == (record.over_message, True, 1)
@@ -83,7 +83,7 @@ def test_a_log_holds_the_same_bits_as_the_record_of_the_run(name, tmp_path) -> N
 
 @each_case("name", EXAMPLES)
 def test_a_record_is_saved_as_a_log_and_stays_the_same(name, tmp_path) -> None:
-    record = simulate(open_experiment(name, {"stop_time": 8.0}), 1).record
+    record = simulate(open_experiment(name, {"stop_time": 8.0}, seed=1)).record
     first = mars2d.load(record.save(tmp_path / "first.mcap"))
     second = mars2d.load(first.save(tmp_path / "second.mcap"))
     assert first.digest == second.digest == record.digest
@@ -283,9 +283,9 @@ import mars2d
 from mars2d.scenario.experiment import open_experiment
 from mars2d.output.formats.mcap import Log
 from mars2d.world.loop import open_world
-experiment = open_experiment("token_ring", {"stop_time": float(sys.argv[2])})
+experiment = open_experiment("token_ring", {"stop_time": float(sys.argv[2])}, seed=1)
 with Log(sys.argv[1]) as log:
-    world = open_world(experiment, 1, (), log.storage)
+    world = open_world(experiment, (), log.storage)
     while not world.over:
         world.step()
         log.follow(world)
@@ -313,7 +313,7 @@ def killed(path: Path, after: float, until: float) -> int:
 
 
 def check_kills(count: int, tmp_path: Path) -> None:
-    whole = simulate(open_experiment("token_ring", {"stop_time": 200.0}), 1).record
+    whole = simulate(open_experiment("token_ring", {"stop_time": 200.0}, seed=1)).record
     chosen = random.Random(count)
     for k in range(count):
         path = tmp_path / f"{k}.mcap"
@@ -399,7 +399,7 @@ def test_a_log_follows_the_branches_of_a_timeline(tmp_path) -> None:
 
     path = tmp_path / "run.mcap"
     log = Log(path)
-    timeline = Timeline(open_experiment("many_push_one", {"stop_time": 8.0}), 1, log=log)
+    timeline = Timeline(open_experiment("many_push_one", {"stop_time": 8.0}, seed=1), log=log)
     for _ in range(50):
         timeline.advance()
     assert len(mars2d.load(path)) == 50
@@ -424,7 +424,7 @@ def test_a_run_that_begins_anew_begins_its_log_anew(tmp_path) -> None:
 
     path = tmp_path / "run.mcap"
     log = Log(path)
-    timeline = Timeline(open_experiment("token_ring", {"stop_time": 8.0}), 1, log=log)
+    timeline = Timeline(open_experiment("token_ring", {"stop_time": 8.0}, seed=1), log=log)
     for _ in range(30):
         timeline.advance()
     timeline.restart()

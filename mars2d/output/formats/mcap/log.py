@@ -173,7 +173,7 @@ class Log:
         self._counts = start, 0, 0, 0
         self._begun.append(start)
         empty = Recorder(
-            recorder.scenario, versions=recorder.versions, settings=recorder.settings
+            recorder.scenario, versions=recorder.versions, options=recorder.options
         ).record(world.seed, "not over", False, world.filename, Scene())
         robots = recorder.sensor_robots
         self._header = headers.of_record(empty) | {"sensor_robots": robots}

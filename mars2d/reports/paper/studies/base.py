@@ -107,7 +107,7 @@ ROWS = 200
 
 def run(experiment: str, options: Mapping[str, Any], seed: int) -> Record:
     """Return the record of an example with other options."""
-    return simulate(open_experiment(experiment, options), seed).record
+    return simulate(open_experiment(experiment, options, seed=seed)).record
 
 
 def some_rows(record: Record) -> list[int]:

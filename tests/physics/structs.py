@@ -1,9 +1,9 @@
-"""The layout of the engine's structs: do they have their numbers where `chipmunk` expects them?"""
+"""The structs of pymunk's engine: do they have their numbers where `chipmunk` expects them?"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
-from functools import cache
 from itertools import chain
 
 from pymunk._chipmunk_cffi import ffi, lib
@@ -15,15 +15,15 @@ STEP = 0.0625
 """Seconds."""
 
 
-@cache
-def misplaced() -> str:
-    """Return which numbers are elsewhere; empty if none. A body and joints are tried out."""
+def misplaced() -> list[str]:
+    """Return which numbers are elsewhere. A body and joints are tried out."""
+    found = []
     for what, struct, wanted in chain(_of_bodies(), _of_joints()):
         numbers = ffi.cast("double *", struct)
         for place, values in wanted.items():
             if any(abs(numbers[place + k] - value) > 1e-12 for k, value in enumerate(values)):
-                return f"its {what} elsewhere"
-    return ""
+                found.append(f"{what} elsewhere")
+    return found
 
 
 Places = dict[int, tuple[float, ...]]
@@ -64,10 +64,10 @@ def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
         (impulses, chipmunk.GEAR, (0.0, 1.0), {chipmunk.GEAR_IMPULSE: (-12.0,)}),
         (impulses, chipmunk.GROOVE, (0.0, 1.0), {chipmunk.GROOVE_IMPULSE: (-3.0, 0.0)}),
         (damping, chipmunk.DAMPED_SPRING, rest[:2],
-         {chipmunk.REST: rest, chipmunk.LOST: (lost[0],), chipmunk.FELT: (2.0,)}),
+         {chipmunk.REST: rest, chipmunk.LOST: (lost[0],), chipmunk.EFFECTIVE_MASS: (2.0,)}),
         (damping, chipmunk.ROTARY_SPRING, rest[:2],
          {chipmunk.REST_ANGLE: rest, chipmunk.LOST_TURNING: (lost[1],),
-          chipmunk.FELT_TURNING: (3.0,)}),
+          chipmunk.EFFECTIVE_MOMENT: (3.0,)}),
     )  # fmt: skip
     for what, kind, numbers, wanted in tried:
         chipmunk.put(body, 0.0, 0.0, 0.0)
@@ -89,3 +89,38 @@ def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
     chipmunk.remove_body(space, body)
     chipmunk.free_body(body)
     chipmunk.free_space(space)
+
+
+FIELDS: dict[str, dict[str, tuple[int, str]]] = {
+    "struct cpArbiter": {
+        "a": (40, "struct cpShape *"),
+        "b": (48, "struct cpShape *"),
+        "body_a": (56, "struct cpBody *"),
+        "body_b": (64, "struct cpBody *"),
+        "count": (104, "int"),
+        "contacts": (112, "struct cpContact *"),
+        "n": (120, "struct cpVect"),
+    },
+    "struct cpContact": {
+        "r1": (0, "struct cpVect"),
+        "r2": (16, "struct cpVect"),
+        "bounce": (48, "double"),
+        "jnAcc": (56, "double"),
+        "jtAcc": (64, "double"),
+    },
+    "struct cpCollisionHandler": {
+        "preSolveFunc": (24, "void(*)(struct cpArbiter *, struct cpSpace *, void *)"),
+        "userData": (48, "void *"),
+    },
+}
+"""Fields of the engine's structs that are used directly: where they are, and their types."""
+
+CONTACT_SIZE = 96
+"""The size of the engine's struct of a contact."""
+
+
+def plain(kind: str) -> str:
+    """Return a function's type with all pointers alike, and vectors by our name."""
+    kind = kind.replace(" noexcept", "").replace("Vector *", "void *")
+    kind = kind.replace("struct cpVect *", "void *").replace("struct cpVect", "Vector")
+    return re.sub(r"struct \w+ \*", "void *", kind).replace("void)", ")").replace(" ", "")
