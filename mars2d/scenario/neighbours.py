@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arithmetic import norm, norms
-from mars2d.core.checks import items_of
+from mars2d.core.checks import instance, items_of
 from mars2d.core.description import Description, entry, integer, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
 from mars2d.core.plane import WITHIN
@@ -138,11 +138,16 @@ class Within(Neighbourhood):
         tree = cKDTree(position.T)
         pairs = tree.query_pairs(self.range * WITHIN * WITHIN, output_type="ndarray")
         dx, dy = position[:, pairs[:, 1]] - position[:, pairs[:, 0]]
-        found: list[list[int]] = [[] for _ in range(position.shape[1])]
-        for i, j in pairs[within(dx, dy, self.range)].tolist():
-            found[i].append(j)
-            found[j].append(i)
-        return [sorted(others) for others in found]
+        return _mutual(position.shape[1], pairs[within(dx, dy, self.range)].tolist())
+
+
+def _mutual(robots: int, pairs: Iterable[tuple[int, int]]) -> Neighbours:
+    """Return who is whose neighbour, where both of each pair are."""
+    found: list[list[int]] = [[] for _ in range(robots)]
+    for i, j in pairs:
+        found[i].append(j)
+        found[j].append(i)
+    return [sorted({*others}) for others in found]
 
 
 class Nearest(Neighbourhood):
@@ -195,11 +200,7 @@ class Delaunay(Neighbourhood):
 
     def of(self, position: Float) -> Neighbours:
         """Return the neighbours in Delaunay's triangulation, by index."""
-        found: list[set[int]] = [set() for _ in range(position.shape[1])]
-        for i, j in _delaunay_edges(position):
-            found[i].add(j)
-            found[j].add(i)
-        return [sorted(others) for others in found]
+        return _mutual(position.shape[1], _delaunay_edges(position))
 
 
 def _delaunay_edges(position: Float) -> list[tuple[int, int]]:
@@ -335,26 +336,8 @@ class Graph(Neighbourhood):
             )
 
 
-WRITTEN = {
-    "Everyone": "Everyone()",
-    "Within": "Within(2.0)",
-    "Nearest": "Nearest(3)",
-    "Delaunay": "Delaunay()",
-    "Graph": "Graph([[0, 1], [1, 0]])",
-}
-"""How the rules are written, for messages."""
-
-
-def neighbourhood(name: str, value: object) -> Neighbourhood:
-    """Check a rule of neighbours; for a value that is nearly one, say how it is written."""
-    if isinstance(value, Neighbourhood):
-        return value
-    if isinstance(value, type) and issubclass(value, Neighbourhood):
-        example = WRITTEN.get(value.__name__, f"{value.__name__}(...)")
-        raise InputError(f"{name} = {value.__name__}: expected an object; write {example}")
-    if isinstance(value, str) and (kind := value.partition("(")[0].strip().capitalize()) in WRITTEN:
-        written = f"{WRITTEN[kind]} in the file; --set changes its fields, as neighbours.range=3"
-        raise wrong(name, value, f"an object; write {written}")
+def neighbourhood(name: str, value: object) -> object:
+    """Check a rule of neighbours; for a graph, say how it becomes one."""
     if hasattr(value, "nodes") or isinstance(value, (np.ndarray, list, tuple)):
         raise wrong(name, value, "a rule; write Graph(...) of a graph")
-    raise wrong(name, value, "a rule, such as Within(2.0), Nearest(3), Delaunay() or Graph(...)")
+    return instance(Neighbourhood, "Within(2), Nearest(3), Delaunay() or Graph(...)")(name, value)

@@ -97,21 +97,17 @@ def changed(part: Description, index: int = 0) -> dict[str, Any]:
     >>> changed(Robot(mass=2.0, diameter=0.3, name="robot0"))
     {'mass': 2.0}
     """
+    kind = "robot" if isinstance(part, Robot) else snake_case(type(part).__name__)
     found = {}
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
         factory = field.default_factory
         usual = field.default if factory is dataclasses.MISSING else factory()
-        by_itself = field.name == "name" and value == _default_name(part, index)
+        named = field.name == "name" and isinstance(part, (Robot, Prop))
+        by_itself = named and value == f"{kind}{index}"
         if not (by_itself or usual == value):  # without a default, MISSING equals nothing
             found[field.name] = value
     return found
-
-
-def _default_name(part: Description, index: int) -> str | None:
-    if isinstance(part, Robot):
-        return f"robot{index}"
-    return f"{snake_case(type(part).__name__)}{index}" if isinstance(part, Prop) else None
 
 
 def from_description(value: Any) -> Any:

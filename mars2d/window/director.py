@@ -9,9 +9,8 @@ import numpy as np
 import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.scenario.changes import with_poses, without_body
+from mars2d.scenario.changes import carried, check_alike, with_poses, without_body
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.driver import ARROWS, LETTERS, Driver
 from mars2d.window.looks import Looks

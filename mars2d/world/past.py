@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, LawError, Mars2dError
 from mars2d.core.usercode import quiet
 from mars2d.record.interventions import Change, Intervention
+from mars2d.scenario.changes import carried, check_alike
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.hot_reload import carried, check_alike
 from mars2d.world.loop import open_world
 from mars2d.world.world import World
 

@@ -15,8 +15,8 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.record.columns import DiskError
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Change, Intervention, of_one_hand
+from mars2d.scenario.changes import check_alike, merged
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.hot_reload import check_alike, merged
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import open_world, watch_by
 from mars2d.world.past import Past, Progress, Track
@@ -368,7 +368,7 @@ class Timeline:
 
         Other laws are asked along all rows, while the robots do what they did: so the laws remember
         the run, and going back stays exact. Raises InputError, and changes nothing, where a new
-        start is needed (see `hot_reload.check_alike`), and where a law fails on the way.
+        start is needed (see `changes.check_alike`), and where a law fails on the way.
         """
         self.check(experiment)
         past = self._past.with_laws_of(experiment)

@@ -7,9 +7,9 @@ import pytest
 from mars2d import InputError, Robot, Scenario, load, run
 from mars2d.addons import Map
 from mars2d.bodies import Box
+from mars2d.scenario.changes import alike
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.hot_reload import alike
 from mars2d.scenario.options import options_in_words
 from mars2d.scenario.parameters import Parameter, arguments_of
 from mars2d.scenario.python_file import as_python

@@ -3,9 +3,9 @@
 import pytest
 
 from mars2d.output.raster.layout import Layout
+from mars2d.scenario.changes import carried
 from mars2d.scenario.controllers import ByHand, FollowWaypoints, Wander
 from mars2d.scenario.experiment import Experiment, Source
-from mars2d.scenario.hot_reload import carried
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.viewpoint import Viewpoint

@@ -97,12 +97,7 @@ def steered(drive: Drive, heading: float, direction: float, speed: float) -> Com
         return drive.steered(share * c, share * s)
     off = float(wrap(direction - heading))
     across, ahead = min(max(-TURN_GAIN * off, -1.0), 1.0), cosine_sine(off)[0]
-    if not _spins(drive):
+    if not drive.twist(np.array([drive.steered(1.0, 0.0)]).T)[2, 0]:  # nor on the spot
         sign = 1.0 if ahead >= 0 else -1.0
         return drive.steered(sign * across, sign * share * max(abs(ahead), SLOW))
     return drive.steered(across, share * max(ahead, 0.0))
-
-
-def _spins(drive: Drive) -> bool:
-    """Return whether a drive can turn on the spot."""
-    return bool(drive.twist(np.array([drive.steered(1.0, 0.0)]).T)[2, 0])
