@@ -60,12 +60,6 @@ def predicted(name: str | Path, seed: int = 0, **options: Any) -> tuple[Record, 
     return record, {each.name: each for each in experiment.predictions(record)}
 
 
-def failing(name: str | Path, record: Record, **options: Any) -> set[str]:
-    """Return the names of an experiment's predictions that do not hold for a record."""
-    found = open_experiment(name, options).predictions(record)
-    return {each.name for each in found if not each.ok}
-
-
 def untimed(error: BaseException) -> str:
     """Return the message of an error without the robot and the time at its end."""
     return re.sub(r" \(([^()]*, )?at [-+.e\d]+ s\)$", "", str(error))

@@ -10,7 +10,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
-from types import FrameType
+from types import CodeType, FrameType
 
 from mars2d.core.errors import InputError, Late, shown
 from mars2d.core.usercode import users_line
@@ -151,7 +151,9 @@ class Deadline:
         while step is not None and step is not self._block:
             if step.f_trace is not None and self._calls is not None:
                 return ""
-            code = step.f_code
+            code: object = step.f_code
+            if not isinstance(code, CodeType):  # it has just ended, and its memory is another's
+                break
             steps.append(traceback.FrameSummary(code.co_filename, step.f_lineno, code.co_name))
             step = step.f_back
         return users_line(traceback.StackSummary.from_list(steps[::-1])) or ""

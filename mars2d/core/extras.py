@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.metadata import requires
+from importlib.metadata import PackageNotFoundError, requires
 
 from mars2d.core.errors import MissingExtraError
 
@@ -16,7 +16,10 @@ def pip_line(name: str) -> str:
     >>> pip_line("video")
     'pip install "av>=17"'
     """
-    declared = requires("mars2d") or []
+    try:
+        declared = requires("mars2d") or []
+    except PackageNotFoundError:  # it runs from its folder without being installed
+        return f'pip install ".[{name}]"'
     wanted = [each for each in declared if re.search(rf"""extra == ['"]{name}['"]""", each)]
     return " ".join(["pip install", *(f'"{each.partition(";")[0].strip()}"' for each in wanted)])
 

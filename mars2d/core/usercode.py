@@ -82,10 +82,8 @@ def _is_no_file(path: Path) -> bool:
 
 
 def _is_ours(path: Path) -> bool:
-    command = path.name == "mars2d"  # the file in bin/ that starts the command line
-    return command or (
-        path.is_relative_to(_PACKAGE) and not path.is_relative_to(_PACKAGE / "examples")
-    )
+    ours = path.is_relative_to(_PACKAGE) and not path.is_relative_to(_PACKAGE / "examples")
+    return ours or path.name == "mars2d"  # the file in bin/ that starts the command line
 
 
 def name_of(function: Callable[..., Any]) -> str:

@@ -14,7 +14,6 @@ _INSTEAD: dict[str, dict[str, str]] = {
         _SPEED: "drive=Unicycle(max_linear_speed=...)",
         _TURN: "drive=Unicycle(max_angular_speed=...)",
         "law control controllaw behaviour behavior policy function": "controller=law",
-        "holonomic omni": "drive=Holonomic()",
     },
     "Scenario": {
         "n number numrobots agents": "robots=3, or robots=[Robot(...), ...]",
@@ -39,7 +38,6 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "dt ts step": "robot.sampling_time",
         "goal target state integral error": "robot.memory: a law keeps things there",
         "stop move setvelocity setspeed setcommand forward turn rotate": _COMMAND,
-        "others robots": "robot.neighbours",
     },
     "a room": {
         "lidar laser laserscanner rangesensor scanner": "RangeFinder, of mars2d.sensors",

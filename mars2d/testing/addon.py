@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-
-import numpy as np
+from functools import partial
 
 from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.deadline import Deadline
-from mars2d.core.errors import shown
 from mars2d.core.plane import rectangle
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
@@ -49,12 +47,11 @@ def check_addon(
     checks.instance(Addon, "Map([...])")("check_addon(addon)", addon)
     subject = Subject("add-on", addon, "self.rng, the add-on's own stream", KEEP)
     if subject.check_part(addon, Addon):
-        looks = _Looks(addon, subject)
         subject.check_runs(
             lambda: _placed(addon, sensors, scenario, control),
             deadline,
             small=scenario is None,
-            looker=looker(on_sensed=looks.look),
+            looker=looker("on_sensed", partial(_look, addon, subject)),
             own=(f"add-on {addon.key}.",),
             besides=addon.key,
         )
@@ -76,42 +73,26 @@ def _placed(
     return small_world(sensors, [addon], x=x), None
 
 
-class _Looks:
-    """Looks at an add-on after its hooks of each control step, and draws it."""
-
-    def __init__(self, addon: Addon, subject: Subject) -> None:
-        self._addon, self._subject = addon, subject
-        self._own = own_methods(addon, Addon)
-
-    def look(self, world: World) -> None:
-        """Check its obstacles, beacons, floor and drawings."""
-        key, name = self._addon.key, self._subject.name
-        live = getattr(world.addons, key)
-        if contents(live.obstacles()) != contents(self._addon.obstacles()):
-            self._subject.wrong(
-                f"{name}.obstacles() returns other outlines than before (at {world.time:g} s): "
-                "they are put into the world once; what moves is a prop or a robot"
-            )
-        with called(f"{name}.beacons", live.beacons):
-            for beacon, point in live.beacons().items():
-                checks.point(f"{name}.beacons()[{beacon!r}]", point)
-        for x, y in world.position.T.tolist():
-            color = live.ground((x, y))
-            if color is not None and (
-                np.shape(color) != (3,) or not all(0 <= value <= 1 for value in color)
-            ):
-                self._subject.wrong(
-                    f"{name}.ground((x, y)) returned {shown(color)}: expected red, green "
-                    "and blue from 0 to 1, such as (1.0, 0.5, 0.0), or None"
-                )
-        if "on_draw" in self._own:
-            scene = Scene()
-            with self._subject.looking(live, "on_draw", world, key):
-                live.on_draw(world, scene)
-            self._subject.check_finite(scene, "on_draw")
-        area = world.workspace or rectangle(*world.bounds)
-        for method in {"paint", "draw", "theory"}.intersection(self._own):
-            scene, function = Scene(), getattr(self._addon, method)  # as a replay does
-            with called(f"{name}.{method}", function):
-                function(scene, area if method == "paint" else world.frame)
-            self._subject.check_finite(scene, method)
+def _look(addon: Addon, subject: Subject, world: World) -> None:
+    """Check an add-on's obstacles, beacons and drawings after its hooks of a control step."""
+    key, name, own = addon.key, subject.name, own_methods(addon, Addon)
+    live = getattr(world.addons, key)
+    if contents(live.obstacles()) != contents(addon.obstacles()):
+        subject.wrong(
+            f"{name}.obstacles() returns other outlines than before (at {world.time:g} s): they "
+            "are put into the world once; what moves is a prop or a robot"
+        )
+    with called(f"{name}.beacons", live.beacons):
+        for beacon, point in live.beacons().items():
+            checks.point(f"{name}.beacons()[{beacon!r}]", point)
+    if "on_draw" in own:
+        scene = Scene()
+        with subject.looking(live, "on_draw", world, key):
+            live.on_draw(world, scene)
+        subject.check_finite(scene, "on_draw")
+    area = world.workspace or rectangle(*world.bounds)
+    for method in {"paint", "draw", "theory"}.intersection(own):
+        scene, function = Scene(), getattr(addon, method)  # of the frozen one, as a replay does
+        with called(f"{name}.{method}", function):
+            function(scene, area if method == "paint" else world.frame)
+        subject.check_finite(scene, method)

@@ -16,12 +16,7 @@ from mars2d.testing.finding import Finding
 from mars2d.testing.subject import Subject
 from mars2d.testing.trial import ControlLaw, small_world
 
-KEEP = {
-    False: "Keep things in robot.memory, or in variables of a generator",
-    True: "Keep things in variables of a generator, or in an add-on",
-}
-
-STREAM = {False: "robot.rng, the robot's own stream", True: "world.rng, the stream of the law"}
+KEEP = "Keep things in robot.memory, in variables of a generator, or in an add-on"
 
 
 def check_controller(
@@ -47,7 +42,7 @@ def check_controller(
     ()
     """
     of_team = is_of_a_team(law) if team is None else team
-    subject = Subject("law", law, STREAM[of_team], KEEP[of_team])
+    subject = Subject("law", law, "world.rng" if of_team else "robot.rng", KEEP)
     try:
         checks.function(subject.name, law, "the world" if of_team else "the robot")
     except InputError as error:

@@ -31,6 +31,9 @@ FAMILIES: tuple[tuple[str, type[Description], str, Callable[..., tuple[Finding, 
 )
 """The families of parts: name, base, the method that each must have, and what checks it."""
 
+MAX_OBJECTS = 3
+"""How many different objects of one class in a scenario are tried, at most."""
+
 
 @dataclass(frozen=True)
 class Case:
@@ -96,7 +99,7 @@ def _of_class(
         parts = [part for robot in scenario.robots for part in (robot.drive, *robot.sensors)]
         used = {repr(each): each for each in (*parts, *scenario.addons) if type(each) is kind}
         inside = partial(check, scenario=scenario, control=experiment.control)
-    for part in used.values():
+    for part in list(used.values())[:MAX_OBJECTS]:
         title = name if len(used) == 1 else f"{family} {part!r}"
         if family == "drive":
             yield Case(title, "in a small world", partial(check, part))

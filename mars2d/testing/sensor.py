@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import copy
-from math import pi
+from functools import partial
+from math import inf, pi
 from typing import Any
 
 import numpy as np
@@ -16,11 +17,17 @@ from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.sensors.sensing import Device
 from mars2d.testing.finding import Finding
 from mars2d.testing.subject import KEEP, Subject
 from mars2d.testing.trial import ControlLaw, Placed, looker, small_world
 from mars2d.world.world import World
+
+VALID = {
+    "distance": (0.0, inf, "a distance is not negative, and inf to nothing"),
+    "angle": (-pi, pi, "an angle lies in (-pi, pi]; mars2d.core.plane has wrap"),
+    "color": (0.0, 1.0, "a colour lies in 0 to 1"),
+}
+"""The least and the largest value of a quantity of each kind, and what it is."""
 
 
 def check_sensor(
@@ -49,12 +56,11 @@ def check_sensor(
             "returns the perfect reading"
         )
     elif subject.check_part(sensor, Sensor):
-        looks = _Looks(sensor, subject)
         subject.check_runs(
             lambda: _placed(sensor, scenario, control),
             deadline,
             small=scenario is None,
-            looker=looker(on_step=looks.read, on_sensed=looks.draw),
+            looker=looker("on_step", partial(_look, sensor, subject)),
             own=(f"sensor {sensor.key} ",),
         )
     return subject.hints()
@@ -75,81 +81,58 @@ def _placed(sensor: Sensor, scenario: Scenario | None, control: ControlLaw | Non
     return scenario.replace(robots=robots), control
 
 
-class _Looks:
-    """Looks at the answers of a sensor's methods during a run."""
-
-    def __init__(self, sensor: Sensor, subject: Subject) -> None:
-        self._sensor, self._kind, self._subject = sensor, type(sensor), subject
-
-    def _devices(self, world: World) -> list[Device]:
-        devices = world.simulation.sensing.devices
-        return [each for each in devices if type(each.described) is self._kind]
-
-    def read(self, world: World) -> None:
-        """Call `read` once more, just before the world does, and look at what it returns."""
-        with self._subject.looking(self._sensor, "read", world):
-            for device in self._devices(world):
-                rng = copy.deepcopy(device.rng)
-                self._check_reading(device.sensor.read(device.view, device.world, rng))
-
-    def draw(self, world: World) -> None:
-        """Draw as window and figures do, by the frozen sensor of the scenario."""
-        if self._kind.draw is Sensor.draw:
-            return
+def _look(sensor: Sensor, subject: Subject, world: World) -> None:
+    """Call `read` just before the world does, and draw as figures do, by the frozen sensor."""
+    devices = [d for d in world.simulation.sensing.devices if type(d.described) is type(sensor)]
+    with subject.looking(sensor, "read", world):
+        for device in devices:
+            reading = device.sensor.read(device.view, device.world, copy.deepcopy(device.rng))
+            _check_reading(sensor, subject, reading)
+    if type(sensor).draw is not Sensor.draw:
         scene = Scene()
-        with self._subject.looking(self._sensor, "draw", world):
-            for each in self._devices(world):
-                if each.reading is not None:
-                    color = world.scenario.colors[each.robot]
-                    self._sensor.draw(scene, world.pose[:, each.robot], each.reading, color)
-        self._subject.check_finite(scene, "draw")
+        with subject.looking(sensor, "draw", world):
+            for device in devices:
+                i, reading = device.robot, device.reading
+                if reading is not None:
+                    sensor.draw(scene, world.pose[:, i], reading, world.scenario.colors[i])
+        subject.check_finite(scene, "draw")
 
-    def _check_reading(self, reading: Any) -> None:
-        """Report a value that the sensor's quantities can't have; the recorder refuses the rest."""
-        try:
-            values = np.asarray(reading)
-        except ValueError:  # rows of different lengths
-            return
-        name, quantities = self._subject.name, self._kind.quantities
-        if values.dtype.kind not in "bifu" or not values.size:
-            return
-        if len(quantities) > 1 and (not values.ndim or values.shape[-1] != len(quantities)):
-            names = ", ".join(quantity.name for quantity in quantities)
-            self._subject.wrong(
-                f"{name}.read returned numbers of shape {values.shape}, but {name}.quantities has "
-                f"{len(quantities)} ({names}): the last axis must have one entry for each"
-            )
-            return
-        for k, quantity in enumerate(quantities):
-            column = values if len(quantities) == 1 else values[..., k]
-            problem = _out_of_range(column, quantity, getattr(self._sensor, "range", None))
-            if problem:
-                self._subject.wrong(f"{name}.read returned {problem}")
+
+def _check_reading(sensor: Sensor, subject: Subject, reading: Any) -> None:
+    """Report a value that the sensor's quantities can't have; the recorder refuses the rest."""
+    try:
+        values = np.asarray(reading)
+    except ValueError:  # rows of different lengths
+        return
+    name, quantities = subject.name, sensor.quantities
+    if values.dtype.kind not in "bifu" or not values.size:
+        return
+    if len(quantities) > 1 and (not values.ndim or values.shape[-1] != len(quantities)):
+        names = ", ".join(quantity.name for quantity in quantities)
+        subject.wrong(
+            f"{name}.read returned numbers of shape {values.shape}, but {name}.quantities has "
+            f"{len(quantities)} ({names}): the last axis must have one entry for each"
+        )
+        return
+    for k, quantity in enumerate(quantities):
+        column = values if len(quantities) == 1 else values[..., k]
+        problem = _out_of_range(column, quantity, getattr(sensor, "range", None))
+        if problem:
+            subject.wrong(f"{name}.read returned {problem}")
 
 
 def _out_of_range(values: NDArray[Any], quantity: Quantity, top: Any) -> str:
-    """Return an invalid value of a quantity and what is expected, or "" if all are valid."""
-    of = f"of {quantity.name}" + (f" [{quantity.unit}]" if quantity.unit else "")
-    flags = values.dtype == bool
-    if quantity.kind == "flag":
-        return "" if flags else f"{shown(values.flat[0].item())} {of}: expected True or False"
-    if flags:
-        undeclared = quantity.kind == "number"  # of which nothing was said: it is taken for a flag
-        wanted = "expected numbers, or quantities = (FLAG,)"
-        return "" if undeclared else f"True or False {of}: {wanted}"
-    problems = [(np.isinf(values), "a missing value is nan; only a distance is inf")]
-    if quantity.kind == "distance":
-        problems = [
-            (np.isnan(values), "a distance to nothing is inf"),
-            (values < 0, "a distance is not negative"),
-        ]
-        if isinstance(top, float):
-            beyond = f"beyond the range, {top:g} {quantity.unit}, a distance is inf"
-            problems.append(((values > top) & np.isfinite(values), beyond))
-    elif quantity.kind == "angle":
-        why = "an angle lies in (-pi, pi]; mars2d.core.plane has wrap"
-        problems.append((np.abs(values) > pi, why))
-    elif quantity.kind == "color":
-        problems.append(((values < 0) | (values > 1), "a colour lies in 0 to 1"))
-    found = ((values[bad].flat[0], why) for bad, why in problems if bad.any())
-    return next((f"{value:.6g} {of}: {why}" for value, why in found), "")
+    """Return an invalid value of a quantity and what is expected, or "" if all are valid.
+
+    top: the range of the sensor, metres, if it has one.
+    """
+    kind, of = quantity.kind, f"of {quantity.name}" + f" [{quantity.unit}]" * bool(quantity.unit)
+    if kind != "number" and (values.dtype == bool) != (kind == "flag"):
+        expected = "True or False" if kind == "flag" else "numbers, or quantities = (FLAG,)"
+        return f"{shown(values.flat[0].item())} {of}: expected {expected}"
+    low, high, why = VALID.get(kind, (-inf, inf, "a missing value is nan; only a distance is inf"))
+    if kind == "distance" and isinstance(top, float):
+        high, why = top, f"{why}, or beyond the range, {top:g} {quantity.unit}"
+    missing = np.isinf(values) if kind == "distance" else np.isnan(values)
+    bad = values[~missing & ~(np.isfinite(values) & (values >= low) & (values <= high))]
+    return f"{bad.flat[0]:.6g} {of}: {why}" if bad.size else ""

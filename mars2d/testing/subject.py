@@ -6,8 +6,10 @@ import dataclasses
 import inspect
 import json
 import pickle
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,14 +23,16 @@ from mars2d.core.scene import Scene
 from mars2d.core.usercode import called, name_of
 from mars2d.scenario import serialize
 from mars2d.sensors.sensing import Sense
-from mars2d.testing.finding import Report
-from mars2d.testing.trial import Placed, Trial, changed, difference, state
+from mars2d.testing.finding import CheckError, Finding
+from mars2d.testing.trial import Placed, changed, difference, run, state
 from mars2d.world.world import World
+
+_NUMBER = re.compile(r"[-+]?(\d[\d.]*(e[-+]?\d+)?|\binf\b|\bnan\b)")
 
 KEEP = "Keep things in attributes of self, set in on_start"
 
 
-class Subject(Report):
+class Subject:
     """A part or law on trial, and what has been found.
 
     name: of its class, or of the law.
@@ -41,10 +45,31 @@ class Subject(Report):
         things, as a sentence.
         """
         self.name = type(what).__name__ if isinstance(what, Description) else name_of(what)
-        super().__init__(f"{family} {self.name}")
+        self._title = f"{family} {self.name}"
+        self._findings: dict[str, Finding] = {}
         self._stream, self._keep = stream, keep
         key = f"{family} {what.key!r} " if hasattr(what, "key") else f"{self.name} "
         self._labels = key, f"{self.name}."  # of the errors for which it is responsible
+
+    def wrong(self, text: str, *, untried: bool = False) -> None:
+        """Add something wrong; of sentences that differ only in numbers, the first counts."""
+        self._findings.setdefault(_NUMBER.sub("#", text), Finding("wrong", text, untried))
+
+    def hint(self, text: str) -> None:
+        """Add something that could be better."""
+        self._findings.setdefault(_NUMBER.sub("#", text), Finding("hint", text))
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing wrong has been found so far."""
+        return not any(finding.kind == "wrong" for finding in self._findings.values())
+
+    def hints(self) -> tuple[Finding, ...]:
+        """Return the hints; raise CheckError if anything is wrong."""
+        found = sorted(self._findings.values(), key=lambda finding: finding.kind == "hint")
+        if not self.sound:
+            raise CheckError(self._title, found)
+        return tuple(found)
 
     def check_runs(
         self,
@@ -64,15 +89,15 @@ class Subject(Report):
         responsible. besides: the key of an add-on that may keep what it finds when it is looked at.
         """
         with deadline or Deadline() as limit:
-            trial = Trial(self.name, place, limit)
-            looked = plain = trial.run(looker)
+            again = partial(run, self.name, place, limit)
+            looked = plain = again(looker)
             if looker and looked.error is None:
-                plain = trial.run()
+                plain = again()
             if plain.error is not None:
                 self._blame(plain.error, small)
                 return
-            noisy = difference(plain, trial.run(noise=2))
-            beside = noisy or difference(plain, trial.run(beside=True))
+            noisy = difference(plain, again(noise=2))
+            beside = noisy or difference(plain, again(beside=True))
             found = beside or (difference(plain, looked, besides) if self.sound else None)
             if found is None or not (small or found[1].startswith(own)):
                 return
@@ -83,7 +108,7 @@ class Subject(Report):
                     "more: how often that is depends on rates, laws and windows, so it must not "
                     "matter; do this in on_step"
                 )
-            elif noisy and difference(plain, trial.run()) is None:
+            elif noisy and difference(plain, again()) is None:
                 self.wrong(
                     f"{self.name} draws from random or numpy.random, which all of Python shares: "
                     f"{another}; draw from {self._stream}"

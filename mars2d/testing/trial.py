@@ -30,8 +30,6 @@ STEPS = 50
 MAX_RUN_TIME = 1.0
 """Seconds after which a slow run ends early."""
 
-LOOKER = "looker_of_the_trial"
-
 ControlLaw = Callable[[Any], Any]
 
 Placed = tuple[Scenario, ControlLaw | None]
@@ -60,9 +58,12 @@ def small_world(
     robot = Robot(sensors=sensors, controller=law, sees=sees)
     poses = (x - 1.5, 0.2, 0.1), (x + 0.7, -0.6, 2.0), (x + 1.4, 1.2, -2.3)
     furniture = (
-        Map([[(-0.2, -1.9), (-0.2, -0.7)], [(1.6, -1.4), (2.1, -1.4), (1.9, -0.9)]], name="walls"),
-        Beacon(at=(0.3, 1.5), name="lamp"),
-        Floor(patches=[([(0, -3), (3, -3), (3, 3), (0, 3)], "gray")], name="half_gray"),
+        Map(
+            [[(-0.2, -1.9), (-0.2, -0.7)], [(1.6, -1.4), (2.1, -1.4), (1.9, -0.9)]],
+            name="trial_walls",
+        ),
+        Beacon(at=(0.3, 1.5), name="trial_lamp"),
+        Floor(patches=[([(0, -3), (3, -3), (3, 3), (0, 3)], "gray")], name="trial_floor"),
     )
     return Scenario(
         title="A trial",
@@ -76,76 +77,65 @@ def small_world(
     )
 
 
-def looker(**hooks: Callable[[World], None]) -> Addon:
-    """Return an add-on whose hooks are functions of the world: it looks on in a trial."""
-
-    def method(look: Callable[[World], None]) -> Callable[[Addon, World], None]:
-        return lambda _, world: look(world)
-
-    methods = {name: method(look) for name, look in hooks.items()}
+def looker(hook: str, look: Callable[[World], None]) -> Addon:
+    """Return an add-on with one hook, which calls a function of the world."""
+    methods = {hook: lambda _, world: look(world)}
     kind: type[Addon] = type("Looker", (Addon,), methods)
-    return kind(name=LOOKER)
+    return kind(name="trial_looker")
 
 
 @dataclass
 class Run:
-    """One run of a trial.
-
-    rows: `state` after each control step. error: the one that ended the run.
-    """
+    """One run. rows: `state` after each control step. error: the one that ended the run."""
 
     rows: list[dict[str, bytes]] = field(default_factory=list)
     error: InputError | None = None
 
 
-@dataclass(frozen=True)
-class Trial:
-    """A scenario and its team's law that can be run repeatedly; made anew by `place`.
+def run(
+    name: str,
+    place: Callable[[], Placed],
+    deadline: Deadline,
+    looks_on: Addon | None = None,
+    *,
+    noise: int = 1,
+    beside: bool = False,
+) -> Run:
+    """Run a scenario, which `place` returns with its team's law, once.
 
-    name: of what is tried. deadline: of each control step.
+    name: of what is tried. deadline: of each control step. looks_on: an add-on beside those of the
+    scenario. noise: the seed of Python's and numpy's shared generators, which must not matter.
+    beside: whether a second world, of another seed, takes its steps in turn.
     """
-
-    name: str
-    place: Callable[[], Placed]
-    deadline: Deadline
-
-    def run(self, looker: Addon | None = None, *, noise: int = 1, beside: bool = False) -> Run:
-        """Run once.
-
-        looker: an add-on that looks on. noise: the seed of Python's and numpy's shared generators,
-        which must not matter. beside: whether a second world, of another seed, steps in turn.
-        """
-        run, start = Run(), time.monotonic()
-        with shared_generators(noise):
-            try:
-                self.deadline.alive()
-                worlds = [self._world(seed, looker) for seed in ((1, 2) if beside else (1,))]
-                for _ in range(STEPS):
-                    if worlds[0].over or time.monotonic() - start > MAX_RUN_TIME:
-                        break
-                    for world in worlds:
-                        self.deadline.alive()
-                        if not world.over:
-                            world.step()
-                    run.rows.append(state(worlds[0]))
-            except Late:
-                run.error = InputError(
-                    f"{self.name} did not come to an end within {self.deadline.patience:g} s, and "
-                    "was broken off. Is there a loop that never ends? A law that waits yields at "
-                    "each step"
-                )
-                run.error.where = self.deadline.arrived() or None
-            except InputError as error:
-                run.error = error
-            except Exception as error:  # whatever a user's object raises
-                run.error = InputError(described(error))
-                run.error.where = users_line(stack_of(error))
-        return run
-
-    def _world(self, seed: int, looker: Addon | None) -> World:
-        scenario, control = self.place()
-        lookers = [] if looker is None else [looker]
-        return World(scenario.replace(addons=[*scenario.addons, *lookers]), control, seed)
+    made, start = Run(), time.monotonic()
+    worlds: list[World] = []
+    with _shared_generators(noise):
+        try:
+            deadline.alive()
+            for seed in (1, 2) if beside else (1,):
+                scenario, control = place()
+                addons = [*scenario.addons, looks_on] if looks_on else scenario.addons
+                worlds.append(World(scenario.replace(addons=addons), control, seed))
+            for _ in range(STEPS):
+                if worlds[0].over or time.monotonic() - start > MAX_RUN_TIME:
+                    break
+                for world in worlds:
+                    deadline.alive()
+                    if not world.over:
+                        world.step()
+                made.rows.append(state(worlds[0]))
+        except Late:
+            made.error = InputError(
+                f"{name} did not come to an end within {deadline.patience:g} s, and was broken "
+                "off. Is there a loop that never ends? A law that waits yields at each step"
+            )
+            made.error.where = deadline.arrived() or None
+        except InputError as error:
+            made.error = error
+        except Exception as error:  # whatever a user's object raises
+            made.error = InputError(described(error))
+            made.error.where = users_line(stack_of(error))
+    return made
 
 
 def state(world: World) -> dict[str, bytes]:
@@ -154,16 +144,16 @@ def state(world: World) -> dict[str, bytes]:
     found: dict[str, Any] = {
         f"add-on {key}.{attribute}": value
         for key, addon in vars(world.addons).items()
-        if key != LOOKER
+        if not key.startswith("trial_")
         for attribute, value in vars(addon).items()
     }
     for key, readings in world.frame.readings.items():
         found |= {f"sensor {key} of {robots[i].name}": value for i, value in readings}
+    found |= {f"command {robot.name}": world.command[:, i] for i, robot in enumerate(robots)}
     for i, robot in enumerate(robots):
-        found[f"command {robot.name}"] = world.command[:, i]
+        found[f"pose {robot.name}"] = world.pose[:, i]
         found[f"the memory of {robot.name}"] = vars(robot.memory)
         found[f"the random stream of {robot.name}"] = robot.rng
-    found |= {f"pose {robot.name}": world.pose[:, i] for i, robot in enumerate(robots)}
     found["the random stream of the team's law"] = world.rng
     found["the poses of props"] = world.prop_pose
     found["whether the experiment is over"] = world.over
@@ -199,7 +189,7 @@ def difference(one: Run, other: Run, besides: str = "") -> tuple[int, str] | Non
 
 
 @contextmanager
-def shared_generators(seed: int) -> Iterator[None]:
+def _shared_generators(seed: int) -> Iterator[None]:
     """Seed Python's and numpy's shared generators, and restore their states afterwards."""
     before = random.getstate(), np.random.get_state()  # noqa: NPY002 - it is what laws misuse
     random.seed(seed)

@@ -314,15 +314,6 @@ def test_a_cars_wheels_turn_no_quicker_than_the_steering_rate():
     assert command[:, 1] == pytest.approx(np.minimum(0.05 * np.arange(1, 21), 0.4))
 
 
-def test_each_robot_of_a_team_has_limits_of_its_own():
-    drives = [Unicycle(), Unicycle(max_acceleration=1), Holonomic(max_acceleration=2), Unicycle()]
-    record = driven(free(*drives), [(0.5, 0.0)] * 3)
-    assert record.command[:3, 0].tolist() == [
-        pytest.approx([0.5, 0.1, 0.2, 0.5]), pytest.approx([0.5, 0.2, 0.4, 0.5]),
-        pytest.approx([0.5, 0.3, 0.5, 0.5]),
-    ]  # fmt: skip
-
-
 # -- noise ----------------------------------------------------------------------------------
 
 ROOT = sqrt(0.1)
@@ -350,14 +341,6 @@ def test_noise_follows_the_seed_and_the_robots_name_and_nothing_else():
     two = driven(noisy("bert", "anna"), commands, seed=5)
     assert np.abs(two.pose[:, 2, 1] - one.pose[:, 2, 0]).max() == 0
     assert np.abs(two.pose[:, 2, 0] - one.pose[:, 2, 0]).max() > 0.01
-
-
-def test_a_robot_of_another_drive_beside_it_changes_no_noise():
-    commands = [(0.2, 0.3)] * 50
-    alone = driven(free(Unicycle(noise=0.2)), commands)
-    drives = (Unicycle(noise=0.2), Car(noise=0.3), Unicycle(), Holonomic(noise=0.1, dead_time=0.03))
-    team = driven(free(*drives), commands)
-    assert np.abs(team.pose[:, 2, 0] - alone.pose[:, 2, 0]).max() < 1e-12
 
 
 def test_noise_is_drawn_once_a_control_step_also_where_commands_change_within_it():

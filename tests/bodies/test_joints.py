@@ -7,7 +7,7 @@ from math import cos, exp, hypot, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from mars2d import InputError, Robot, Unicycle, World
+from mars2d import Holonomic, InputError, Robot, Unicycle, World
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Puck
 from mars2d.core.materials import GRAVITY
@@ -164,6 +164,17 @@ def test_the_anchors_of_a_hinge_stay_together_under_load():
     for command in ([[0.3], [0.5]], [[0.2], [-1]], [[-0.2], [0]], [[0.5], [0]]):
         poses = drive(world, command, 3)
         gap = apart(at(poses[:, :, 0], (-0.25, 0)), at(poses[:, :, 1], (0.25, 0)))
+        assert gap.max() < MILLIMETRE
+
+
+def test_a_strong_robot_tears_no_hinge_open():
+    strong = Robot(pose=(0, 0, 0), drive=Holonomic(max_force=200, max_linear_speed=1))
+    box = Box(pose=(0.5, 0, 0), length=0.2, width=0.2, ground_friction=1, mass=10)
+    hinges = [Hinge(a="robot0", b="box0", anchor_a=(0.25, 0), anchor_b=(-0.25, 0))]
+    world = endless([strong], [box], hinges)
+    for command in ([[0], [1]], [[1], [0]], [[0], [-1]]):
+        poses = drive(world, command, 1)
+        gap = apart(at(poses[:, :, 0], (0.25, 0)), at(poses[:, :, 1], (-0.25, 0)))
         assert gap.max() < MILLIMETRE
 
 

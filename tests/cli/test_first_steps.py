@@ -36,6 +36,7 @@ def test_a_name_that_python_can_not_import_is_refused(here, capsys, name):
     assert not [*here.iterdir()]
 
 
+@pytest.mark.slow
 @each_case("name", examples())
 def test_an_example_is_copied_with_all_that_it_needs(here, name):
     assert cli.main(["copy", name, "mine"]) == 0

@@ -35,6 +35,7 @@ def plot(folder, tmp_path, monkeypatch, capsys):
     return run
 
 
+@pytest.mark.slow
 @each_case("kind", KINDS)
 def test_each_kind_of_figure_is_drawn_and_its_file_named(plot, kind):
     extra = ["--at", "0,2"] if kind == "snapshots" else []

@@ -54,6 +54,7 @@ for command in sys.argv[1:]:
 """
 
 
+@pytest.mark.nightly
 def test_a_display_that_is_not_there_is_said_in_one_line(folder):
     commands = "replay past.npz", "edit drawn.toml", "run room.py --speed 0", "run room.py --json"
     done = subprocess.run(
@@ -76,6 +77,7 @@ def test_a_display_that_is_not_there_is_said_in_one_line(folder):
     assert [part.count("\n") for part in (replay, edit, run)] == [0, 0, 0]
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(sys.platform == "win32", reason="no such terminals")
 def test_a_run_whose_terminal_is_closed_is_saved(folder):
     ours, theirs = os.openpty()

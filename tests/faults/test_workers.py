@@ -53,6 +53,7 @@ def test_a_worker_that_dies_costs_a_study_one_row(tmp_path, monkeypatch) -> None
     assert [result.measures.get("end") for result in table.results] == [2.0, 2.0, None, 2.0]
 
 
+@pytest.mark.nightly
 def test_a_worker_that_dies_costs_a_tournament_one_match(tmp_path, monkeypatch) -> None:
     (tmp_path / "game.py").write_text(GAME)
     for name in ("one.py", "two.py"):

@@ -253,13 +253,6 @@ def check(data: Data, rng_seed: int) -> None:
 
 
 @pytest.mark.slow
-@settings(max_examples=30)
-@given(scenarios(), st.integers(0, 99))
-def test_any_scenario_is_refused_or_runs_finite_in_its_walls_and_in_bounds(data, rng_seed):
-    check(data, rng_seed)
-
-
-@pytest.mark.slow
 @pytest.mark.nightly
 @pytest.mark.parametrize("batch", range(20))
 def test_thousands_of_scenarios_are_refused_or_run(batch):

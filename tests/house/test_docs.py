@@ -195,16 +195,13 @@ class Reader:
         return printed.getvalue() + errors
 
 
-SLOW = {
-    "README", "addons", "clusters", "commands", "films", "laws", "logs", "own_sensor_and_addon",
-    "paper", "window", "circular_motion", "cyclic_pursuit", "herding", "leader_following",
-    "path_planning", "rendezvous",
-}  # fmt: skip
+SLOW = {"README", "addons", "films", "laws", "logs", "own_sensor_and_addon", "paper", "window"}
 """Documents that take a second and more."""
 
 NIGHTLY = {
-    "communication", "contact", "editors", "figures", "information", "sensing", "speed", "studies",
-    "tournaments", "coverage_circle", "coverage_square", "pursuit_corners", "pursuit_voronoi",
+    "clusters", "commands", "communication", "contact", "editors", "figures", "information",
+    "sensing", "speed", "studies", "tournaments",
+    *({path.stem for path in EXPERIMENTS} - {"formation", "random_walk"}),
     *(path.stem for path in PURSUIT),
 }  # fmt: skip
 """Documents that take many seconds."""

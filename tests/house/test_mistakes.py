@@ -29,7 +29,6 @@ ROBOTS = [
     ("sensors=Proximity(range=1)", "write [Proximity(range=1.0)]"),
     ("sensors=[Proximity]", "write Proximity(...)"),
     ("drive=Unicycle", "write Unicycle(...)"),
-    ("holonomic=True", "write drive=Holonomic()"),
     ("pose=(0, 0, '90')", "expected a pose (x, y, theta) in metres and radians"),
     ("radius=0.1, diameter=0.2", "Robot has both radius and diameter: give one of them"),
     ("drive=Unicycle(max_v=1)", "write max_linear_speed=..."),

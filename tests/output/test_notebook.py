@@ -184,7 +184,7 @@ def test_what_a_part_raises_while_it_is_drawn_stands_below_the_picture():
 
 @each_case("name", list(examples()))
 def test_each_example_has_a_small_picture(name):
-    experiment = open_experiment(name, {"stop_time": 2.0})
+    experiment = open_experiment(name, {"stop_time": 0.5})
     pictures = experiment.scenario._repr_svg_(), simulate(experiment).record._repr_svg_()
     for picture in pictures:
         text = words(picture)

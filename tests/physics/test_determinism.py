@@ -195,14 +195,6 @@ def test_in_contact_another_order_changes_last_digits_alone_until_chaos_makes_mo
     assert np.abs(before.pose - after.pose[..., ::-1]).max() < 1e-4
 
 
-def test_a_robot_more_changes_no_other_robots_stream():
-    few = Scenario(robots=[Robot(controller=wander)], stop_time=1)
-    more = Scenario(
-        robots=[Robot(controller=wander), Robot(pose=(2, 2, 0), controller=wander)], stop_time=1
-    )
-    assert np.array_equal(mars2d.run(few).command[:, :, 0], mars2d.run(more).command[:, :, 0])
-
-
 def test_the_recorded_commands_alone_give_the_same_run():
     scenario = crowd().replace(command_delay=0.25)
     record = mars2d.run(scenario, seed=4)

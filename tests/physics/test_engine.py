@@ -235,6 +235,26 @@ def test_more_overlap_allowed_means_fewer_substeps():
 # -- contact --------------------------------------------------------------------------------
 
 
+def test_the_stronger_of_two_robots_pushes_the_weaker_one_back():
+    weak = Robot(pose=(-0.2, 0, 0), drive=Unicycle(max_force=2))
+    strong = Robot(pose=(0.2, 0, np.pi), drive=Unicycle(max_force=6))
+    world = World(free(weak, strong))
+    drive(world, [[0.3, 0.3], [0, 0]], 5)
+    assert world.pose[0, 0] < -0.5
+    assert np.isfinite(world.pose).all()
+
+
+def test_a_braked_robot_holds_its_place_against_a_weaker_one():
+    pusher = Robot(pose=(-0.2, 0, 0), drive=Unicycle(max_force=4.7))
+    braked = Robot(pose=(0.2, 0, np.pi), drive=Unicycle(max_force=5.3))
+    world = World(free(pusher, braked))
+    drive(world, [[0.3, 0], [0, 0]], 5)  # the impact itself moves it
+    before = world.pose[0, 1]
+    drive(world, [[0.3, 0], [0, 0]], 30)
+    assert world.pose[0, 1] == pytest.approx(before, abs=1e-5)
+    assert before < 0.25
+
+
 @each_case("offset", [0.05, 0.1, 0.15])
 def test_a_hit_turns_a_robot_about_its_centre_of_rotation_by_impulse_times_lever(offset):
     weak = Holonomic(max_force=1e-6, max_torque=1e-6)

@@ -190,19 +190,6 @@ def test_what_began_again_ends_where_short_control_steps_lead_to():
     assert long.effort == pytest.approx(short.effort, abs=1e-9)
 
 
-def test_contacts_of_a_control_step_that_began_again_are_not_doubled():
-    world, seen = throw(2.0)
-    assert seen.failed
-    [row] = world.contacts
-    impulse = 2 * 10 / 11 * 0.5
-    assert row["normal_impulse"] == pytest.approx(impulse, rel=1e-3)
-    assert row["impulse"] == pytest.approx(row["normal_impulse"])
-    assert row["time"] == pytest.approx(0.2, abs=2e-3)
-    assert row["duration"] < 0.02
-    assert (row["began"], row["ended"]) == (True, True)
-    assert world.velocity[0, 1] == pytest.approx(row["normal_impulse"], abs=1e-5)  # of 1 kg
-
-
 def test_nor_are_those_that_went_on_from_before():
     """The light one leans on a wall when it is hit: that contact goes on, once."""
     wall = Map([[(-0.1, -0.1501), (1, -0.1501)]], friction=0, restitution=0)

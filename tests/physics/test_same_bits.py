@@ -213,7 +213,7 @@ def restless(seed: int, scenario: Scenario) -> Law:
 @example(5, 6, 1e-4, 0.1, 0.0, True, True, 0.0, "wall", "contact")
 @example(1, 32, 0.02, 0.1, 0.03, True, False, 0.0, "wall", "contact")
 @example(2, 33, 0.02, 0.1, 0.03, True, True, 0.0, "wall", "contact")
-@settings(max_examples=5)
+@settings(max_examples=12)
 def test_a_crowd_moves_the_same_with_and_without(
     seed, n, max_overlap, sampling_time, delay, faults, things, gap, on_exit, physics
 ):
@@ -330,8 +330,8 @@ def test_so_does_one_of_many_surfaces(rule):
         robots=robots, props=props, addons=[chart], material_pairs=pairs, friction_rule=rule,
         restitution_rule=RULES[(RULES.index(rule) + 2) % 5],
     )  # fmt: skip
-    record = run_both(mixed, restless(3, mixed), 8)
-    assert len(record.contacts) > 10
+    record = run_both(mixed, restless(3, mixed), 6)
+    assert len(record.contacts) > 5
 
 
 @each_case("seed", range(2))

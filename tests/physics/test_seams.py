@@ -528,17 +528,6 @@ def test_a_step_of_crates_is_felt(step):
     assert found[0] == pytest.approx(0, abs=1e-2)
 
 
-def test_a_crate_that_stands_on_another_stops_a_box():
-    box = Box(
-        length=0.3, width=0.3, pose=(*at((-0.4, 0.1505), (0.0, 1)), 0.0),
-        velocity=(2.0, -0.05, 0.0), mass=1.0, **SMOOTH,
-    )  # fmt: skip
-    props = [box, *row("two crates", (0.0, 1)), slab(0, 1, middle=0.25, image=(0.0, 1))]
-    found = after(props, (0.0, 1), 0.4)
-    assert found[[0, 2]] == pytest.approx([0, 0], abs=1e-3)
-    assert found[1] == pytest.approx(0, abs=5e-3)  # an overlap is mended
-
-
 @each_case("off", [0.0, 1e-5, -3e-4, 1e-3])
 def test_no_needle_is_pressed_into_a_seam_of_bodies(off):
     """A robot presses it there for seconds; it gets no deeper than bodies may."""
@@ -595,19 +584,6 @@ def test_a_contact_says_which_piece_of_a_wall_is_touched():
     middle = at((0, 0), (0.0, 1))[0]
     before = contacts["point"][:, 0] < middle
     assert (contacts["b"] == np.where(before, -1, -2)).all()
-
-
-@each_case("physics", ["contact", "stop", "ideal"])
-def test_what_ends_at_the_back_of_a_wall_is_not_touched(physics):
-    robot = Robot(drive=Holonomic(), pose=(-1, 0.16, 0))
-    scenario = Scenario(
-        robots=[robot], workspace=None, physics=physics, stop_time=3, sampling_time=0.05,
-        addons=[Map(STRAIGHT["ends from behind"].walls)],
-    )  # fmt: skip
-    world = World(scenario)
-    while world.time < 3 - 1e-9:
-        world.step(np.array([[0.6], [-0.02]]))
-    assert set(world.record.contacts["b"].tolist()) == {-1}
 
 
 # -- which walls there are --------------------------------------------------------------------

@@ -6,7 +6,6 @@ from math import atan, cos, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from mars2d import Holonomic, MaterialPair, Record, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
@@ -280,27 +279,6 @@ def test_a_box_at_a_spring_moves_in_jerks_with_the_period_of_the_formula(k, m, s
     assert len(starts) >= 4
     assert np.diff(starts) == pytest.approx(period, rel=0.015)
     assert speed.max() == pytest.approx(v + hypot(v, w * d), rel=0.015)
-
-
-def test_a_jerk_goes_as_an_integrator_says():
-    """From the moment of breaking loose until it sticks again."""
-    k, m, static, kinetic, v = 41.0, 1.1, 0.7, 0.35, 0.12
-    record = stick_slip(k, m, static, kinetic, v)
-    begins = static * m * GRAVITY / k / v
-
-    def slides(t: float, state: np.ndarray) -> list[float]:
-        x, speed = state
-        return [speed, (k * (v * t - x) - kinetic * m * GRAVITY) / m]
-
-    def stops(_: float, state: np.ndarray) -> float:
-        return state[1] - 1e-9
-
-    stops.terminal, stops.direction = True, -1
-    found = solve_ivp(slides, (begins, 15), [0.0, 1e-6], events=stops, rtol=1e-10, atol=1e-12)
-    way = found.y[0, -1]
-    x = record.prop_pose[:, 0, 0]
-    rests = np.searchsorted(record.time, found.t[-1] + 0.1)
-    assert x[rests] == pytest.approx(way, rel=0.01)
 
 
 # -- what is asked for, and what is not -------------------------------------------------------

@@ -16,7 +16,7 @@ from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.physics.islands.contacts import Touch
 from mars2d.physics.islands.shadow import Doubles
-from mars2d.record.contact import CONTACT, episodes
+from mars2d.record.contact import episodes
 from tests.cases import each_case
 from tests.islands import plainly
 from tests.worlds import drive, endless
@@ -327,34 +327,6 @@ def test_the_times_of_touching_add_up_to_that_between_touch_and_parting():
     assert rows["ended"].sum() == 1
     assert rows["began"].sum() == 2
     assert world.record.collisions == 2
-
-
-def made(*rows) -> np.ndarray:
-    """Rows of a log: time, duration, a, b, began, ended, impulse."""
-    log = np.zeros(len(rows), dtype=CONTACT)
-    names = ["time", "duration", "a", "b", "began", "ended", "normal_impulse"]
-    for name, values in zip(names, zip(*rows, strict=True), strict=True):
-        log[name] = values
-    log["speed"] = np.where(log["began"], 1 + np.arange(len(rows)), 0)
-    return log
-
-
-def test_episodes_of_a_log_made_by_hand():
-    log = made(
-        (0.1, 0.05, 0, 1, True, True, 1.0),  # a bounce
-        (0.2, 0.10, 0, 1, True, False, 2.0),  # three steps in touch ...
-        (0.25, 0.05, 0, -1, True, False, 9.0),
-        (0.3, 0.10, 0, 1, False, False, 3.0),
-        (0.3, 0.10, 0, -1, False, False, 9.0),
-        (0.4, 0.03, 0, 1, False, True, 4.0),  # ... and apart
-    )
-    found = episodes(log)
-    assert found[["a", "b"]].tolist() == [(0, 1), (0, 1), (0, -1)]
-    assert found["began"].tolist() == [0.1, 0.2, 0.25]
-    assert found["ended"] == pytest.approx([0.15, 0.43, 0.4])
-    assert found["normal_impulse"].tolist() == [1, 9, 18]
-    assert found["speed"].tolist() == [1, 2, 3]
-    assert len(episodes(log[:0])) == 0
 
 
 def gained_and_told(world: World, ticks: int) -> tuple[np.ndarray, np.ndarray]:

@@ -11,7 +11,7 @@ import pytest
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World, addons
 from mars2d.addons import Map
-from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
+from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, Quantity
 from mars2d.sensors import (
     Beacon,
     LineCamera,
@@ -350,17 +350,6 @@ def test_a_rate_that_divides_the_sampling_rate_is_accepted(rate):
     assert sensor.period(0.1) == round(10 / rate)
 
 
-def test_a_reading_without_its_quantities_is_refused():
-    class Flat(Sensor):
-        quantities: ClassVar = (DISTANCE, NUMBER)
-
-        def read(self, robot, world, rng):
-            return np.zeros(3)
-
-    with pytest.raises(LawError, match="it measures 2 quantities, so the last axis"):
-        measured(Flat(noise=0.1))
-
-
 # -- what a review has found ---------------------------------------------------------------------
 
 
@@ -415,16 +404,6 @@ def test_asking_a_sensor_that_is_not_recorded_changes_nothing_later():
     often, seldom = readings(range(8)), readings([3, 6])
     assert seldom == {step: often[step] for step in (3, 6)}
     assert len(set(often.values())) == 8
-
-
-def test_an_add_on_that_comes_before_the_first_reading_is_told_so():
-    class Early(mars2d.Addon):
-        def on_step(self, world):
-            _ = world.robots[0].sense.constant
-
-    robot = Robot(sensors=[Constant(count=1)])
-    with pytest.raises(LawError, match=r"'constant' has no reading now.*after the add-ons"):
-        mars2d.run(Scenario(robots=[robot], addons=[Early()]))
 
 
 def test_a_full_circle_and_a_rate_may_be_written_with_six_digits():

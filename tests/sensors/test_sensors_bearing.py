@@ -15,7 +15,7 @@ from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.core.arithmetic import angle_of, norm
 from mars2d.core.plane import wrap
-from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.core.scene import Circle, Line, Scene
 from mars2d.geometry.bearings import sighted
 from mars2d.sensors import RangeBearing
 from tests.cases import each_case
@@ -107,12 +107,6 @@ def test_without_identity_rows_are_nearest_first_and_nobody_has_an_index():
     expected = [[1, pi / 2], [3, 0], [inf, nan]]
     assert np.array_equal(rows(sensor, others), expected, equal_nan=True)
     assert seen(sensor, others) == ((1, pi / 2, None), (3, 0, None))
-
-
-def test_a_robot_alone_sees_nobody():
-    assert seen(RangeBearing()) == ()
-    assert rows(RangeBearing()).shape == (1, 2)
-    assert rows(RangeBearing(identity=False)).shape == (0, 2)
 
 
 def test_the_mount_is_where_it_looks_from():
@@ -260,21 +254,6 @@ def test_beacons_of_an_own_addon_must_be_points(place):
         seen(sensors.Beacon(), extra=[Stars()])
 
 
-def test_a_beacon_that_goes_out_is_not_seen_any_more():
-    class Candle(mars2d.Addon):
-        lit = True
-
-        def on_step(self, world):
-            self.lit = world.time < 0.25
-
-        def beacons(self):
-            return {"candle": (1, 0)} if self.lit else {}
-
-    robot = Robot(sensors=[sensors.Beacon()])
-    record = mars2d.run(Scenario(robots=[robot], addons=[Candle()], stop_time=0.4))
-    assert record.sensors["beacon"][:, 0, 0, 0].tolist() == [1, 1, 1, inf, inf]
-
-
 @each_case("names", ["lamp", [], [3], ["a", "a"]])
 def test_names_are_a_list_of_different_texts(names):
     words = r"stands there twice|expected a list of beacons' names, such as \['lamp'\], or None"
@@ -350,19 +329,6 @@ def test_the_world_knows_where_a_moving_beacon_is_now():
     expected = 1 + 0.5 * world.record.time
     assert world.record.sensors["beacon"][:, 0, 0, 0] == pytest.approx(expected)
     assert beacon.position == (1, 0)
-
-
-def test_a_beacon_is_drawn_where_it_is_now_with_its_name():
-    beacon = addons.Beacon(path=[(1, 0), (2, 0)], speed=0.5, name="ferry", color="#00ff00")
-    world = World(Scenario(addons=[beacon]))
-    for _ in range(10):
-        world.step()
-    scene = Scene()
-    world.addons.ferry.draw(scene, world.frame)
-    lamp = [shape for shape in scene.shapes if isinstance(shape, Circle)][-1]
-    assert lamp.center == pytest.approx((1.5, 0))
-    assert lamp.fill == "#00ff00"
-    assert [s.text.strip() for s in scene.shapes if isinstance(s, Text)] == ["ferry"]
 
 
 @each_case(

@@ -10,7 +10,7 @@ import pytest
 import mars2d
 from mars2d import Car, Differential, Drive, Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
-from mars2d.core.scene import Arrow, Line, Scene
+from mars2d.core.scene import Line, Scene
 from mars2d.geometry.dead_reckoning import odometry_covariance
 from mars2d.sensors import Imu, Odometry, Pose
 from tests.cases import each_case
@@ -237,17 +237,6 @@ def test_other_drives_drift_by_three_wheels_that_only_measure(drive):
     assert found.mean(axis=0) == pytest.approx(truth, abs=4 * spread.max() / sqrt(SEEDS))
 
 
-def test_each_robot_and_each_seed_drifts_in_its_own_way():
-    def run(seed):
-        robot = Robot(sensors=[Odometry(drift=0.1)], controller=lambda robot: (0.3, 0))
-        robots = [robot.at(0, y, 0) for y in (0, 1)]
-        return mars2d.run(Scenario(robots=robots, stop_time=2), seed=seed).sensors["odometry"][-1]
-
-    assert np.array_equal(run(0), run(0))
-    assert not np.array_equal(run(0), run(1))
-    assert not np.array_equal(run(0)[0], run(0)[1])
-
-
 @each_case(
     ("fields", "message"),
     [
@@ -360,15 +349,3 @@ def test_an_estimate_is_drawn_where_it_is_and_a_lost_one_is_not():
         lost = Scene()
         sensor.draw(lost, here, np.full(3, np.nan), "#0072b2")
         assert lost.shapes == []
-
-
-def test_an_acceleration_is_drawn_as_an_arrow_from_the_mount():
-    scene = Scene()
-    Imu(mount=(0.1, 0, 0)).draw(scene, np.array([0, 0, pi / 2]), np.array([2.0, 0, 0]), "#0072b2")
-    (arrow,) = scene.shapes
-    assert isinstance(arrow, Arrow)
-    assert arrow.tail == pytest.approx((0, 0.1))
-    assert arrow.tip == pytest.approx((0, 0.5))
-    still = Scene()
-    Imu().draw(still, np.zeros(3), np.zeros(3), "#0072b2")
-    assert still.shapes == []

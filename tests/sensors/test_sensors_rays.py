@@ -154,14 +154,6 @@ def test_a_sonar_inside_or_at_the_edge_of_another_body_reads_zero(where):
     assert found == pytest.approx([0, 0, 0], abs=1e-9)
 
 
-def test_cones_are_drawn_as_far_as_they_are_free():
-    sensor = SonarRing(sonars=2, cone=0.5, range=2.0, field_of_view=1.0)
-    first, arc, second = drawn(sensor, np.array([1.0, inf]))
-    assert np.hypot(*first.points.T).max() == pytest.approx(1.0)
-    assert np.hypot(*arc.points.T) == pytest.approx(np.ones(len(arc.points)))
-    assert np.hypot(*second.points.T).max() == pytest.approx(2.0)
-
-
 # -- bumper ---------------------------------------------------------------------------------------
 
 
@@ -280,14 +272,6 @@ def test_a_line_camera_sees_the_colours_of_robots_props_and_obstacles():
     assert seen[1].tolist() == [0, 0, 1]
     grey = int("b8", 16) / 255, int("c0", 16) / 255, int("c8", 16) / 255
     assert seen[2].tolist() == pytest.approx(grey)
-
-
-def test_pixels_of_one_colour_are_drawn_as_one():
-    sensor = LineCamera(pixels=64)
-    value = np.full((64, 3), np.nan)
-    value[10:20], value[20:30] = (1, 0, 0), (0, 0, 1)
-    shapes = drawn(sensor, value)
-    assert [shape.fill for shape in shapes[1:]] == ["#ff0000", "#0000ff"]
 
 
 # -- all of them ----------------------------------------------------------------------------------

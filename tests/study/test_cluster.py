@@ -81,6 +81,7 @@ def executor(local):
         yield executor
 
 
+@pytest.mark.nightly
 def test_nothing_is_lost_or_counted_twice_where_a_worker_is_killed_half_way(executor, tasks):
     found = {}
     for index, pid in each_done(tasks.pid_after_a_moment, range(60), executor):

@@ -174,6 +174,7 @@ def test_it_says_what_was_played(tab):
         assert words in facts.replace("\xa0", " ")
 
 
+@pytest.mark.nightly
 def test_the_league_tables_have_the_numbers_of_the_standings(tab, tournament):
     assert tab.page.locator("table.league").count() == 2
     assert tab.page.locator("table.league caption").all_inner_texts() == ["As pursuer", "As evader"]
@@ -198,6 +199,7 @@ def test_the_league_tables_have_the_numbers_of_the_standings(tab, tournament):
 # -- sorting and choosing -------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 def test_matches_are_chosen_by_law_rival_round_and_forfeit(tab, tournament):
     def fitting(fits):
         return [each.match.number for each in tournament.matches if fits(each)]
@@ -217,6 +219,7 @@ def test_matches_are_chosen_by_law_rival_round_and_forfeit(tab, tournament):
     assert shown(tab) == fitting(lambda each: each.verdicts)
 
 
+@pytest.mark.nightly
 def test_a_cell_of_the_matrix_has_the_share_and_picks_its_matches(tab):
     cell = tab.page.get_by_role(
         "button", name="lead against zigzag: 50 % of the points in 4 matches"
@@ -253,6 +256,7 @@ def test_a_click_on_a_match_plays_it(open_tab, path):
     press_inside(tab, "Space", lambda: "Paused at" in frame.locator("#live").text_content())
 
 
+@pytest.mark.nightly
 def test_a_forfeit_shows_what_the_law_printed_and_one_before_the_start_no_replay(tab):
     watch(tab, 22)
     assert f"NameError: {EVIL}".split("\u2028")[0] in tab.text("#ending")
@@ -270,6 +274,7 @@ def test_a_forfeit_shows_what_the_law_printed_and_one_before_the_start_no_replay
 # -- everybody ------------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 def test_names_messages_and_output_are_text(tab, tournament):
     seen = EVIL.replace("\u2028", "")
     assert tab.page.title().replace("\u2028", "") == f"Cup {seen}"
@@ -283,6 +288,7 @@ def test_names_messages_and_output_are_text(tab, tournament):
     assert frame.locator("script").count() == 2
 
 
+@pytest.mark.nightly
 def test_a_screen_reader_finds_tables_and_controls(tab):
     watch(tab, 13)
     tree = tab.page.locator("#show").aria_snapshot()

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import pytest
+
 from mars2d import Robot, Scenario
 from mars2d.addons import Game
 from mars2d.cli.command_line import main
@@ -61,6 +63,7 @@ def test_a_pursuit_says_what_is_counted(fields, hunter, evader, counted):
     assert counted in game.counts
 
 
+@pytest.mark.nightly
 @each_case("size", [(1280, 900), (390, 800)])
 @each_case("scheme", ["light", "dark"])
 def test_the_page_needs_nothing_else_and_fits_at_any_width(browser, tmp_path, size, scheme):

@@ -317,6 +317,7 @@ def test_a_match_can_be_played_again_alone(evening, command):
 # -- rounds, players, matches without a result -----------------------------------------------------
 
 
+@pytest.mark.nightly
 @pytest.mark.slow
 def test_players_play_both_roles_in_each_round_and_an_experiment_that_fails_costs_one_match(
     evening, tmp_path

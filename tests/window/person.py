@@ -349,6 +349,7 @@ def display(monkeypatch):
     for name in HIDDEN:
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    pygame.display.quit()
     pygame.display.init()
     pygame.display.set_mode((800, 600))
     made = SimpleNamespace(pointer=(0, 0), clock=1000.0)

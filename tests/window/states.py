@@ -66,7 +66,7 @@ def made_window(
 
 def _source(options):
     if "experiment" in options:
-        return Timeline(open_experiment(options["experiment"], options.get("set", {})), seed=1)
+        return Timeline(open_experiment(options["experiment"], options.get("set"), seed=1))
     if "record" in options:
         return Playback(load(options["record"]))
     changes = options.pop("scenario", {})

@@ -211,6 +211,7 @@ def poke(timeline, upto=150):
         timeline.advance()
 
 
+@pytest.mark.slow
 @each_case("row", [20, 25, 45, 70, 120])
 def test_what_hands_did_is_done_again(memory, row):
     timeline = Timeline(open_experiment(memory, seed=3))

@@ -37,7 +37,6 @@ SCENARIOS = [
     ("a law that is not there", f"{ROBOT}controller = 'nobody.py:f'\n", "nobody.py",
      "no such file"),
     ("a team's law that is not there", "format = 1\ncontrol = 'no.py'\n", "line 2", "no.py"),
-    ("ten thousand lists in each other", f"{ROBOT}pose = {'[' * 10000}\n", "bad.toml"),
     ("a folder for a scenario file", None, "folder"),
 ]  # fmt: skip
 

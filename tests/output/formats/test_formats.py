@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 from pathlib import Path
 
 import numpy as np
@@ -155,6 +156,24 @@ def test_an_edit_of_a_header_is_refused_and_named(suffix, edit, said, tmp_path):
     path = everything().save(tmp_path / f"run{suffix}")
     _rewrite_header(path, edit(_header(path)), json.dumps)
     refused(path, f"damaged: {said}.*changed since it was saved")
+
+
+@each_format
+def test_a_flipped_bit_is_noticed_unless_it_changes_nothing(suffix, tmp_path):
+    path = cut_to(everything(), 3).save(tmp_path / f"run{suffix}")
+    whole, good = path.read_bytes(), mars2d.load(path)
+    chosen, noticed = random.Random(1), 0
+    for _ in range(60):
+        data = bytearray(whole)
+        data[chosen.randrange(len(data))] ^= 1 << chosen.randrange(8)
+        path.write_bytes(data)
+        try:
+            again = mars2d.load(path)
+        except InputError:
+            noticed += 1
+        else:
+            assert (again.digest, again.scenario) == (good.digest, good.scenario)
+    assert noticed > 30
 
 
 @each_case("change", [("robot1", "robot9"), ("0.1,", "0.2,")])
