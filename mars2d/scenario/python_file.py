@@ -77,28 +77,23 @@ class _Lister:
         values = serialize.changed(part, index)
         items = []
         for name in sorted(values, key=lambda name: (name != first, name != "name")):
-            node = self._node(kind, name, values[name])
+            node = self._value(values[name])
             items.append(node if name == first else _named(f"{name}=", node))
         return Brackets(f"{self._class(kind)}(", items, ")")
 
-    def _node(self, kind: type[Description], name: str, value: Any) -> Node:
-        """Return the value of a field."""
-        place = serialize.parts_of(kind).get(name)
-        if place is not None and place.many:
-            return Brackets("[", [self.call(item, i) for i, item in enumerate(value)], "]")
-        return self._plain(value)
-
-    def _plain(self, value: Any) -> Node:
+    def _value(self, value: Any, index: int = 0) -> Node:
+        """Return the value of a field; index: its place in its list."""
         if callable(value) and not serialize.is_ready_made(type(value)):
             return self.law(value)
         if isinstance(value, Description):
-            return self.call(value)
+            return self.call(value, index)
         if not isinstance(value, (list, tuple)):
             return plain(value)
-        items = [self._plain(item) for item in value]
+        items = [self._value(item, i) for i, item in enumerate(value)]
         if items and all(isinstance(item, (int, float)) for item in value):  # a point, a pose
             return Brackets("(", items, ",)" if len(items) == 1 else ")", filled=True)
-        return Brackets("[", items, "]", filled=True)
+        of_parts = any(isinstance(item, Description) for item in value)
+        return Brackets("[", items, "]", filled=not of_parts)
 
     def law(self, law: Law) -> Node:
         """Return the call that loads a law; "None" if it can't be found by name."""
@@ -114,8 +109,8 @@ class _Lister:
         items: list[Node] = [quoted(file)]
         if args or found.name != "control":
             items.append(quoted(found.name))
-        items += map(self._plain, args)
-        items += [_named(f"{name}=", self._plain(value)) for name, value in values.items()]
+        items += map(self._value, args)
+        items += [_named(f"{name}=", self._value(value)) for name, value in values.items()]
         self._names["load_law"] = "mars2d", "load_law"
         if not (args or values):
             return f"load_law({', '.join(map(str, items))})"
