@@ -152,12 +152,17 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
     ]
     here, overlap = bodies[body], scenario.max_overlap
     area = None if scenario.on_exit == "ignore" else scenario.workspace
-    if area and body < len(scenario.robots) and _refused(check_in_workspace, [here], area):
-        return "be outside of the workspace"
+    reason = "be outside of the workspace"
+    try:
+        if area and body < len(scenario.robots):
+            check_in_workspace([here], area)
+        reason = "be in the workspace's wall"
+        if area and scenario.on_exit == "wall" and scenario.physics != "ideal":
+            check_off_walls([here], area, overlap)
+    except InputError:
+        return reason
     if scenario.physics == "ideal":
         return ""
-    if area and scenario.on_exit == "wall" and _refused(check_off_walls, [here], area, overlap):
-        return "be in the workspace's wall"
     for k in cut_by(here, scenario.obstacles, overlap):
         return f"be in obstacle {k}"
     (cx, cy), radius = here.bound
@@ -168,14 +173,6 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
         if (min(k, body), max(k, body)) not in scenario.joined and depth(here, other, overlap):
             return f"overlap {other.name}"
     return ""
-
-
-def _refused(check: Callable[..., None], *given: Any) -> bool:
-    try:
-        check(*given)
-    except InputError:
-        return True
-    return False
 
 
 def alike(first: Any, second: Any) -> bool:
