@@ -328,8 +328,6 @@ def load_law(
     """
     if not isinstance(path, (str, Path)):
         raise wrong("load_law(path)", path, "the name of a law's file, such as 'my_law.py'")
-    if not isinstance(name, str):
-        raise wrong("load_law(name)", name, "the name of a function, such as 'control'")
     caller = Path(sys._getframe(1).f_code.co_filename)
     file = file_beside(Path(path), caller, "a law", [".py", SUFFIX])
     return law_in(file, name, given=(arguments, values))

@@ -197,22 +197,18 @@ class Delaunay(Neighbourhood):
 
     def of(self, position: Float) -> Neighbours:
         """Return the neighbours in Delaunay's triangulation, by index."""
-        return _mutual(position.shape[1], _delaunay_edges(position))
+        from scipy.spatial import Delaunay as Triangles
 
-
-def _delaunay_edges(position: Float) -> list[tuple[int, int]]:
-    from scipy.spatial import Delaunay as Triangles
-
-    x, y = position - position[:, :1]
-    far = int(np.argmax(norms(x, y)))
-    length = float(norm(x[far], y[far]))
-    if np.abs(x * y[far] - y * x[far]).max() <= FLAT * length**2:  # all on one line
-        order = np.argsort(x * x[far] + y * y[far], kind="stable").tolist()
-        return list(pairwise(order))
-    triangles = Triangles(np.array([x, y]).T)
-    edges = _without_flat(triangles, FLAT * length)
-    # Robots in one place: all but one of them are left out of the triangles.
-    return edges + [(i, k) for i, _, k in triangles.coplanar.tolist()]
+        x, y = position - position[:, :1]
+        far = int(np.argmax(norms(x, y)))
+        length = float(norm(x[far], y[far]))
+        if np.abs(x * y[far] - y * x[far]).max() <= FLAT * length**2:  # all on one line
+            order = np.argsort(x * x[far] + y * y[far], kind="stable").tolist()
+            return _mutual(len(x), pairwise(order))
+        triangles = Triangles(np.array([x, y]).T)
+        # Robots in one place: all but one of them are left out of the triangles.
+        same = [(i, k) for i, _, k in triangles.coplanar.tolist()]
+        return _mutual(len(x), _without_flat(triangles, FLAT * length) + same)
 
 
 def _without_flat(triangles: Any, least: float) -> list[tuple[int, int]]:
