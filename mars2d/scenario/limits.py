@@ -6,7 +6,7 @@ ends.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from math import isfinite
 
 import numpy as np
@@ -56,13 +56,10 @@ def check_centred(name: str, shape: Shape) -> None:
         )
 
 
-def check_bodies(bodies: Sequence[Rigid], material: Mapping[str, str], max_overlap: float) -> None:
-    """Refuse bodies that contacts can't hold.
-
-    material: the material that gives a body its mass, by the body's name. max_overlap: metres.
-    """
+def check_bodies(bodies: Sequence[Rigid], max_overlap: float) -> None:
+    """Refuse bodies that contacts can't hold; max_overlap: metres."""
     for body in bodies:
-        _check_mass(body, material)
+        _check_mass(body)
         _check_motion(body, min(MAX_SPEED, max_overlap / MIN_CROSSING))
     lightest = min(bodies, key=lambda body: body.inertia.mass)
     heaviest = max(bodies, key=lambda body: body.inertia.mass)
@@ -70,8 +67,9 @@ def check_bodies(bodies: Sequence[Rigid], material: Mapping[str, str], max_overl
     if most > MASS_RATIO * least * (1 + 1e-12):
         raise InputError(
             f"{heaviest.kind}.mass: {heaviest.name} has {most:g} kg and {lightest.name} {least:g} "
-            f"kg; contacts hold a ratio of at most {MASS_RATIO:g}"
-            + _by_material(heaviest, lightest, material)
+            f"kg; contacts hold a ratio of at most {MASS_RATIO:g}: set the mass of "
+            f"{heaviest.name} to {MASS_RATIO * least:.3g} kg or less, or that of {lightest.name} to "
+            f"{most / MASS_RATIO:.3g} kg or more"
         )
     thinnest = min(bodies, key=lambda body: body.shape.thickness)
     largest = max(bodies, key=lambda body: body.shape.bound[1])
@@ -83,16 +81,12 @@ def check_bodies(bodies: Sequence[Rigid], material: Mapping[str, str], max_overl
         )
 
 
-def _check_mass(body: Rigid, material: Mapping[str, str]) -> None:
+def _check_mass(body: Rigid) -> None:
     """Refuse a mass or moment that is impossible for the shape."""
     mass, moment = body.inertia
     if not MIN_MASS <= mass <= MAX_MASS:
-        made_of = material.get(body.name)
-        hint = "" if made_of is None else f", that of {made_of}; give it, or another height"
-        raise wrong(
-            f"{body.kind}.mass of {body.name}", mass,
-            f"a mass >= {MIN_MASS:g} and <= {MAX_MASS:g} [kg]{hint}",
-        )  # fmt: skip
+        expected = f"a mass >= {MIN_MASS:g} and <= {MAX_MASS:g} [kg]; give one"
+        raise wrong(f"{body.kind}.mass of {body.name}", mass, expected)
     shape = body.shape.moved(-body.lead, 0.0) if body.lead else body.shape
     most = mass * shape.reach**2
     if not 1e-3 * most <= moment <= most * (1 + 1e-9):
@@ -121,22 +115,6 @@ def _check_motion(body: Rigid, fastest: float) -> None:
             f"{body.kind}.velocity of {body.name}", body.velocity,
             f"no point of it faster than {fastest:g} m/s{why}; one has {speed:.4g} m/s",
         )  # fmt: skip
-
-
-def _by_material(heaviest: Rigid, lightest: Rigid, material: Mapping[str, str]) -> str:
-    """Return how a mass that a material gives can be changed."""
-    least, most = lightest.inertia.mass, heaviest.inertia.mass
-    if (made_of := material.get(heaviest.name)) is not None:
-        return (
-            f". {heaviest.name} is of {made_of}: give its mass, or make its height "
-            f"{1.05 * most / least / MASS_RATIO:.2g} times smaller"
-        )
-    if (made_of := material.get(lightest.name)) is not None:
-        return f". {lightest.name} is of {made_of}: give its mass, or more height"
-    return (
-        f": set the mass of {heaviest.name} to {MASS_RATIO * least:.3g} kg or less, "
-        f"or that of {lightest.name} to {most / MASS_RATIO:.3g} kg or more"
-    )
 
 
 def corner(shape: Shape) -> float:

@@ -216,8 +216,7 @@ class Scenario(Description):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
             where = f"{type(prop).__name__}.shape of {prop.name}"
             limits.check_centred(where, known_shape(where, shape))
-        made_of = {str(p.name): p.material for p in self.props if p.mass is None and p.material}
-        limits.check_bodies(self.bodies, made_of, self.max_overlap)
+        limits.check_bodies(self.bodies, self.max_overlap)
         drives = [robot.drive for robot in self.robots]
         limits.check_forces(self.bodies, drives, self.max_overlap)
 
