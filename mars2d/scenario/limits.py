@@ -67,8 +67,8 @@ def check_bodies(bodies: Sequence[Rigid], max_overlap: float) -> None:
     if most > MASS_RATIO * least * (1 + 1e-12):
         raise InputError(
             f"{heaviest.kind}.mass: {heaviest.name} has {most:g} kg and {lightest.name} {least:g} "
-            f"kg; contacts hold a ratio of at most {MASS_RATIO:g}: set the mass of "
-            f"{heaviest.name} to {MASS_RATIO * least:.3g} kg or less, or that of {lightest.name} to "
+            f"kg; contacts hold a ratio of at most {MASS_RATIO:g}: set the mass of {heaviest.name} "
+            f"to {MASS_RATIO * least:.3g} kg or less, or that of {lightest.name} to "
             f"{most / MASS_RATIO:.3g} kg or more"
         )
     thinnest = min(bodies, key=lambda body: body.shape.thickness)
@@ -183,11 +183,8 @@ def check_joint(where: str, attached: AttachedJoint, bodies: Sequence[Rigid]) ->
                     "is one point"
                 )
             case MaxDistance(length=length) | FixedDistance(length=length):
-                if length < MIN_LENGTH and getattr(joint, "length", None) is None:
-                    hint = "use a Hinge, or give a length"
-                    raise InputError(f"{where}: its ends start at one point; {hint}")
-                if length < MIN_LENGTH:
-                    expected = f"a number >= {MIN_LENGTH:g} [m]; or use a Hinge"
+                if length < MIN_LENGTH:  # its own, or that of ends that start at one point
+                    expected = f"a number >= {MIN_LENGTH:g} [m]; give a length, or use a Hinge"
                     raise wrong(f"{where}.length", length, expected)
                 rod = isinstance(constraint, FixedDistance)
                 least, most = length * (1 - 1e-9) - 1e-9, length * (1 + 1e-9) + 1e-9
