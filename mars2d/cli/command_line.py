@@ -161,7 +161,7 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Raise InputError instead of printing the usage and exiting."""
-        known = self.options
+        known, message = self.options, message.partition(" (choose from")[0]
         for action in self._actions:
             if isinstance(action, argparse._SubParsersAction):
                 known += [*action.choices]
@@ -170,7 +170,6 @@ class _Parser(argparse.ArgumentParser):
         if message.startswith("the following arguments are required"):
             words = []  # the user typed none of these
         hint = next(filter(None, (self._meant(word, known) for word in words)), "")
-        message = message.partition(" (choose from")[0]
         raise InputError(f"{message}{hint} (see {self.prog} --help)")
 
 

@@ -124,6 +124,7 @@ print(json.dumps([record.sensors["compass"][-1].tolist(), record.prop_pose[-1].r
 """
 
 
+@pytest.mark.slow
 def test_what_the_recipes_add_runs_and_is_saved_recorded_and_replayed(child, extended, tmp_path):
     formats = ["npz", "csv"] + ["json"] * has_tables(sections()["A record format"])
     code = f"import os, sys; os.chdir({str(tmp_path)!r})\n"

@@ -305,6 +305,7 @@ def test_a_time_outside_of_the_record_is_refused(record, time, named):
 # -- files ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @each_case("suffix, start", [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml")])
 def test_files_have_their_format_and_are_reproducible(record, tmp_path, suffix, start):
     first, second = tmp_path / f"a{suffix}", tmp_path / f"b{suffix}"

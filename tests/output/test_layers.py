@@ -203,6 +203,7 @@ def check_order(picture):
             assert lined is (k < above_grid), f"the grid and {name}"
 
 
+@pytest.mark.slow
 @each_case("painter", [window, figure])
 def test_pictures_have_all_layers_in_the_order_of_the_table(record, table, painter):
     check_order(painter(record, len(record) - 1))
@@ -225,6 +226,7 @@ def test_a_replay_has_all_layers_in_the_order_of_the_table(browser, record, tabl
     assert tab.complaints == []
 
 
+@pytest.mark.slow
 def test_each_layer_of_the_scene_is_seen_in_window_figure_svg_and_replay(record, monkeypatch):
     """Each layer that is switched off is missed, and a page holds shapes of each."""
     monkeypatch.setattr(rings, "SMALL", 0.1)  # all robots have one

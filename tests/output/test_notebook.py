@@ -182,6 +182,7 @@ def test_what_a_part_raises_while_it_is_drawn_stands_below_the_picture():
     assert world.record._repr_html_().startswith(("<img", "<div"))
 
 
+@pytest.mark.slow
 @each_case("name", list(examples()))
 def test_each_example_has_a_small_picture(name):
     experiment = open_experiment(name, {"stop_time": 0.5})

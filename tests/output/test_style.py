@@ -72,6 +72,7 @@ def test_in_print_no_two_of_eight_robots_look_alike_without_colours():
     assert len({(line.get_color()[:7], line.get_linestyle()) for line in paths}) == 8
 
 
+@pytest.mark.slow
 @each_case("kind", KINDS)
 def test_for_a_projector_a_figure_is_a_slide_with_large_text(record, kind):
     figure = drawn(record, kind, "projector")

@@ -312,6 +312,7 @@ def test_a_prediction_that_does_not_hold_is_red_and_named_and_is_no_error(
     assert "✗ NOT OK" in found.words()
 
 
+@pytest.mark.slow
 def test_a_figure_that_can_not_be_made_is_named_and_the_others_are_made(
     paper, tmp_path, monkeypatch
 ):

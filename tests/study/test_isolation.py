@@ -253,6 +253,7 @@ def undented(text: str) -> str:
     return "\n".join(line.removeprefix("        ") for line in lines) + "\n"
 
 
+@pytest.mark.slow
 @each_case("fault", MISTAKES)
 def test_whatever_a_law_does_it_has_a_verdict_and_the_other_goes_on(fault, tmp_path) -> None:
     kind, words, text = MISTAKES[fault]

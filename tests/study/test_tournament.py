@@ -114,6 +114,7 @@ def test_everybody_meets_everybody_from_the_same_seeds(evening):
     assert not any(m.error for m in evening.result.matches)
 
 
+@pytest.mark.slow
 def test_a_law_that_fails_forfeits_with_a_verdict_and_the_rest_goes_on(evening):
     verdicts = {
         tuple(m.match.laws.values()): {r: (v.kind, v.text) for r, v in m.verdicts.items()}

@@ -175,6 +175,7 @@ def read(maps, name):
     return Map.from_file(maps / file, **options)
 
 
+@pytest.mark.slow
 @each_case("name", ROOMS)
 def test_robots_wander_in_a_real_map_and_stay_in_its_rooms(maps, name):
     found = read(maps, name)

@@ -47,6 +47,7 @@ def drawn(stage, frame):
     return pygame.surfarray.array3d(surface).astype(int)
 
 
+@pytest.mark.slow
 def test_forward_row_by_row_memory_changes_no_pixel(run):
     remembering, plain = Stage(Painter(), MEMORY), Stage(Painter())
     for row in range(200):
