@@ -204,7 +204,7 @@ def open_experiment(
     with files_read() as files:
         plain = _opened(source, rest, control, seed)
         try:
-            file = _file_of(source) or plain.source.path or Path()
+            file = Path(getattr(source, "__file__", None) or plain.source.path or "")
             chart = popped_map(rest, file)
             if chart is None:
                 scenario = override(plain.scenario, rest)
@@ -237,12 +237,6 @@ def _split(options: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     return {name: value for name, value in options.items() if name not in of_laws}, of_laws
 
 
-def _file_of(source: object) -> Path | None:
-    """Return the file of a module; None for another one, or anything else."""
-    name = getattr(source, "__file__", None) if isinstance(source, ModuleType) else None
-    return None if name is None else Path(name)
-
-
 def _opened(
     source: str | Path | ModuleType | Scenario,
     options: dict[str, Any],
@@ -265,7 +259,7 @@ def _opened(
             drawn, law = toml_file.read(path)
             return Experiment(drawn, control or law, Source(path.name, path.absolute()))
         module = module_in(path)
-    file = _file_of(module) or Path(module.__name__)
+    file = Path(getattr(module, "__file__", None) or module.__name__)
     try:
         scenario, function = _scenario_of(module, options, seed)
         own, check = getattr(module, "control", None), getattr(module, "checks", None)
@@ -367,8 +361,8 @@ def _scenario_of(
     if callable(scenario) and not isinstance(scenario, (type, Scenario)):
         function, takes = scenario, inspect.signature(scenario).parameters
         if "map" in takes and any(str(name).partition(".")[0] == "map" for name in options):
-            default = takes["map"].default
-            options["map"] = popped_map(options, _file_of(module) or Path(), default)
+            file, default = Path(getattr(module, "__file__", "")), takes["map"].default
+            options["map"] = popped_map(options, file, default)
         if seed is not None and "seed" in takes:
             options.setdefault("seed", seed)
         scenario = _call_scenario(function, options)

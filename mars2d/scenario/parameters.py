@@ -73,12 +73,10 @@ class Argument:
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             usual = "" if self.default is None else f"; its default is {self.default}"
             raise wrong(name, value, f"a number{usual}")
-        if self.bounds is None:
-            return
-        if self.whole and not isinstance(value, numbers.Integral):
-            low, high = self.bounds.low, self.bounds.high
-            raise wrong(name, value, f"a whole number from {low:g} to {high:g}")
-        self.bounds.check(name, value)
+        if self.whole and self.bounds and not isinstance(value, numbers.Integral):
+            raise wrong(name, value, "a whole number")
+        if self.bounds is not None:
+            self.bounds.check(name, value)
 
 
 @dataclass(frozen=True, slots=True)
