@@ -33,24 +33,18 @@ def check_in_workspace(robots: Sequence[Rigid], workspace: Outline) -> None:
 def check_off_walls(bodies: Sequence[Rigid], workspace: Outline, overlap: float) -> None:
     """Refuse bodies that start in or beyond the wall round the workspace."""
     corners = np.array(workspace)
-    discs = [body for body in bodies if body.is_disc]
-    x, y = np.array([body.bound[0] for body in discs]).reshape(-1, 2).T
+    x, y = np.array([body.bound[0] for body in bodies]).T
     gaps, outside = distance_to_ring(x, y, corners), outside_polygon(x, y, corners)
-    for body, gap, out in zip(discs, gaps.tolist(), outside.tolist(), strict=True):
-        radius = body.bound[1]
-        if out or gap < radius - _allowed(body, overlap):
-            raise InputError(
-                f"{_pose(body)}: starts in the workspace's wall, "
-                f"{gap:.3g} m from its centre; its radius is {radius:g} m"
-            )
-    if len(discs) == len(bodies):
-        return
-    import shapely
+    for body, gap, out in zip(bodies, gaps.tolist(), outside.tolist(), strict=True):
+        if body.is_disc:
+            free = not out and gap >= body.bound[1] - _allowed(body, overlap)
+        else:
+            import shapely
 
-    room = shapely.Polygon(workspace)
-    for body in bodies:
-        if not body.is_disc and not room.contains(_core(body, overlap)):
-            raise InputError(f"{_pose(body)}: starts in the workspace's wall, or outside")
+            free = shapely.Polygon(workspace).contains(_core(body, overlap))
+        if not free:
+            size = f"; its radius is {body.bound[1]:g} m" if body.is_disc else ""
+            raise InputError(f"{_pose(body)}: starts in the workspace's wall, or outside{size}")
 
 
 def check_off_obstacles(
