@@ -47,24 +47,28 @@ def module_in(path: Path, what: str = "an experiment") -> ModuleType:
     except SyntaxError as error:
         line = (error.text or "").strip()
         line = line if len(line) <= MAX_LINE else line[: MAX_LINE - 3] + "..."
-        problem = InputError(": ".join(filter(None, [error.msg, line])))
-        note_file(Path(error.filename or path))
-        place = Path(error.filename or path).name
-        problem.where = f"{place}, line {error.lineno}" if error.lineno else place
-        raise problem from error
+        file = Path(error.filename or path)
+        note_file(file)
+        place = f"{file.name}, line {error.lineno}" if error.lineno else file.name
+        raise located(place, ": ".join(filter(None, [error.msg, line]))) from error
     except (Exception, SystemExit) as error:
-        problem = InputError(described(error))
-        problem.where = line_in(error, path)
-        raise problem from error
+        raise located(line_in(error, path), described(error)) from error
     finally:
         sys.path.remove(folder)
         sys.dont_write_bytecode = keeps
         for other in set(sys.modules) - before:  # lest they are taken for those of another folder
-            file = getattr(sys.modules[other], "__file__", None)
-            if file is not None and str(Path(file).parent) == folder:
-                note_file(Path(file))
+            source = getattr(sys.modules[other], "__file__", None)
+            if source is not None and str(Path(source).parent) == folder:
+                note_file(Path(source))
                 del sys.modules[other]
     return module
+
+
+def located(where: str, problem: str) -> InputError:
+    """Return an error that points at a place, such as a line of a file."""
+    error = InputError(problem)
+    error.where = where
+    return error
 
 
 def line_in(error: BaseException, path: Path) -> str:
@@ -93,9 +97,7 @@ def law_in(
     law = getattr(module, name, None)
     if law is None:
         functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
-        problem = InputError(f"has no law {name!r}{nearest(name, functions)}")
-        problem.where = file.name
-        raise problem
+        raise located(file.name, f"has no law {name!r}{nearest(name, functions)}")
     if (args or values) and callable(law):
         law = partial(law, *args, **values)
     try:

@@ -20,7 +20,7 @@ from mars2d.core.files import atomic_write, file_beside
 from mars2d.core.picture import holds_pixels, image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
-from mars2d.scenario.code_file import law_in
+from mars2d.scenario.code_file import law_in, located
 from mars2d.scenario.controllers import Controller
 from mars2d.scenario.law_reference import Reference, seen_from
 from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, plain, quoted
@@ -192,7 +192,7 @@ def read(path: str | Path) -> tuple[Scenario, Law | None]:
         raise InputError(f"{path}: can't be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        raise _at(f"{path.name}, line {line}", "expected text in UTF-8; save it so") from None
+        raise located(f"{path.name}, line {line}", "expected text in UTF-8; save it so") from None
     if len(data) > MAX_BYTES:
         raise InputError(f"{path}: expected at most {MAX_BYTES / 1e6:g} MB, it is larger")
     return _Reader(path, text).scenario(_parsed(path, text))
@@ -205,23 +205,17 @@ def _parsed(path: Path, text: str) -> dict[str, Any]:
         message, _, place = str(error).partition(" (at ")
         number = re.match(r"line (\d+)", place)
         if number is None:
-            raise _at(f"{path.name}, at its end" if place else path.name, message) from None
+            raise located(f"{path.name}, at its end" if place else path.name, message) from None
         line = text.split("\n")[int(number[1]) - 1].strip()
         hint = HINT if PYTHON.search(line) else ""
         problem = f"{message}: {shown(line)[1:-1]}{hint}" if line else message
-        raise _at(f"{path.name}, line {number[1]}", problem) from None
+        raise located(f"{path.name}, line {number[1]}", problem) from None
 
 
 PYTHON = re.compile(r"=\s*\(|\b(True|False|None)\b")
 """Python that is written differently in TOML."""
 
 HINT = "; TOML writes true, false and [1, 2]; what is None is left out"
-
-
-def _at(where: str, problem: str) -> InputError:
-    error = InputError(problem)
-    error.where = where
-    return error
 
 
 class _Reader:
@@ -237,7 +231,9 @@ class _Reader:
     def scenario(self, data: dict[str, Any]) -> tuple[Scenario, Law | None]:
         """Return the scenario, and the law of its team."""
         if "format" not in data:
-            raise _at(self.path.name, f"no scenario: the first line should be format = {FORMAT}")
+            raise located(
+                self.path.name, f"no scenario: the first line should be format = {FORMAT}"
+            )
         with self._pointing("", "format"):
             found = data["format"]
             if type(found) is not int or found < 1:
