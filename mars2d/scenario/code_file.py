@@ -13,16 +13,13 @@ from types import ModuleType
 from typing import Any, cast
 
 from mars2d.core import checks
-from mars2d.core.errors import InputError, nearest
+from mars2d.core.errors import InputError, nearest, one_line
 from mars2d.core.files import note_file
 from mars2d.core.hints import described
 from mars2d.core.usercode import stack_of
 from mars2d.scenario.policy import SUFFIX, Policy
 
 _counter = itertools.count()
-
-MAX_LINE = 100
-"""The most characters of a line of code in an error."""
 
 
 def module_in(path: Path, what: str = "an experiment") -> ModuleType:
@@ -45,8 +42,7 @@ def module_in(path: Path, what: str = "an experiment") -> ModuleType:
     try:
         spec.loader.exec_module(module)
     except SyntaxError as error:
-        line = (error.text or "").strip()
-        line = line if len(line) <= MAX_LINE else line[: MAX_LINE - 3] + "..."
+        line = one_line((error.text or "").strip(), 100)
         file = Path(error.filename or path)
         note_file(file)
         place = f"{file.name}, line {error.lineno}" if error.lineno else file.name
