@@ -201,6 +201,8 @@ def read(path: str | Path) -> tuple[Scenario, Law | None]:
 def _parsed(path: Path, text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
+    except RecursionError:
+        raise located(path.name, "brackets stand in each other too deeply") from None
     except ValueError as error:  # also of a number with too many digits
         message, _, place = str(error).partition(" (at ")
         number = re.match(r"line (\d+)", place)

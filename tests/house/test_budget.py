@@ -13,7 +13,7 @@ CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 LINES = {
     "addons": 3_970,
     "bodies": 1_843,
-    "cli": 3_484,
+    "cli": 3_483,
     "core": 2_900,
     "geometry": 2_033,
     "output": 15_790,
@@ -21,17 +21,17 @@ LINES = {
     "record": 1_573,
     "reports": 2_659,
     "rl": 776,
-    "scenario": 5_502,
+    "scenario": 5_252,
     "sensors": 2_040,
     "study": 8_479,
     "testing": 998,
     "window": 15_192,
     "world": 3_812,
-    "tests": 52_073,
+    "tests": 52_086,
 }
 """Lines at most, by room of the package, and of all tests."""
 
-ITEMS = 2_300
+ITEMS = 2_200
 """Tests at most that `pytest` runs without further words."""
 
 

@@ -243,6 +243,7 @@ WRONG = [
     ("", "scene.toml: no scenario: the first line should be format = 1"),
     ("format = 2", "scene.toml, line 1: format = 2: newer than this MARS2D, which reads 1"),
     ('\n\ntitle = "x', "scene.toml, line 3: "),
+    ("\nx = " + "[" * 9999, "scene.toml: brackets stand in each other too deeply"),
     ("\ntitle = 'x", "scene.toml, at its end: Expected"),
     ("\ngrid = True", "line 2: Invalid value: grid = True; TOML writes true, false"),
     ("\npose = (1, 2)", "line 2: Invalid value: pose = (1, 2); TOML writes true, false and [1, 2]"),
