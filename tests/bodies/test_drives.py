@@ -398,6 +398,7 @@ def wander(robot):
     return robot.rng.normal(0.2, 0.4), robot.rng.normal(0, 0.5)
 
 
+@pytest.mark.slow
 @each_case("physics", ["contact", "ideal"])
 def test_a_record_of_all_drives_is_saved_loaded_and_run_again_to_the_bit(tmp_path, physics):
     record = mars2d.run(crowd().replace(physics=physics), seed=7)

@@ -79,6 +79,7 @@ def test_much_noise_is_a_density_as_well(sampling_time):
     assert pose[1].mean() == pytest.approx(0, abs=MEAN * pose[1].std())
 
 
+@pytest.mark.slow
 @each_case("sampling_time", PERIODS)
 @each_case("command", ["wheels", "twist"])
 def test_each_wheel_of_a_differential_drive_has_a_density_of_its_own(command, sampling_time):
@@ -112,6 +113,7 @@ def test_a_holonomic_robot_strays_alike_in_all_directions(sampling_time):
     assert not pose[2].any()
 
 
+@pytest.mark.slow
 @each_case("sampling_time", PERIODS)
 def test_a_car_that_drives_straight_strays_alike_at_any_sampling_time(sampling_time):
     v, s, most, base = 0.41, 0.008, 0.5, 0.23
@@ -120,6 +122,7 @@ def test_a_car_that_drives_straight_strays_alike_at_any_sampling_time(sampling_t
     strays(pose, time, v, s * v, s * v * most / base)
 
 
+@pytest.mark.slow
 @each_case("sampling_time", PERIODS)
 @each_case("delta", [0.3, 0.7])  # 0.7: the wheels are at their bound
 def test_a_car_on_a_bend_turns_as_far_as_it_is_told_with_the_noise_of_both(delta, sampling_time):

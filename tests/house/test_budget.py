@@ -27,7 +27,7 @@ LINES = {
     "testing": 998,
     "window": 15_192,
     "world": 3_812,
-    "tests": 52_086,
+    "tests": 52_100,
 }
 """Lines at most, by room of the package, and of all tests."""
 

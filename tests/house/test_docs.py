@@ -314,6 +314,7 @@ EXPERIMENT_PAGES = [path for path in EXPERIMENTS if path.stem != "index"]
 PURSUIT_PAGES = [path for path in PURSUIT if path.stem != "index"]
 
 
+@pytest.mark.slow
 @each_case("page", EXPERIMENT_PAGES)
 def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(page):
     name = page.stem

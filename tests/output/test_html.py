@@ -104,6 +104,7 @@ def test_distances_are_within_half_a_level(crowded, crowded_page):
     assert np.abs(columns["fans"][near] / 254 * 5.0 - read[near]).max() <= 0.5 * 5.0 / 254 + 1e-9
 
 
+@pytest.mark.slow
 def test_a_long_run_is_thinned_to_20_000_rows_with_its_first_and_last():
     short = mars2d.run(Scenario(robots=1, stop_time=0.1), control=lambda w: np.zeros((2, 1)))
     rows = 70_001

@@ -61,6 +61,7 @@ def test_a_path_has_a_gap_where_its_body_leapt(runs, row):
         assert len(lines(trails(frame))) == (5 if frame.leaps else 2)
 
 
+@pytest.mark.slow
 @each_case("style, memory", [("-", MEMORY), ("o", 0)])
 def test_the_picture_has_a_gap_live_and_replayed(style, memory):
     frames, record = run(animation=Animation(wake_style=style))

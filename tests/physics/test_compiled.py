@@ -178,6 +178,7 @@ except KeyboardInterrupt:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise")
 def test_ctrl_c_ends_a_control_step_of_ten_million_substeps(child):
     done = child(LONG)

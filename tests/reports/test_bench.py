@@ -194,6 +194,7 @@ def test_a_saved_report_is_the_same_when_it_is_read(tmp_path):
     assert load_report(tmp_path / "a.json") == report
 
 
+@pytest.mark.slow
 def test_the_command_prints_one_line_of_json(tmp_path, capsys):
     saved = tmp_path / "old.json"
     Report((row(1e-3, name="S1 default"), row(1e-3, name="S4 default"))).save(saved)

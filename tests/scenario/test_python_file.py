@@ -4,6 +4,7 @@ import tomllib
 from pathlib import Path
 
 import jsonschema
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -36,6 +37,7 @@ def test_all_kinds_of_parts_are_listed():
     assert max(map(len, named)) <= 100
 
 
+@pytest.mark.slow
 @each_case("name", examples())
 def test_an_example_is_written_in_toml_and_python_but_for_its_code(name, tmp_path):
     experiment = open_experiment(name)

@@ -169,6 +169,7 @@ MATCHES = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @each_case("match", MATCHES)
 def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path) -> None:
     make, roles, *texts = MATCHES[match]

@@ -192,6 +192,7 @@ def test_check_says_what_it_can_not_do(words, said, capsys):
     assert capsys.readouterr().err.startswith(f"mars2d: {said}")
 
 
+@pytest.mark.slow
 @each_case("suffix", ["png", "svg"])
 def test_a_picture_of_a_map_is_the_same_each_time(folder, suffix):
     from mars2d.addons.maps import read

@@ -219,6 +219,7 @@ def said(call, *arguments):
 """
 
 
+@pytest.mark.slow
 def test_without_extras_all_but_netcdf_can_be_written(child, tmp_path):
     code = BLOCKED + (
         f"for suffix in ('.npz', '.csv', '.mat'):\n"
