@@ -118,7 +118,10 @@ class _Lister:
 
     def _class(self, kind: type[Description]) -> str:
         """Return the name for a class; the later of two with one name gets its family's, too."""
-        source = _public_module(kind), kind.__name__
+        names = kind.__module__.split(".")
+        above = (".".join(names[:depth]) for depth in range(1, len(names)))
+        public = (p for p in above if getattr(sys.modules[p], kind.__name__, None) is kind)
+        source = next(public, kind.__module__), kind.__name__  # the outermost that exports it
         name = kind.__name__
         if self._names.get(name, source) != source:
             bases = {base for _, base in FAMILIES.values()}
@@ -144,14 +147,6 @@ def _is_plain(value: object) -> bool:
     if isinstance(value, tuple):
         return all(map(_is_plain, value))
     return value is None or type(value) in (bool, int, float, str)
-
-
-def _public_module(kind: type) -> str:
-    """Return the outermost package that exports a class."""
-    names = kind.__module__.split(".")
-    above = (".".join(names[:depth]) for depth in range(1, len(names)))
-    public = (p for p in above if getattr(sys.modules[p], kind.__name__, None) is kind)
-    return next(public, kind.__module__)
 
 
 def _named(name: str, node: Node) -> Node:

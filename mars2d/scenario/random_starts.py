@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,44 +81,20 @@ class RandomStarts(Description):
     )  # fmt: skip
 
 
-def poses_of(scenario: Scenario, seed: int) -> dict[str, Triple]:
-    """Return the poses that the bodies of `random_starts` start with, by name.
+class Room(NamedTuple):
+    """What is the same for all seeds: who is placed, discs that stand, and what else is there."""
 
-    A body that is no disc is kept as far away as the circle round its pose that holds it. Raises
-    InputError for a name that is not known, occurs twice, or is tied by a joint, and where no place
-    is found.
-    """
-    import shapely
-
-    to_place = _to_place(scenario)
-    placed = {body.name for _, body in to_place}
-    standing = [body for body in scenario.bodies if body.name not in placed]
-    solid = [footprint(body) for body in standing if not body.is_disc]
-    tree = shapely.STRtree([*lines_and_areas(scenario.obstacles), *solid])
-    discs = [(*body.bound[0], body.bound[1], -1.0) for body in standing if body.is_disc]
-    rng = stream(seed, "random starts")
-    for _ in range(ROUNDS):
-        taken, poses = [*discs], dict[str, Triple]()
-        for which, body in to_place:
-            reach = _reach(body) + MARGIN
-            pose = _place(scenario, tree, which, reach, np.array(taken).reshape(-1, 4), rng)
-            if pose is None:
-                break
-            taken.append((*pose[:2], reach, which))
-            poses[body.name] = pose
-        else:
-            return poses
-    why = f"found no place in {ROUNDS} rounds for {body.name!r}, which needs {_reach(body):.3g} m"
-    hint = "expected a larger area, fewer bodies or a smaller least_distance"
-    raise InputError(f"Scenario.random_starts[{which}]: {why} round its pose; {hint}")
+    to_place: list[tuple[int, Rigid]]
+    discs: list[tuple[float, float, float, float]]
+    solid: shapely.STRtree | None
 
 
-def _to_place(scenario: Scenario) -> list[tuple[int, Rigid]]:
-    """Return the bodies that start at random, each with the index of its entry."""
+def room_of(scenario: Scenario) -> Room:
+    """Return the room for `random_starts`; InputError for names unknown, given twice, or tied."""
     known, before = {body.name: body for body in scenario.bodies}, dict[str, str]()
     joints = [*scenario.joints, *(joint for prop in scenario.props for joint in prop.joints())]
     tied = {name for joint in joints for name in (joint.a, joint.b)}
-    found = []
+    to_place = []
     for index, each in enumerate(scenario.random_starts):
         where = f"Scenario.random_starts[{index}]"
         names = each.bodies or [str(robot.name) for robot in scenario.robots]
@@ -133,20 +109,48 @@ def _to_place(scenario: Scenario) -> list[tuple[int, Rigid]]:
             before[name] = where
         if each.area is None and scenario.workspace is None:
             raise InputError(f"{where}: expected an area, since the scenario has no workspace")
-        found += [(index, known[name]) for name in names]
-    return found
+        to_place += [(index, known[name]) for name in names]
+    placed = {body.name for _, body in to_place}
+    standing = [body for body in scenario.bodies if body.name not in placed]
+    discs = [(*body.bound[0], body.bound[1], -1.0) for body in standing if body.is_disc]
+    solid = lines_and_areas(scenario.obstacles)
+    solid += [footprint(body) for body in standing if not body.is_disc]
+    if solid:
+        import shapely
+    return Room(to_place, discs, shapely.STRtree(solid) if solid else None)
+
+
+def poses_of(scenario: Scenario, room: Room, seed: int) -> dict[str, Triple]:
+    """Return the poses that the bodies of `random_starts` start with, by name.
+
+    A body that is no disc is kept as far away as the circle round its pose that holds it. Raises
+    InputError where no place is found.
+    """
+    rng = stream(seed, "random starts")
+    for _ in range(ROUNDS):
+        taken, poses = [*room.discs], dict[str, Triple]()
+        for which, body in room.to_place:
+            reach = _reach(body) + MARGIN
+            pose = _place(scenario, room.solid, which, reach, np.array(taken).reshape(-1, 4), rng)
+            if pose is None:
+                break
+            taken.append((*pose[:2], reach, which))
+            poses[body.name] = pose
+        else:
+            return poses
+    why = f"found no place in {ROUNDS} rounds for {body.name!r}, which needs {_reach(body):.3g} m"
+    hint = "expected a larger area, fewer bodies or a smaller least_distance"
+    raise InputError(f"Scenario.random_starts[{which}]: {why} round its pose; {hint}")
 
 
 def _place(
-    scenario: Scenario, solid: shapely.STRtree, which: int, reach: float,
+    scenario: Scenario, solid: shapely.STRtree | None, which: int, reach: float,
     taken: NDArray[np.float64], rng: np.random.Generator,
 ) -> Triple | None:  # fmt: skip
     """Return a pose at which no wall, obstacle or disc is within `reach` metres, or None.
 
     taken: (k, 4), x, y, radius of the discs and the index of their entry, -1 for none.
     """
-    import shapely
-
     starts = scenario.random_starts[which]
     corners = np.array(starts.area or scenario.workspace)
     edge = None if scenario.on_exit == "ignore" else scenario.workspace
@@ -163,7 +167,10 @@ def _place(
             free &= ~outside_polygon(x, y, np.array(edge))
             if scenario.on_exit == "wall":
                 free &= distance_to_ring(x, y, np.array(edge)) >= reach
-        free[solid.query(shapely.points(x, y), "dwithin", reach)[0]] = False
+        if solid is not None:
+            import shapely
+
+            free[solid.query(shapely.points(x, y), "dwithin", reach)[0]] = False
         if free.any():
             k = int(np.argmax(free))
             return float(x[k]), float(y[k]), float(heading)

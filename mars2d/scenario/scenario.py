@@ -28,7 +28,7 @@ from mars2d.scenario import limits, starts
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
-from mars2d.scenario.random_starts import RandomStarts, poses_of
+from mars2d.scenario.random_starts import RandomStarts, Room, poses_of, room_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.team_colors import team_colors
 
@@ -172,7 +172,10 @@ class Scenario(Description):
         checks.unique("Scenario.robots and props", [str(part.name) for part in (*robots, *props)])
         checks.unique("Scenario.addons", [addon.key for addon in self.addons])
         check_once("Scenario.material_pairs", self.material_pairs)
-        self._check_only_ones()
+        for kind in {k for addon in self.addons for k in type(addon).__mro__}:  # derived ones, too
+            why = vars(kind).get("only_one")
+            if why and sum(isinstance(addon, kind) for addon in self.addons) > 1:
+                raise InputError(f"Scenario.addons: two are {kind.__name__}, and {why}")
         step = f"sampling times of {self.sampling_time:g} s"
         if self.stop_time / self.sampling_time > ROW_LIMIT:
             raise wrong("Scenario.stop_time", self.stop_time, f"at most {ROW_LIMIT:g} {step}")
@@ -184,16 +187,9 @@ class Scenario(Description):
         self.neighbours.check_size(len(self.robots))
         self._check_bodies()
         if self.random_starts:
-            self._start_at_random(0)  # it always has poses
+            self._start_at_random(self._room, 0)  # it always has poses
         self._check_joints()
         self._check_starts()
-
-    def _check_only_ones(self) -> None:
-        """Refuse two add-ons of a kind, derived ones included, of which a scenario has only one."""
-        for kind in {k for addon in self.addons for k in type(addon).__mro__}:
-            why = vars(kind).get("only_one")
-            if why and sum(isinstance(addon, kind) for addon in self.addons) > 1:
-                raise InputError(f"Scenario.addons: two are {kind.__name__}, and {why}")
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
@@ -245,7 +241,7 @@ class Scenario(Description):
         if not self.random_starts:
             return self
         found = copy.copy(self)  # whatever was checked holds for these starts as well
-        found._start_at_random(seed)
+        found._start_at_random(self._room, seed)
         object.__setattr__(found, "random_starts", ())
         return found
 
@@ -257,9 +253,13 @@ class Scenario(Description):
         object.__setattr__(found, "robots", tuple(robots))
         return found
 
-    def _start_at_random(self, seed: int) -> None:
+    @cached_property
+    def _room(self) -> Room:
+        return room_of(self)
+
+    def _start_at_random(self, room: Room, seed: int) -> None:
         """Give the bodies of `random_starts` the poses that follow from the seed."""
-        poses = poses_of(self, seed)
+        poses = poses_of(self, room, seed)
         for field in ("robots", "props"):
             parts = [
                 part.replace(pose=poses[part.name]) if part.name in poses else part
@@ -291,12 +291,9 @@ class Scenario(Description):
     def ties(self) -> tuple[AttachedJoint, ...]:
         """All joints attached to their bodies, with those that props bring."""
         joints = [*self.joints, *(joint for prop in self.props for joint in prop.joints())]
-        result = []
-        for joint in joints:
-            a = self._indices[joint.a]
-            b = -1 if joint.b is None else self._indices[joint.b]
-            result.append(AttachedJoint.of(joint, a, b, self.bodies))
-        return tuple(result)
+        at, bodies = self._indices, self.bodies
+        ends = ((j, at[j.a], -1 if j.b is None else at[j.b]) for j in joints)
+        return tuple(AttachedJoint.of(joint, a, b, bodies) for joint, a, b in ends)
 
     @cached_property
     def joined(self) -> frozenset[tuple[int, int]]:
