@@ -9,8 +9,10 @@ from pathlib import Path
 
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import GAME, examples
 from mars2d.scenario.experiment import open_experiment
+
+UNWANTED = shutil.ignore_patterns("__pycache__", "light.png", "dark.png", "solution.py")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -27,8 +29,11 @@ def execute(arguments: argparse.Namespace) -> None:
     if name not in examples():
         raise InputError(f"there is no example {name!r}{nearest(name, examples())}")
     path = examples()[name]
-    read = {file.relative_to(path.parent).parts[0] for file in open_experiment(path).source.written}
-    sources = [path, *(path.parent / each for each in sorted(read - {path.name}))]
+    if path.name == GAME:
+        sources = [path.parent]
+    else:
+        read = [file.relative_to(path.parent) for file in open_experiment(path).source.written]
+        sources = sorted({path.parent / file.parts[0] for file in read})
     for source in sources:
         if (folder / source.name).exists():
             raise InputError(
@@ -38,10 +43,9 @@ def execute(arguments: argparse.Namespace) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for source in sources:
         if source.is_dir():
-            unwanted = shutil.ignore_patterns("__pycache__")
-            shutil.copytree(source, folder / source.name, ignore=unwanted)
+            shutil.copytree(source, folder / source.name, ignore=UNWANTED)
         else:
             shutil.copyfile(source, folder / source.name)
     copied = ", ".join(f"{each.name}/" if each.is_dir() else each.name for each in sources)
-    run = shlex.join(["mars2d", "run", str(folder / f"{name}.py")])
+    run = shlex.join(["mars2d", "run", str(folder / path.relative_to(sources[0].parent))])
     tell(f"{copied}: copied; run it: {run}")

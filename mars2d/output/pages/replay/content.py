@@ -49,6 +49,7 @@ from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
 from mars2d.scenario.animation import Animation
+from mars2d.scenario.examples import file_name
 from mars2d.scenario.robot import Robot
 from mars2d.sensors.base import Sensor
 
@@ -130,7 +131,7 @@ class _Content:
         bounded = scenario.workspace is not None and scenario.on_exit != "ignore"
         return {
             "title": scenario.title,
-            "file": Path(record.filename).name,
+            "file": file_name(Path(record.filename)),
             "seed": record.seed,
             "digest": record.digest,
             "versions": dict(record.versions),

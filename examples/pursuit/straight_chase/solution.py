@@ -17,7 +17,7 @@ base = open_module("straight_chase")
 
 
 def scenario(seed: int = 0):
-    return base.scenario(sqrt(3) / 2, pursuer="chase_pursuers/bearing.py", seed=seed)
+    return base.scenario(sqrt(3) / 2, pursuer="pursuers/bearing.py", seed=seed)
 
 
 def checks(record):

@@ -19,7 +19,7 @@ from mars2d.addons import Game, Map, Theory
 from mars2d.geometry import wrap
 
 SPEED, PILLAR, RADIUS, CAPTURE, VIOLET = 0.5, 1.5, 1.75, 0.7, "#7b3294"  # m/s, of the evader; m
-PURSUER, EVADER = "pillar_pursuers/shortest.py", "pillar_evaders/opposite.py"
+PURSUER, EVADER = "pursuers/shortest.py", "evaders/opposite.py"
 
 
 def circle(angle, radius):

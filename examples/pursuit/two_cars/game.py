@@ -30,8 +30,8 @@ def circles(pose, drive, times, side):
 
 def scenario(
     radius: float = 0.5,
-    pursuer: str = "car_pursuers/lead.py",
-    evader: str = "car_evaders/jink.py",
+    pursuer: str = "pursuers/lead.py",
+    evader: str = "evaders/jink.py",
     accel: float = 0.0,  # m/s^2, what tyres hold, 0: any
     seed: int = 0,
 ):

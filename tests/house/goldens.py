@@ -1,6 +1,6 @@
-"""Make the golden paths of the examples: poses that a run comes near to on any platform.
+"""The golden paths of the examples: poses that a run comes near to on any platform.
 
-    python tests/house/make_golden.py [NAME ...]
+`python docs/make_example.py NAME` makes one.
 
 Another platform rounds the last digits of sines and sums differently, and what is chaotic makes
 much of it. So each example is also run from starts that are `NUDGE` beside its own, several orders
@@ -11,7 +11,6 @@ would be more than `LARGEST`, from where on a path says nothing.
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d import Record
-from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
 
@@ -42,9 +40,11 @@ Float = NDArray[np.float64]
 class Golden(NamedTuple):
     """A path: at some rows the poses of robots and props, and how near to them a run has to be.
 
-    rows: (r,). tolerances: (r,) metres and radians. poses: (r, 3, n + p).
+    digest: of a run on the platform where digests are pinned. rows: (r,). tolerances: (r,) metres
+    and radians. poses: (r, 3, n + p).
     """
 
+    digest: str
     rows: NDArray[np.int64]
     tolerances: Float
     poses: Float
@@ -52,9 +52,11 @@ class Golden(NamedTuple):
     @classmethod
     def read(cls, name: str) -> Golden:
         """Return the path of an example."""
-        rows = json.loads((FOLDER / f"{name}.json").read_text())
+        told = json.loads((FOLDER / f"{name}.json").read_text())
+        rows = told["rows"]
         poses = np.array([row["poses"] for row in rows])
         return cls(
+            told["digest"],
             np.array([row["row"] for row in rows]),
             np.array([row["tolerance"] for row in rows]),
             poses.transpose(0, 2, 1),
@@ -70,7 +72,9 @@ class Golden(NamedTuple):
             )
         ]  # fmt: skip
         FOLDER.mkdir(exist_ok=True)
-        (FOLDER / f"{name}.json").write_text("[" + ",\n".join(lines) + "]\n")
+        (FOLDER / f"{name}.json").write_text(
+            f'{{"digest": "{self.digest}", "rows": [\n' + ",\n".join(lines) + "]}\n"
+        )
 
     def excess(self, record: Record) -> float:
         """Return how far a run is off, in shares of the tolerance, at the worst row; inf: ended."""
@@ -101,6 +105,7 @@ def nudged(experiment: Experiment, seed: int) -> Experiment:
 def golden(name: str) -> Golden:
     """Run an example, and some more times from starts that are a little beside its own."""
     settings = SETTINGS.get(name)
+    digest = simulate(open_experiment(name)).record.digest
     path = poses_of(simulate(open_experiment(name, settings)).record)
     apart = np.zeros(len(path))
     for seed in range(NUDGES):
@@ -113,16 +118,4 @@ def golden(name: str) -> Golden:
     tolerances = np.maximum(SMALLEST, MARGIN * apart)
     last = int(np.searchsorted(tolerances, LARGEST, side="right")) - 1
     rows = np.unique(np.linspace(0, last, ROWS + 1).round().astype(int))
-    return Golden(rows, tolerances[rows], path[rows])
-
-
-def main(names: list[str]) -> None:
-    """Make the paths of some examples, or of all."""
-    for name in names or examples():
-        made = golden(name)
-        made.write(name)
-        print(f"{name:22} to row {made.rows[-1]:5}, within {made.tolerances[-1]:.1e}", flush=True)
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])
+    return Golden(digest, rows, tolerances[rows], path[rows])

@@ -1,6 +1,6 @@
 """Draw department.dxf: one floor of a department, 30 x 20 m, as an architect would, in millimetres.
 
-python examples/experiments/maps/make_department.py
+python examples/paper/maps/make_department.py
 
 Walls (layer WALLS) are filled rectangles, a polyline with a bulge for the hall's round corner, a
 line for a screen, and an arc for a cabin. Furniture is blocks (FURNITURE), door leaves are lines

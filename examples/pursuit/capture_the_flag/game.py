@@ -21,7 +21,7 @@ from mars2d.addons import Game, Theory
 from mars2d.geometry import dominance
 
 SPEED, CAPTURE, REACH, VIOLET = 0.5, 0.5, 0.5, "#7b3294"  # m/s, of guards; m
-GUARD, ATTACKER = "flag_guards/match.py", "flag_attackers/region.py"
+GUARD, ATTACKER = "guards/match.py", "attackers/region.py"
 FLAG = np.array([[-4.0], [0.0]])
 GOAL = [(REACH * cos(k * pi / 12) - 4, REACH * sin(k * pi / 12)) for k in range(24)]
 

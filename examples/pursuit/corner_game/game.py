@@ -32,8 +32,8 @@ def starts(seed):
 
 def scenario(
     mu: Annotated[float, Range(0.3, 1.5)] = 0.9,
-    pursuer: str = "corner_pursuers/straight.py",
-    evader: str = "corner_evaders/corners.py",
+    pursuer: str = "pursuers/straight.py",
+    evader: str = "evaders/corners.py",
     seed: int = 0,
 ):
     robot, (red, blue) = Robot(diameter=0.55, sees="positions"), starts(seed)

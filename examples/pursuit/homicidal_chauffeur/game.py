@@ -27,8 +27,8 @@ def least(ratio):
 def scenario(
     ratio: float = 0.5,
     reach: float = 0.2,
-    car: str = "chauffeur_cars/swerve.py",
-    pedestrian: str = "chauffeur_pedestrians/matador.py",
+    car: str = "cars/swerve.py",
+    pedestrian: str = "pedestrians/matador.py",
     accel: float = 0.0,  # m/s^2, what tyres and feet hold, 0: any
     seed: int = 0,
 ):

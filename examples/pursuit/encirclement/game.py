@@ -27,8 +27,8 @@ def scenario(
     n: int = 3,
     ratio: float = 0.9,
     uneven: float = 0.05,  # rad, how far the pursuers may stand off even gaps
-    pursuer: str = "ring_pursuers/bearing.py",
-    evader: str = "ring_evaders/gap.py",
+    pursuer: str = "pursuers/bearing.py",
+    evader: str = "evaders/gap.py",
     accel: float = 0.0,  # m/s^2, what feet hold, 0: any
     seed: int = 0,
 ):

@@ -20,7 +20,7 @@ from mars2d.addons import Game, Theory
 
 SPEED, SIZE, NEAR, FAR, CAPTURE = 0.5, 0.4, 0.42, 3.0, 0.41  # m/s, of the hunter; m
 RATIO, VIOLET = NEAR / (NEAR + SIZE), "#7b3294"
-HUNTER, ESCORT = "escort_hunters/round.py", "escorts/between.py"
+HUNTER, ESCORT = "hunters/round.py", "escorts/between.py"
 
 
 def circle(angle, radius):

@@ -24,8 +24,8 @@ SPEED, VIOLET = 0.5, "#7b3294"  # m/s, of the pursuer
 
 def scenario(
     ratio: float = 0.7,
-    pursuer: str = "chase_pursuers/straight.py",
-    evader: str = "chase_evaders/across.py",
+    pursuer: str = "pursuers/straight.py",
+    evader: str = "evaders/across.py",
     crates: bool = False,
     seed: int = 0,
 ):

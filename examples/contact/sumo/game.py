@@ -18,7 +18,7 @@ from mars2d.addons import Ring
 RING = 1.5  # m, its radius; its middle is (0, 0)
 
 
-def scenario(red: str = "sumo_players/pusher.py", blue: str = "sumo_players/dodger.py"):
+def scenario(red: str = "players/pusher.py", blue: str = "players/dodger.py"):
     robot = Robot(drive=Unicycle(max_linear_speed=1), friction="rubber")
     return Scenario(
         title="Sumo",

@@ -18,7 +18,7 @@ from mars2d.addons import Game, Theory
 from mars2d.geometry import dominance
 
 SPEED, CAPTURE, LINE, VIOLET = 0.5, 0.5, -1.8, "#7b3294"  # m/s, of the guard; m; m, its y
-GUARD, ATTACKER = "line_guards/lowest.py", "line_attackers/lowest.py"
+GUARD, ATTACKER = "guards/lowest.py", "attackers/lowest.py"
 FIELD = [(-7, -3), (7, -3), (7, 4), (-7, 4)]
 GOAL = [(-7, -3), (7, -3), (7, LINE), (-7, LINE)]
 
