@@ -22,11 +22,9 @@ ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
 def solution(name: str) -> Path:
     """Return the file of the model answer to an example's exercises."""
     file = examples()[name]
-    return (
-        file.with_name("solution.py")
-        if file.name == GAME
-        else file.parent / "solutions" / file.name
-    )
+    if file.name == GAME:
+        return file.with_name("solution.py")
+    return file.parent / "solutions" / file.name
 
 
 def ahead(robot: Any) -> tuple[float, float]:

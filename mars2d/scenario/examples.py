@@ -32,22 +32,19 @@ def examples_folder() -> Path:
     return inside if inside.is_dir() else package.parent / "examples"
 
 
+def courses() -> dict[str, dict[str, Path]]:
+    """Return the shipped examples by course: each name with its file."""
+    found = {}
+    for course in COURSES:
+        folder = examples_folder() / course
+        files = sorted([*folder.glob("*.py"), *folder.glob(f"*/{GAME}")], key=experiment_name)
+        found[course.capitalize()] = {experiment_name(file): file for file in files}
+    return found
+
+
 def examples() -> dict[str, Path]:
     """Return the shipped examples, course by course: name to file."""
-    found: dict[str, Path] = {}
-    for folder in (examples_folder() / course for course in COURSES):
-        files = sorted([*folder.glob("*.py"), *folder.glob(f"*/{GAME}")], key=experiment_name)
-        found |= {experiment_name(file): file for file in files}
-    return found
-
-
-def courses() -> dict[str, list[str]]:
-    """Return the names of the examples by course."""
-    found: dict[str, list[str]] = {}
-    for name, path in examples().items():
-        course = path.relative_to(examples_folder()).parts[0]
-        found.setdefault(course.capitalize(), []).append(name)
-    return found
+    return {name: file for course in courses().values() for name, file in course.items()}
 
 
 def games() -> list[str]:

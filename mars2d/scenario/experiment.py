@@ -33,12 +33,11 @@ from mars2d.scenario.scenario import Scenario
 class Source:
     """What a file says besides its scenario and its law.
 
-    name: of the file, a game's with its folder, or of a module without one; "" for a Scenario.
-    path: of the file, or None. summary: the first line of its docstring. checks: the function of
-    the record that compares a run with theory, or None. function: that makes the scenario, or None.
-    functions: its public ones by name. scopes: what a window plots at first: names of columns, and
-    functions of the record that return a number for each row. written: when it and the files that
-    it read were written, ns.
+    name: of the file, see `file_name`, or of a module without one; "" for a Scenario. path: of the
+    file, or None. summary: the first line of its docstring. checks: the function of the record that
+    compares a run with theory, or None. function: that makes the scenario, or None. functions: its
+    public ones by name. scopes: what a window plots at first: names of columns, and functions of
+    the record, a number for each row. written: when it and the files that it read were written, ns.
     """
 
     name: str = ""

@@ -12,8 +12,6 @@ from mars2d.core.terminal import tell
 from mars2d.scenario.examples import GAME, examples
 from mars2d.scenario.experiment import open_experiment
 
-UNWANTED = shutil.ignore_patterns("__pycache__", "light.png", "dark.png", "solution.py")
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the example, and the folder."""
@@ -43,7 +41,8 @@ def execute(arguments: argparse.Namespace) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for source in sources:
         if source.is_dir():
-            shutil.copytree(source, folder / source.name, ignore=UNWANTED)
+            unwanted = shutil.ignore_patterns("__pycache__", "light.png", "dark.png", "solution.py")
+            shutil.copytree(source, folder / source.name, ignore=unwanted)
         else:
             shutil.copyfile(source, folder / source.name)
     copied = ", ".join(f"{each.name}/" if each.is_dir() else each.name for each in sources)
