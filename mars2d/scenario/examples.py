@@ -20,11 +20,6 @@ def experiment_name(file: Path) -> str:
     return file.absolute().parent.name if file.name == GAME else file.stem
 
 
-def file_name(file: Path) -> str:
-    """Return how messages and records call the file of an experiment, a game with its folder."""
-    return f"{experiment_name(file)}/{GAME}" if file.name == GAME else file.name
-
-
 def examples_folder() -> Path:
     """Return the folder of the examples, a wheel's or a checkout's."""
     package = Path(__file__).parents[1]

@@ -7,7 +7,7 @@ import pytest
 
 import mars2d
 from mars2d.cli import command_line as cli
-from mars2d.scenario.examples import examples, file_name
+from mars2d.scenario.examples import examples, games
 from tests.cases import each_case
 
 
@@ -38,7 +38,7 @@ def test_a_name_that_python_can_not_import_is_refused(here, capsys, name):
 @each_case("name", examples())
 def test_an_example_is_copied_with_all_that_it_needs(here, name):
     assert cli.main(["copy", name, "mine"]) == 0
-    copied = here / "mine" / file_name(examples()[name])
+    copied = here / "mine" / (f"{name}/game.py" if name in games() else f"{name}.py")
     assert copied.read_bytes() == examples()[name].read_bytes()
     record = mars2d.run(copied, stop_time=0.2, show=False)
     assert record.pose.tolist() == mars2d.run(name, stop_time=0.2, show=False).pose.tolist()

@@ -24,7 +24,6 @@ from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.output.films import film
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.animation import playback_speed
-from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.record import Record
 
@@ -129,7 +128,7 @@ def _paths(arguments: argparse.Namespace) -> dict[str, Path]:
         return wanted
     require_pygame("a film")
     make_folder(FOLDER)
-    name = experiment_name(Path(arguments.experiment))
+    name = Path(arguments.experiment).stem
     return {"figure": FOLDER / f"{name}.png", "video": FOLDER / f"{name}.gif"}
 
 

@@ -16,9 +16,7 @@ from mars2d.scenario.experiment import open_experiment
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the example, and the folder."""
     parser.add_argument("example", metavar="EXAMPLE", help="its name, as in mars2d demo")
-    parser.add_argument(
-        "folder", metavar="FOLDER", nargs="?", default=".", help="where to; else here"
-    )
+    parser.add_argument("folder", metavar="FOLDER", nargs="?", default=".", help="else here")
 
 
 def execute(arguments: argparse.Namespace) -> None:

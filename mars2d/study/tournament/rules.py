@@ -9,7 +9,7 @@ from pathlib import Path
 
 from mars2d.addons.contest import Contest
 from mars2d.core.errors import counted
-from mars2d.scenario.examples import examples, experiment_name, file_name
+from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -94,7 +94,7 @@ class Rules:
     def of(cls, experiment: Experiment, contest: Contest) -> Rules:
         """Return the rules of an experiment with a contest."""
         scenario, path = experiment.scenario, experiment.source.path
-        game = scenario.title if path is None else file_name(path)
+        game = experiment.source.name or scenario.title
         if path is not None and path in examples().values():
             game = experiment_name(path)
         teams = zip(contest.roles, contest.teams(scenario), strict=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -49,7 +48,6 @@ from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
 from mars2d.scenario.animation import Animation
-from mars2d.scenario.examples import file_name
 from mars2d.scenario.robot import Robot
 from mars2d.sensors.base import Sensor
 
@@ -131,7 +129,7 @@ class _Content:
         bounded = scenario.workspace is not None and scenario.on_exit != "ignore"
         return {
             "title": scenario.title,
-            "file": file_name(Path(record.filename)),
+            "file": record.filename,
             "seed": record.seed,
             "digest": record.digest,
             "versions": dict(record.versions),
