@@ -7,7 +7,7 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.layout import interface_scale
-from mars2d.scenario.examples import courses, games, thumbnail_of, title_of
+from mars2d.scenario.examples import GAME, courses, games, thumbnail_of, title_of
 from mars2d.window.buttons import Buttons
 from mars2d.window.cards import Card, Page, Shelf
 from mars2d.window.display import PICTURES_A_SECOND, started_display
@@ -233,4 +233,5 @@ class Home:
 def _own_card(path: Path, picture: Path | None) -> Card:
     command = OPENS.get(path.suffix.lower(), "run")
     shown = picture if picture is not None and picture.exists() else None
-    return Card(path.name, str(path), (command, str(path)), shown, sign=path.suffix[1:])
+    title = f"{path.parent.name}/{GAME}" if path.name == GAME else path.name
+    return Card(title, str(path), (command, str(path)), shown, sign=path.suffix[1:])

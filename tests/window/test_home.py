@@ -149,13 +149,15 @@ def test_the_buttons_change_colours_and_text(memory):
 def test_files_last_opened_come_first_with_their_pictures(memory, tmp_path):
     red = pygame.Surface((700, 500), 0, 32)
     red.fill("red")
-    for name in ("a.py", "b.toml", "gone.py", "a.py"):
+    (tmp_path / "tag").mkdir()
+    for name in ("tag/game.py", "a.py", "b.toml", "gone.py", "a.py"):
         (tmp_path / name).touch()
         memory.opened(tmp_path / name, red)
     (tmp_path / "gone.py").unlink()
-    assert Memory().recent == [tmp_path / "a.py", tmp_path / "b.toml"]
+    names = ["a.py", "b.toml", "tag/game.py"]
+    assert Memory().recent == [tmp_path / name for name in names]
     home, surface = shown(Memory())
-    assert [card.title for card in home.shelves[0].cards] == ["New drawing", "a.py", "b.toml"]
+    assert [card.title for card in home.shelves[0].cards] == ["New drawing", *names]
     place = home.page.places[1][1]
     pixels = pygame.surfarray.array3d(surface)
     near = pixels[place.left : place.right, place.top + 80 : place.top + 180].reshape(-1, 3)
