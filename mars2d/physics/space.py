@@ -19,6 +19,7 @@ from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.plane import WITHIN, Outline, Point, edges_of
 from mars2d.physics.islands.chipmunk import frame_of
+from mars2d.physics.rays import Rays
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -39,13 +40,13 @@ class Space:
         self.obstacles = tuple(surface.outline for surface in scenario.surfaces)
         self._rigids, self._robots = scenario.bodies, len(scenario.robots)
         self._state = state
-        self._moved = True
+        self._moved = self._rays_moved = True
         self._filter = ffi.new("cpShapeFilter *", (0, _ALL, _ALL))
         self._info = ffi.new("cpPointQueryInfo *")
 
     def moved(self) -> None:
         """Note that bodies have moved: the next query finds them where they are."""
-        self._moved = True
+        self._moved = self._rays_moved = True
 
     # -- building ---------------------------------------------------------------------------
 
@@ -99,6 +100,18 @@ class Space:
         rows = np.column_stack([c, s, -s, c, x, y])
         for frame, row in zip(self._frames, rows, strict=True):
             frame[:] = row
+
+    @cached_property
+    def _rays(self) -> Rays:
+        return Rays([rigid.shape.pieces for rigid in self._rigids], self.obstacles)
+
+    @property
+    def rays(self) -> Rays:
+        """What casts rays, with all bodies where they are."""
+        if self._rays_moved:
+            self._rays_moved = False
+            self._rays.place(self._state[:, :3].T)
+        return self._rays
 
     def distance(self, point: Point, limit: float, ignore: int) -> float:
         """Return the distance to the nearest surface, inf beyond `limit`; see Surroundings.

@@ -14,7 +14,6 @@ from mars2d.bodies.colors import OBSTACLE, prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.core.usercode import called
-from mars2d.physics.rays import Rays
 from mars2d.sensors.base import NOTHING
 from mars2d.world.state import Addons, State
 
@@ -35,8 +34,7 @@ class Around:
     def renew(self) -> None:
         """Drop all caches, after bodies, obstacles or add-ons were changed."""
         self._space = self._world.engine.space
-        self._placed: Float | None = None  # the poses at which rays find the bodies
-        for name in ("_rays", "_colors", "_addons"):
+        for name in ("_colors", "_addons"):
             vars(self).pop(name, None)
 
     @property
@@ -80,7 +78,7 @@ class Around:
         """Return the length of a ray to the first surface, metres; inf if none is hit."""
         _check_look("start", start, "length", length)
         _check_all("angle", angle)
-        return self._rays_now.length(start, angle, length, ignore)
+        return self._space.rays.length(start, angle, length, ignore)
 
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
         """Return the lengths of rays at angles (k,), metres; inf where nothing is hit."""
@@ -96,36 +94,20 @@ class Around:
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
         """Return the lengths (m, k) of rays from poses (3, m) at bearings (k,), metres."""
         _check_fans(poses, bearings, length)
-        return self._rays_now.distances(poses, bearings, length, ignore)
+        return self._space.rays.distances(poses, bearings, length, ignore)
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
         """Return the lengths of rays as `scans`, and the body that each hits, (m, k)."""
         _check_fans(poses, bearings, length)
-        return self._rays_now.sight(poses, bearings, length, ignore, NOTHING)
-
-    @cached_property
-    def _rays(self) -> Rays:
-        scenario = self._world.scenario
-        return Rays(
-            [body.shape.pieces for body in scenario.bodies],
-            [surface.outline for surface in scenario.surfaces],
-        )
-
-    @property
-    def _rays_now(self) -> Rays:
-        """The rays, with all bodies where they are now."""
-        if self._placed is not self._world.pose:
-            self._placed = self._world.pose
-            self._rays.place(np.hstack([self._placed, self._world.prop_pose]))
-        return self._rays
+        return self._space.rays.sight(poses, bearings, length, ignore, NOTHING)
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:
         """Return whether something stands between `start` and points (k, 2)."""
-        return self._rays_now.hidden(start, points, bodies, ignore)
+        return self._space.rays.hidden(start, points, bodies, ignore)
 
     # -- looks -------------------------------------------------------------------------------
 
