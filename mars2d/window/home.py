@@ -7,7 +7,7 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.layout import interface_scale
-from mars2d.scenario.examples import courses, examples_folder, games, title_of
+from mars2d.scenario.examples import courses, games, thumbnail_of, title_of
 from mars2d.window.buttons import Buttons
 from mars2d.window.cards import Card, Page, Shelf
 from mars2d.window.display import PICTURES_A_SECOND, started_display
@@ -81,11 +81,8 @@ class Home:
         return [Shelf("Your own", [new, *own]), Shelf("Play", play), *of_courses]
 
     def _example_card(self, name: str, verb: str = "demo") -> Card:
-        return Card(*title_of(name), (verb, name), self._thumbnail(name))
-
-    def _thumbnail(self, name: str) -> Path:
         looks = "dark" if self.painter.theme.dark else "light"
-        return examples_folder() / "thumbnails" / f"{name}_{looks}.png"
+        return Card(*title_of(name), (verb, name), thumbnail_of(name, looks))
 
     # -- drawing --------------------------------------------------------------------------------
 

@@ -57,9 +57,7 @@ def execute(arguments: argparse.Namespace) -> None:
         require_pygame("a window")
         raise InputError(f"play {arguments.game}: people need a window, and there is no display")
     look = preferences_of(arguments)
-    show(
-        experiment, arguments.speed, look, people, kept=True, play=True
-    )  # fmt: skip
+    show(experiment, arguments.speed, look, people, kept=True, play=True)
 
 
 def _list() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -130,7 +129,7 @@ class _Content:
         bounded = scenario.workspace is not None and scenario.on_exit != "ignore"
         return {
             "title": scenario.title,
-            "file": Path(record.filename).name,
+            "file": record.filename,
             "seed": record.seed,
             "digest": record.digest,
             "versions": dict(record.versions),
