@@ -219,7 +219,7 @@ def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
         assert made["pictures"][0]["checks"], made["figure"]
         for picture in made["pictures"]:
             if picture["command"]:
-                parsed = cli.parser().parse_args(shlex.split(picture["command"])[1:])
+                parsed = cli.parse(shlex.split(picture["command"])[1:])
                 assert parsed.figure == Path(f"{picture['picture']}.pdf")
                 assert parsed.headless
     files = {path.name for path in folder.iterdir()}
@@ -339,7 +339,7 @@ def test_times_after_the_end_of_a_run_show_its_end():
     words = run.command("stem", 0, 97.1)
     assert words.endswith("--figure stem.pdf --at 0,50,70,97.1")
     moved = Run("path_planning", "P", "S.", options={"detour": (22, 9.8)})
-    assert cli.parser().parse_args(shlex.split(moved.command("stem", 3, 1.0))[1:]).seed == 3
+    assert cli.parse(shlex.split(moved.command("stem", 3, 1.0))[1:]).seed == 3
     assert "--set 'detour=(22, 9.8)'" in moved.command("stem", 3, 1.0)
 
 
