@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mars2d.cli.arguments import add_preferences, add_run_arguments, add_theory
-from mars2d.cli.films import DURATION
+from mars2d.cli.arguments import add_shared
+from mars2d.cli.outputs import DURATION
 from mars2d.cli.runs import has_display, make_folder, print_examples
 from mars2d.cli.verbs import run
 from mars2d.core.terminal import tell
@@ -19,9 +19,7 @@ FOLDER = Path("mars2d_demo")
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the example, and some of the arguments of ``run``."""
     parser.add_argument("name", nargs="?", metavar="NAME", help="an example (default: list all)")
-    add_run_arguments(parser)
-    add_theory(parser)
-    add_preferences(parser)
+    add_shared(parser, "headless seed theory dark text")
 
 
 def execute(arguments: argparse.Namespace) -> None:
