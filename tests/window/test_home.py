@@ -4,7 +4,7 @@ import numpy as np
 import pygame
 import pytest
 
-from mars2d.cli.command_line import main, parser
+from mars2d.cli.command_line import main, parse
 from mars2d.output.raster.layout import TEXT_SIZES
 from mars2d.scenario.examples import examples, games, thumbnail_of
 from mars2d.window.display import Preferences
@@ -65,7 +65,7 @@ def test_each_example_has_its_pictures():
 def test_each_card_opens_by_a_click_and_its_command_is_one(memory):
     cards = all_cards(shown(memory)[0])
     for card in cards:
-        parser().parse_args(card.command)
+        parse(card.command)
     for card in (cards[0], cards[-1]):
         home, surface = shown(memory)
         click(home, surface, card.command)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from gaps import Gaps
 from numpy.typing import NDArray
+from scenes import BOX, FLOOR, MASS, Scene
 
 from mars2d.addons import Map
 from mars2d.bodies import Box, Rope
 from mars2d.geometry.shapes import rectangle
-from mars2d.reports.bench.gaps import Gaps
-from mars2d.reports.bench.scenes import BOX, FLOOR, MASS, Scene
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors import Proximity, RangeFinder

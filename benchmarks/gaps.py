@@ -23,7 +23,7 @@ class Gaps:
     """
 
     def __init__(self, scene: Any) -> None:
-        """Take a `Scene` of `mars2d.reports.bench.scenes`, which may be loaded by its path."""
+        """Take a `Scene` of `scenes`."""
         boxes = np.array(scene.boxes, dtype=float).reshape(-1, 4, 2)
         along, across = boxes[:, 1] - boxes[:, 0], boxes[:, 3] - boxes[:, 0]
         self._boxes = np.column_stack([boxes.mean(axis=1), np.arctan2(along[:, 1], along[:, 0])])

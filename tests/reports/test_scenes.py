@@ -1,4 +1,4 @@
-"""`mars2d bench`: what it measures, keeps and compares, and what it says when it can not."""
+"""The scenes of the benchmarks, the gaps between their bodies, and the bare loop beside them."""
 
 import json
 import subprocess
@@ -7,41 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gaps import Gaps
 from PIL import Image
+from scenes import FORCE, LEVER, SCENES, TORQUE, Scene
+from worlds import SETTINGS, deepest, world_of
+from yardstick import Bare
 
-from mars2d.cli import command_line as cli
-from mars2d.reports.bench.gaps import Gaps
-from mars2d.reports.bench.report import ALIKE, Change, Figures, Report, Row, load_report
-from mars2d.reports.bench.scenes import FORCE, LEVER, SCENES, TORQUE, Scene
-from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
-from mars2d.reports.bench.yardstick import Bare
 from tests.cases import each_case
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
-
-STEADY = tuple(1e-4 * (1 + 0.01 * np.sin(range(9))))
-"""What a step of the bare loop takes on a quiet machine, in each of some rounds."""
-
-
-def row(seconds, bare=STEADY, name="S2 default"):
-    times = np.broadcast_to(seconds, len(bare)).tolist()
-    return Row(name, "100 robots", tuple(zip(bare, times, strict=True)))
-
-
-def bench(capsys, *arguments):
-    """Run the command and return its exit code, and what it prints."""
-    code = cli.main(["bench", *map(str, arguments)])
-    printed = capsys.readouterr()
-    return code, printed.out, printed.err
-
-
-def refused(capsys, *arguments):
-    """Return the one line by which the command refuses its arguments."""
-    code, out, err = bench(capsys, *arguments)
-    assert (code, out) == (2, "")
-    assert err.count("\n") == 1
-    return err
-
 
 # -- scenes ---------------------------------------------------------------------------------------
 
@@ -158,69 +132,6 @@ def test_gaps_of_squares_are_those_which_one_works_out(robot, crate, expected):
     among, fixed = Gaps(SQUARES)(np.array([robot, crate], float), within=1.0)
     assert among == pytest.approx([expected[0]] * 2)
     assert fixed[0] == pytest.approx(expected[1])
-
-
-# -- one run against another ----------------------------------------------------------------------
-
-RESTLESS = tuple(1e-4 * (1 + 0.5 * np.array([0, 1, 0, 1, 0, 1, 0, 1, 0])))
-WORK = 1e-3 * np.array([1, 40, 3, 60, 2, 70, 5, 50, 4])
-
-
-@each_case(
-    "old, new, times_as_fast, noise",
-    [
-        (row(2e-3), row(1e-3), 2, False),
-        (row(1e-3), row(2e-3, bare=tuple(2 * np.array(STEADY))), 1, True),  # a slower machine
-        (row(1e-3), row(1e-3 * (1 + 0.8 * ALIKE)), 1 / (1 + 0.8 * ALIKE), True),
-        (row(1e-3), row(1.2e-3), 1 / 1.2, False),
-        (row(1e-3), row(13 * np.array(RESTLESS), RESTLESS), 0.77, True),
-        (row(WORK), row(WORK / 1.5), 1.5, False),  # round by round: each does other work
-    ],
-)
-def test_how_many_times_as_fast_and_whether_it_is_noise(old, new, times_as_fast, noise):
-    change = Change.between(old, new)
-    assert change.times_as_fast == pytest.approx(times_as_fast, rel=0.03)
-    assert change.noise == noise
-
-
-# -- files ----------------------------------------------------------------------------------------
-
-
-def test_a_saved_report_is_the_same_when_it_is_read(tmp_path):
-    figures = Figures(sampling_time=0.05, max_overlap=1e-3, deepest=7e-4, bytes=48.2)
-    scene = Row("S2 default", "100 robots", ((1e-4, 1e-3), (1.5e-4, 1e-3)), figures)
-    report = Report((scene, row(0.3, name="import mars2d")))
-    report.save(tmp_path / "a.json")
-    assert load_report(tmp_path / "a.json") == report
-
-
-@pytest.mark.slow
-def test_the_command_prints_one_line_of_json(tmp_path, capsys):
-    saved = tmp_path / "old.json"
-    Report((row(1e-3, name="S1 default"), row(1e-3, name="S4 default"))).save(saved)
-    code, out, _ = bench(capsys, "S1", "--quick", "--json", "--compare", saved)
-    assert code == 0
-    assert out.count("\n") == 1
-    data = json.loads(out)
-    assert [made["name"] for made in data["rows"]] == ["S1 default", "S1 loose"]
-    assert data["rows"][0]["seconds"] > 0
-    assert list(data["compared"]) == ["S1 default"]  # what both runs have
-    assert set(data["compared"]["S1 default"]) == {"times_as_fast", "noise"}
-
-
-# -- what it can't do -----------------------------------------------------------------------------
-
-
-def test_an_unknown_scene_is_answered_with_the_nearest(capsys):
-    assert "bench S22: the suite has no such scene; did you mean 'S2'?" in refused(capsys, "S22")
-    assert "known: P1, P2, P3, S1, S2, S3, S4, start" in refused(capsys, "crowd")
-
-
-def test_what_can_not_be_written_is_refused_before_the_suite_is_run(tmp_path, capsys):
-    assert "ends in .json" in refused(capsys, "--save", tmp_path / "a.npz")
-    assert "there is no folder" in refused(capsys, "--save", tmp_path / "gone" / "a.json")
-    (tmp_path / "b.json").mkdir()
-    assert "this is a folder" in refused(capsys, "--save", tmp_path / "b.json")
 
 
 # -- the scripts in benchmarks/ -------------------------------------------------------------------

@@ -6,8 +6,7 @@ import numpy as np
 import pymunk
 from numpy.typing import NDArray
 from pymunk import batch
-
-from mars2d.reports.bench.scenes import FORCE, FRICTION, MASS, TORQUE, WALL_FRICTION, Scene
+from scenes import FORCE, FRICTION, MASS, TORQUE, WALL_FRICTION, Scene
 
 Float = NDArray[np.float64]
 
