@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from typing import Any
 
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
-from mars2d.core.terminal import warn
 from mars2d.output.raster import has_pygame, require_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
@@ -153,10 +151,5 @@ def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None,
         raise InputError(
             "--workers is of this machine: a cluster has its own; give it or --cluster"
         )
-    with ExitStack() as stack:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", UserWarning)
-            executor = stack.enter_context(cluster(arguments.cluster))
-        for warning in caught:
-            warn(warning.message)
+    with cluster(arguments.cluster) as executor:
         yield executor, None

@@ -20,8 +20,7 @@ from mars2d.study.kept import records_beside
 from mars2d.study.known import known_rows, table_of
 from mars2d.study.prepare import Study
 from mars2d.study.table import Result, Table, cells_of
-from mars2d.study.work import each_done, worker_count
-from mars2d.study.workers import Failure
+from mars2d.study.work import Failure, each_done, worker_count
 
 TRIALS = 5
 """How many runs, evenly spaced over the study, are made first; if all fail, no others are made."""

@@ -67,7 +67,7 @@ def sweep(
     from mars2d.study.plan import Plan, seeds_of, settings_of
     from mars2d.study.prepare import prepared
     from mars2d.study.run import run_study
-    from mars2d.study.workers import leave_if_imported_again
+    from mars2d.study.work import leave_if_imported_again
 
     leave_if_imported_again()
     if not isinstance(out, (str, Path, type(None))):

@@ -14,8 +14,7 @@ from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_drawin
 from mars2d.reports.paper.figure import Figure, Picture, Result, Run
 from mars2d.reports.paper.studies.base import Study
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
-from mars2d.study.work import each_done, worker_count
-from mars2d.study.workers import Failure
+from mars2d.study.work import Failure, each_done, worker_count
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 

@@ -18,8 +18,7 @@ from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Match, Played, play
 from mars2d.study.tournament.page import save_html
 from mars2d.study.tournament.schedule import Files, Schedule, law_code, schedule
-from mars2d.study.work import each_done, worker_count
-from mars2d.study.workers import Failure, leave_if_imported_again
+from mars2d.study.work import Failure, each_done, leave_if_imported_again, worker_count
 
 MATCHES, LEAGUE, PAGE = "matches.csv", "league.csv", "league.html"
 """The files that are written to a tournament's folder at the end."""
