@@ -32,7 +32,7 @@ from mars2d.world.record import Record, load
 from mars2d.world.world import World
 
 if TYPE_CHECKING:
-    from mars2d.study.sweep import sweep
+    from mars2d.study.run import sweep
     from mars2d.study.table import Table
     from mars2d.study.tournament.tournament import tournament
     from mars2d.window.run import run
@@ -80,7 +80,7 @@ __all__ = [
 _LATER = {
     "Table": "mars2d.study.table",
     "run": "mars2d.window.run",
-    "sweep": "mars2d.study.sweep",
+    "sweep": "mars2d.study.run",
     "tournament": "mars2d.study.tournament.tournament",
 }
 """The names that are imported when they are first asked for: not every program needs them."""
