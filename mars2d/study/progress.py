@@ -7,7 +7,7 @@ import warnings
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tqdm.std import tqdm as Bar
+    from tqdm.std import tqdm as Bar  # noqa: N812
 
 
 def progress(total: int, done: int = 0, *, unit: str = "run", show: bool = True) -> Bar[Any]:
