@@ -13,6 +13,7 @@ import pytest
 import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
+from mars2d.core.files import growing
 from mars2d.study.run import TRIALS
 from mars2d.study.table import load_table
 from tests.cases import each_case
@@ -286,6 +287,12 @@ def test_a_torn_line_is_run_again(here):
     assert sweep(None, 3, out="r.csv") == whole
     assert (here / "r.csv").read_bytes() == data
     assert runs(here) == 4
+
+
+def test_a_file_is_written_by_one_at_a_time(here):
+    with growing(here / "r.csv"), pytest.raises(InputError, match="another process is writing"):
+        sweep(out="r.csv")
+    assert len(sweep(out="r.csv")) == 2
 
 
 def test_rows_with_errors_are_run_again_only_if_asked(here):
