@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from mars2d.scenario.scenario import Scenario
     from mars2d.scenario.toml_file import save_scenario
     from mars2d.sensors import Sensor
-    from mars2d.study.sweep import sweep
+    from mars2d.study.run import sweep
     from mars2d.study.table import Table
     from mars2d.study.tournament.tournament import tournament
     from mars2d.window.run import run
@@ -93,7 +93,7 @@ _HOMES = {
     "scenario.scenario": ("Scenario",),
     "scenario.toml_file": ("save_scenario",),
     "sensors": ("Sensor",),
-    "study.sweep": ("sweep",),
+    "study.run": ("sweep",),
     "study.table": ("Table",),
     "study.tournament.tournament": ("tournament",),
     "window.run": ("run",),

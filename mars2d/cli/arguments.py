@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
@@ -140,10 +139,5 @@ def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None,
         raise InputError(
             "--workers is of this machine: a cluster has its own; give it or --cluster"
         )
-    with ExitStack() as stack:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", UserWarning)
-            executor = stack.enter_context(cluster(arguments.cluster))
-        for warning in caught:
-            warn(warning.message)
+    with cluster(arguments.cluster) as executor:
         yield executor, None

@@ -1,11 +1,10 @@
-"""Results: a study's table as a file, whole, torn, of another study, or written to by others."""
+"""Tables of studies as files, and what is no table."""
 
 from __future__ import annotations
 
 import pytest
 
 from mars2d import InputError, Table
-from mars2d.study.results import Results
 from mars2d.study.table import Result, load_table, save_table
 from tests.cases import each_case
 
@@ -60,51 +59,6 @@ def test_pandas_reads_the_file_without_options(path):
     assert frame["time"].tolist()[::2] == [0.1 + 0.2, 3.0]
     assert frame["time"].isna().tolist() == [False, True, False]
     assert frame["error"][1] == 'a.py, line 3: "no"'
-
-
-def test_rows_are_in_the_file_as_soon_as_they_are_added(path):
-    with Results(path, of()) as file:
-        file.add(ROWS[1])
-        assert load_table(path) == of(ROWS[1])
-        file.add(ROWS[0])
-        assert load_table(path) == of(*ROWS[:2])  # by their numbers
-
-
-@each_case("cut", [1, 5, 30])
-def test_a_line_that_was_broken_off_is_left_out_and_the_next_begins_anew(path, cut):
-    save_table(of(*ROWS[:2]), path)
-    path.write_bytes(path.read_bytes()[:-cut])
-    assert load_table(path) == of(ROWS[0])
-    with Results(path, of()) as file:
-        assert file.known == ROWS[:1]
-        file.add(ROWS[2])
-    assert load_table(path) == of(ROWS[0], ROWS[2])
-
-
-def test_a_file_is_written_by_one_at_a_time(path):
-    with Results(path, of()):
-        with pytest.raises(InputError, match="another process is writing to it"):
-            Results(path, of()).__enter__()
-        assert load_table(path) == Table("", ("n", "red"), ("time", "won"), ())
-    with Results(path, of()):
-        pass  # and then by the next
-
-
-@each_case(
-    "blank, said",
-    [
-        (Table("other.py", ("n", "red"), ("time", "won"), ()), "experiment: duel.py; now: other"),
-        (Table("duel.py", ("n",), ("time", "won"), ()), "settings: n, red; now: n. Give"),
-        (Table("duel.py", ("n", "red"), (), ()), "measures: time, won; now: none"),
-    ],
-)
-def test_a_file_of_another_study_is_refused_and_stays_as_it_was(path, blank, said):
-    before = save_table(TABLE, path).read_bytes()
-    with pytest.raises(InputError, match=said):
-        Results(path, blank).__enter__()
-    assert path.read_bytes() == before
-    with Results(path, of()) as file:  # nor does it stay locked
-        assert file.known == ROWS
 
 
 @each_case(

@@ -1,4 +1,4 @@
-"""Prepare a study: find out whether it can be run before the first run."""
+"""Studies: what is to be run, after finding out before the first run whether it can be."""
 
 from __future__ import annotations
 
@@ -21,8 +21,7 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.roles import contests_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description
-from mars2d.study.code import CODE_DIGITS, WatchedFiles, code_of
-from mars2d.study.job import Job, measures_of, name_in, probed
+from mars2d.study.job import CODE_DIGITS, Job, code_of, measures_of, name_in, probed
 from mars2d.study.measures import Measure
 from mars2d.study.plan import Plan
 from mars2d.study.table import FIRST, LAST, SEED, cells_of
@@ -41,7 +40,8 @@ class Study:
 
     title: the experiment's name in the table. blank: a job without row, options and seed.
     troubles: the errors at single points, whose runs will fail. codes: the code of the runs at some
-    points, by the points' cells. watched: the files that were read. units: those that were stated.
+    points, by the points' cells. written: when the files that were read had been written, ns.
+    units: those that were stated.
     """
 
     title: str
@@ -49,7 +49,7 @@ class Study:
     blank: Job
     troubles: tuple[str, ...]
     codes: dict[tuple[str, ...], str]
-    watched: WatchedFiles
+    written: Mapping[Path, int]
     units: Mapping[str, str]
 
     @property
@@ -79,21 +79,21 @@ def prepared(
     code = _code_of(source) if isinstance(source, Scenario) else ""
     folder = os.getcwd()  # noqa: PTH109
     blank = Job(0, source, {}, plan.seeds[0], measures, folder, control, time_limit, code)
-    first, troubles, codes, watched = None, [], {}, WatchedFiles()
+    first, troubles, codes, written = None, [], {}, dict[Path, int]()
     for point, found in _probes(plan, blank):
         if isinstance(found, Mars2dError):
             troubles.append(_trouble(point, found))
             continue
         first = first or found
         codes[cells_of(point)] = code_of(found, code)
-        watched.add(found.source.written)
+        written |= found.source.written
     assert first is not None  # or `_probes` has raised
     chosen = measures or _sensible(first.scenario)
     measures_of(chosen, first, first.scenario)
     _check_columns(plan, chosen)
     stated = checked_units(units, [*plan.settings, *map(name_in, chosen)])
     blank = dataclasses.replace(blank, measures=chosen)
-    return Study(title, plan, blank, tuple(troubles), codes, watched, stated)
+    return Study(title, plan, blank, tuple(troubles), codes, written, stated)
 
 
 def _probes(plan: Plan, blank: Job) -> Iterator[tuple[dict[str, Any], Experiment | Mars2dError]]:
