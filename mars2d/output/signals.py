@@ -15,7 +15,7 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.core.quantity import Quantity
 from mars2d.output.formats.columns import POSE_UNITS
-from mars2d.output.layers.forces import mean_forces
+from mars2d.record.contact import net_forces
 from mars2d.record.energy import WORK
 from mars2d.record.interventions import Change, Place
 
@@ -86,34 +86,6 @@ def signals_of_bodies(record: Rows, name: str, bodies: Sequence[int]) -> list[Si
     Raises InputError as `signals` does, and where none of the bodies has such a column.
     """
     return _named(record, name, tuple(bodies))
-
-
-def net_forces(
-    contacts: NDArray[np.void],
-    rows: NDArray[np.intp],
-    bodies: Sequence[int],
-    steps: range,
-    sampling_time: float,
-) -> Float:
-    """Return the net mean contact force on bodies in control steps, (steps, bodies) newtons.
-
-    contacts: (c,) of dtype CONTACT. rows: (c,), the row at the end of each contact's control step.
-    steps: the rows at the ends of the control steps.
-    """
-    seen = (rows >= steps.start) & (rows < steps.stop)
-    mine, step = contacts[seen], rows[seen] - steps.start
-    force = mean_forces(mine, sampling_time)
-    count = len(bodies)
-    place = np.full(max(bodies, default=0) + 1, -1)
-    place[list(bodies)] = np.arange(count)
-    net = np.zeros((2, len(steps) * count))
-    for side, sign in (("a", -1.0), ("b", 1.0)):
-        body = mine[side]
-        at = np.flatnonzero((body >= 0) & (body < len(place)))
-        at = at[place[body[at]] >= 0]
-        where = step[at] * count + place[body[at]]
-        net += [np.bincount(where, sign * force[at, i], len(net[0])) for i in (0, 1)]
-    return np.asarray(np.hypot(*net).reshape(len(steps), count))
 
 
 def chosen_robots(record: Rows, robots: Sequence[str | int] | None) -> tuple[int, ...]:
@@ -260,8 +232,8 @@ def _force(
 ) -> list[Signal]:
     """Return the net contact force on each body in the control step before, or its impulse."""
     _no_parts(name, head, parts)
-    dt, rows = record.scenario.sampling_time, record.contact_rows
-    force = net_forces(record.contacts, rows, robots, range(len(record)), dt)
+    net = net_forces(record.pair_forces, robots, range(len(record)))
+    force, dt = np.hypot(net[:, 0], net[:, 1]), record.scenario.sampling_time
     values, unit = (force, "N") if head == "force" else (force * dt, "N s")
     return [Signal(f"contact {head}", unit, values, robots, "pre")]
 

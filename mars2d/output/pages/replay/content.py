@@ -20,7 +20,6 @@ from mars2d.output.layers.forces import (
     SLIPPING,
     as_read,
     force_scale,
-    mean_forces,
 )
 from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
 from mars2d.output.layers.rings import RING, has_ring
@@ -45,6 +44,7 @@ from mars2d.output.pages.replay.drawings import (
     shapes_of,
 )
 from mars2d.output.pages.replay.sensors import Carried
+from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
