@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import counted
 from mars2d.output.figures.extent import check_rows
-from mars2d.output.figures.figure import plain_name
+from mars2d.output.figures.legend import Entry, plain_name
 from mars2d.output.figures.panels import (
-    Entry,
     caption,
     color_bar,
     curve,

@@ -15,8 +15,8 @@ from mars2d.core.plane import lines_and_areas
 from mars2d.geometry.shapes import Piece
 from mars2d.output.figures.contacts import pair_name
 from mars2d.output.figures.extent import check_rows
+from mars2d.output.figures.legend import Entry
 from mars2d.output.figures.panels import (
-    Entry,
     caption,
     curve,
     dress_panel,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 from math import ceil
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, counted
 from mars2d.output.figures.figure import (
     check_axes,
-    line_style,
     new_figure,
     show_in_notebooks,
     style_ticks,
 )
 from mars2d.output.figures.labels import shortened, wrapped
+from mars2d.output.figures.legend import Entry, add_legend
 from mars2d.output.figures.style import Style
 from mars2d.output.signals import thinned
 
@@ -41,17 +41,6 @@ CAPTION_LETTERS, CAPTION_HEIGHT = 12, 0.5
 
 LETTER_WIDTH = 0.56
 """The approximate width of a letter, in text heights."""
-
-
-class Entry(NamedTuple):
-    """A curve's entry in a legend: its name, colour, line style, width [points] and marker."""
-
-    name: str
-    color: str
-    dash: str
-    width: float
-    marker: str = ""
-    hollow: bool = False
 
 
 def panels(
@@ -133,10 +122,8 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
         each = look.small * (handle + 0.5 + 1.2 + LETTER_WIDTH * widest)
         cols = max(1, min(len(entries), int(room / each)))
         lines = ceil(len(entries) / cols)
-        _legend(
-            ax, entries, look, loc="lower left", bbox_to_anchor=(0.0, 1.0),
-            ncols=ceil(len(entries) / lines),
-        )  # fmt: skip
+        place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
+        add_legend(ax, entries, look, ncols=ceil(len(entries) / lines), **place)
         above = lines * look.small * 1.5
     if look.title:
         letters = max(20, letters_in(room, look.title))
@@ -144,40 +131,6 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
             textwrap.fill(title, letters, max_lines=2, placeholder=" …"), loc="left",
             fontsize=look.title, color=look.ink, pad=6 * look.stroke**0.5 + above, parse_math=False,
         )  # fmt: skip
-
-
-def name_beside(ax: Axes, entries: Sequence[Entry], look: Style) -> None:
-    """Write a legend of a panel's own curves at its right side."""
-    if entries:
-        _legend(ax, entries, look, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-
-
-def _legend(ax: Axes, entries: Sequence[Entry], look: Style, **place: Any) -> None:
-    from matplotlib.lines import Line2D
-
-    handles = [
-        Line2D(
-            [],
-            [],
-            color=entry.color,
-            linestyle=line_style(entry.dash),
-            linewidth=entry.width,
-            marker=entry.marker,
-            markersize=0.7 * look.small,
-            markerfacecolor="white" if entry.hollow else entry.color,
-        )
-        for entry in entries
-    ]
-    legend = ax.legend(
-        handles, ["curve"] * len(entries), frameon=False, fontsize=look.small,
-        labelcolor=look.ink, handlelength=3.2 if look.greys else 2.0, columnspacing=1.2,
-        handletextpad=0.5, borderpad=0.0, borderaxespad=0.3, labelspacing=0.3, **place,
-    )  # fmt: skip
-    ax.add_artist(legend)  # a further one of these axes would take its place
-    legend.set_clip_on(False)
-    for text, entry in zip(legend.get_texts(), entries, strict=True):
-        text.set_parse_math(False)
-        text.set_text(entry.name)  # only now: a legend leaves out labels that begin with "_"
 
 
 def curve(

@@ -12,15 +12,14 @@ from numpy.typing import NDArray
 from mars2d.core.description import real
 from mars2d.core.errors import InputError
 from mars2d.output.figures.extent import PANEL_LIMIT, check_rows
-from mars2d.output.figures.figure import LEGEND_LIMIT, plain_name
+from mars2d.output.figures.figure import LEGEND_LIMIT
+from mars2d.output.figures.legend import BESIDE, Entry, add_legend, plain_name
 from mars2d.output.figures.panels import (
-    Entry,
     caption,
     color_bar,
     curve,
     dress_panel,
     finish,
-    name_beside,
     name_curves,
     panels,
     say,
@@ -170,7 +169,7 @@ def _draw(ax: Axes, record: Rows, rows: slice, signal: Signal, look: Style) -> N
     caption(ax, signal.name, signal.unit, look)
     many = values.shape[1]
     entries = _own_entries(signal, look)
-    name_beside(ax, entries, look)
+    add_legend(ax, entries, look, **BESIDE)
     entries = entries or [_entry(record, signal.bodies[k // each], look, many) for k in range(many)]
     for k, entry in enumerate(entries):
         curve(ax, times, values[:, k], entry, held=signal.held, many=many, wraps=signal.wraps)

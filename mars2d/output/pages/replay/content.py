@@ -415,11 +415,10 @@ def _place_of(mark: Mark) -> dict[str, Any]:
 def _legend(legend: Legend) -> dict[str, Any]:
     """Return a legend for the page: its arrow at all round numbers, and its signs."""
     ruler = legend.ruler
-    numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
     return {
         "layer": legend.layer,
         "arrow": ruler and ["arrow", ruler.color, None, ruler.width],
-        "lengths": [[ruler.unit * each, ruler.in_words(each)] for each in numbers] if ruler else [],
+        "lengths": ruler.lengths if ruler else [],
         "signs": [
             {"room": sign.room, "meaning": sign.meaning, "shapes": shapes_of(sign.scene)}
             for sign in legend.signs
