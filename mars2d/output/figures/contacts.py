@@ -15,8 +15,6 @@ from mars2d.output.figures.panels import (
     caption,
     color_bar,
     curve,
-    dress_panel,
-    finish,
     name_curves,
     panels,
     say,
@@ -68,12 +66,9 @@ def plot_contacts(
     line = np.full(len(pairs), -1)
     line[chosen] = np.arange(len(chosen))
     names = ["pairs", "normal force"][: _panel_count(axes, force=force)]
-    own = axes is None
     with look.fonts():
         tall = max(0.9, 0.24 * look.label / 10 * (len(chosen) + 1) / look.panel)
-        axes = panels(axes, names, look, [tall, 1.0][: len(names)])
-        for ax in axes:
-            dress_panel(ax, record, axes[-1], look)
+        axes = panels(record, axes, names, look, [tall, 1.0][: len(names)])
         if len(chosen):
             _timeline(axes[0], record, pairs[chosen], line[group], look)
             if len(chosen) < len(pairs):
@@ -83,7 +78,7 @@ def plot_contacts(
         if len(axes) == 2 and len(chosen):
             _sum(axes[1], record, look)
         name_curves(axes[0], record.scenario.title, [], look)
-        return finish(axes, own=own)
+        return axes
 
 
 def normal_force(record: Rows) -> Float:

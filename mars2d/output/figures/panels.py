@@ -44,12 +44,17 @@ LETTER_WIDTH = 0.56
 
 
 def panels(
-    axes: Sequence[Axes] | None, names: Sequence[str], look: Style, heights: Sequence[float] = ()
+    record: Rows,
+    axes: Sequence[Axes] | None,
+    names: Sequence[str],
+    look: Style,
+    heights: Sequence[float] = (),
+    rows: slice = slice(None),
 ) -> list[Axes]:
-    """Return axes for panels below each other: those given, or those of a new figure.
+    """Return dressed axes for panels below each other: those given, or those of a new figure.
 
     names: the panels' contents, for the error if the number of axes differs. heights: the relative
-    heights of the panels.
+    heights of the panels. rows: the rows that are drawn. Notebooks show the axes of a new figure.
     """
     if axes is not None:
         given = list(np.ravel(np.asarray(axes, dtype=object)))
@@ -58,25 +63,23 @@ def panels(
         if len(given) != len(names):
             panels_needed = f"{counted(len(names), 'panel')} ({', '.join(names)})"
             raise InputError(f"axes: {len(given)} of them, for {panels_needed}: one for each")
-        return given
-    tall = sum(heights) if heights else len(names)
-    width, height = look.page or (look.full or 7.6, tall * look.panel + 0.09 * look.label)
-    figure = new_figure(width, height)
-    grid = {"height_ratios": list(heights)} if heights else {}
-    made = figure.subplots(len(names), 1, sharex=True, squeeze=False, gridspec_kw=grid)
-    return list(made.ravel())
-
-
-def dress_panel(ax: Axes, record: Rows, last: Axes, look: Style, rows: slice = slice(None)) -> None:
-    """Set the limits of time, grid, ticks and spines; label the time below the last panel.
-
-    rows: the rows that are drawn.
-    """
+    else:
+        tall = sum(heights) if heights else len(names)
+        width, height = look.page or (look.full or 7.6, tall * look.panel + 0.09 * look.label)
+        grid = {"height_ratios": list(heights) or [1] * len(names)}
+        made = new_figure(width, height).subplots(
+            len(names), 1, sharex=True, squeeze=False, gridspec_kw=grid
+        )
+        given = list(made.ravel())
+        for ax in given:
+            show_in_notebooks(ax)
     begin, end = record.time[rows][[0, -1]].tolist()
-    ax.set_xlim(begin, end if end > begin else begin + record.scenario.sampling_time)
-    frame_panel(ax, look, [1, 2, 4, 5, 10])
-    if ax is last or not ax.get_shared_x_axes().joined(ax, last):
-        ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
+    for ax in given:
+        ax.set_xlim(begin, end if end > begin else begin + record.scenario.sampling_time)
+        frame_panel(ax, look, [1, 2, 4, 5, 10])
+        if ax is given[-1] or not ax.get_shared_x_axes().joined(ax, given[-1]):
+            ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
+    return given
 
 
 def frame_panel(ax: Axes, look: Style, steps: Sequence[float]) -> None:

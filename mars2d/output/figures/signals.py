@@ -18,8 +18,6 @@ from mars2d.output.figures.panels import (
     caption,
     color_bar,
     curve,
-    dress_panel,
-    finish,
     name_curves,
     panels,
     say,
@@ -114,16 +112,15 @@ def draw_signals(
             "choose some columns, or some robots"
         )
     with look.fonts():
-        given, own = axes, axes is None
-        axes = panels(given, [signal.name for signal in shown], look)
+        own = axes is None
+        axes = panels(record, axes, [signal.name for signal in shown], look, rows=rows)
         for ax, signal in zip(axes, shown, strict=True):
-            dress_panel(ax, record, axes[-1], look, rows)
             _draw(ax, record, rows, signal, look)
         entries = _entries(record, robots, shown, look) + _mark(axes, record, rows, look)
         name_curves(axes[0], record.scenario.title, entries, look)
         if own:
             axes[0].figure.align_ylabels(axes)
-        return finish(axes, own=own)
+        return axes
 
 
 def _rows(record: Rows, start: float | None, end: float | None) -> slice:
