@@ -96,7 +96,7 @@ def plot_paths(
     entries = _entries(record.scenario, look) + _signs([last], layers, look, _ppm(look, view))
     with look.fonts():
         if ax is None:
-            width, height = _page(look, view, _legend_size(entries, look))
+            width, height = _page(look, view, legend_size(entries, look))
             ax = new_figure(width, height).add_subplot()
         else:
             check_axes(ax)
@@ -163,7 +163,7 @@ def _snapshots(
     layers = layers or layers_of(scenario)
     entries = _entries(scenario, look) + _signs(frames, layers, look, _ppm(look, view, cols))
     if figure is None:
-        beside = _legend_size(entries, look)[0]
+        beside = legend_size(entries, look)[0]
         figure = new_figure(*_page_of_panels(look, view, cols, lines, beside))
     panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
     for unused in panels[len(rows) :]:
@@ -281,7 +281,13 @@ def dress(
     look: Style = SCREEN,
     layers: Layers | None = None,
 ) -> None:
-    """Set limits, grid and ticks."""
+    """Set limits, grid and ticks for an experiment."""
+    dress_plane(ax, view, look, grid=(layers or layers_of(scenario)).grid)
+    ax.spines[:].set(visible=scenario.workspace is None)
+
+
+def dress_plane(ax: Axes, view: View, look: Style = SCREEN, *, grid: bool = True) -> None:
+    """Set limits, grid and ticks of a part of the plane."""
     ax.set_aspect("equal")
     ax.set_xlim(view.xmin, view.xmax)
     ax.set_ylim(view.ymin, view.ymax)
@@ -292,13 +298,10 @@ def dress(
     set_ticks(ax)
     ax.callbacks.connect("xlim_changed", set_ticks)
     ax.callbacks.connect("ylim_changed", set_ticks)
-    layers = layers or layers_of(scenario)
-    if layers.grid:
-        ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
-    else:
-        ax.grid(visible=False)
-    edge = scenario.workspace is None
-    ax.spines[:].set(color=look.grid, linewidth=0.8 * look.stroke, visible=edge)
+    ax.grid(visible=grid)
+    if grid:
+        ax.grid(color=look.grid, linewidth=0.6 * look.stroke)
+    ax.spines[:].set(color=look.grid, linewidth=0.8 * look.stroke)
 
 
 def style_ticks(ax: Axes, look: Style) -> None:
@@ -501,7 +504,7 @@ def _signs(frames: Sequence[Frame], layers: Layers, look: Style, ppm: float) -> 
     return found
 
 
-def _legend_size(entries: Sequence[Entry | Sign], look: Style) -> tuple[float, float]:
+def legend_size(entries: Sequence[Entry | Sign], look: Style) -> tuple[float, float]:
     """Return the approximate width and height of a legend, inches."""
     if not entries:
         return 0.0, 0.0
