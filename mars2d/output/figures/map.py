@@ -85,11 +85,14 @@ def _paint(ax: Axes, drawing: Drawing, layer: str, color: str) -> None:
         else:
             walls.append(np.asarray(shapely.get_coordinates(piece.geometry)))
     ax.add_collection(
-        PathCollection(areas, facecolor=color, edgecolor=color, linewidth=0.3, alpha=0.85),
+        PathCollection(
+            areas, facecolor=color, edgecolor=color, linewidth=0.3, alpha=0.85, zorder=2
+        ),
         autolim=False,
     )
     ax.add_collection(
-        LineCollection(walls, colors=color, linewidth=1.2, capstyle="round"), autolim=False
+        LineCollection(walls, colors=color, linewidth=1.2, capstyle="round", zorder=2),
+        autolim=False,
     )
 
 
