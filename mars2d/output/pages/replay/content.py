@@ -19,7 +19,6 @@ from mars2d.output.layers.forces import (
     SLIPPING,
     as_read,
     force_scale,
-    mean_forces,
 )
 from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
 from mars2d.output.layers.rings import RING, has_ring
@@ -44,6 +43,7 @@ from mars2d.output.pages.replay.drawings import (
     shapes_of,
 )
 from mars2d.output.pages.replay.sensors import Carried
+from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
@@ -414,11 +414,10 @@ def _place_of(mark: Mark) -> dict[str, Any]:
 def _legend(legend: Legend) -> dict[str, Any]:
     """Return a legend for the page: its arrow at all round numbers, and its signs."""
     ruler = legend.ruler
-    numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
     return {
         "layer": legend.layer,
         "arrow": ruler and ["arrow", ruler.color, None, ruler.width],
-        "lengths": [[ruler.unit * each, ruler.in_words(each)] for each in numbers] if ruler else [],
+        "lengths": ruler.lengths if ruler else [],
         "signs": [
             {"room": sign.room, "meaning": sign.meaning, "shapes": shapes_of(sign.scene)}
             for sign in legend.signs
