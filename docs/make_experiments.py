@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import mars2d
-from mars2d.output.films.film import film_rows, save_film
+from mars2d.output.films.film import film_record
 
 DOCS = Path(__file__).parent
 SIZE = (480, 400)
@@ -26,12 +26,8 @@ def make(name: str) -> Path:
     record = mars2d.run(name)
     speed = float(record.time[-1]) / SECONDS
     size, fps = LIGHTER.get(name, (SIZE, FPS))
-    rows = film_rows(record.time, speed, fps)
     path = DOCS / "pictures" / f"{name}.gif"
-    frames = (record.frame(row) for row in rows)
-    sensors = name not in LIGHTER
-    save_film(frames, path, fps=fps, size=size, sensors=sensors, status=f"{speed:.3g}x")
-    return path
+    return film_record(record, path, speed=speed, size=size, fps=fps, sensors=name not in LIGHTER)
 
 
 if __name__ == "__main__":

@@ -160,11 +160,12 @@ def _save(
         if say:
             tell(f"picture: {paths['figure']}")
     if "video" in paths:
-        from mars2d.output.films.triptych import save_triptych
+        from mars2d.output.films.triptych import triptych
 
         progress = Progress(max(footage.count(last) for footage, last in reels.values()), "frames")
         try:
-            save_triptych(comparison, reels, paths["video"], fps=FPS, progress=progress.update)
+            pictures = triptych(comparison, reels)
+            film.save_pictures(pictures, paths["video"], FPS, progress.update)
         finally:
             progress.close()
         if say:
