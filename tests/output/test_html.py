@@ -129,7 +129,7 @@ def circling(rows, turn):
 
 @pytest.mark.slow
 def test_the_lines_of_a_long_run_are_those_of_its_path_and_there_is_none_across_a_bend():
-    record = circling(400_001, np.array([0.03, 0.9]))
+    record = circling(400_001, np.array([0.03, 0.5]))
     text = page(record)
     assert len(text.encode()) < 2_000_000
     content, columns = held(text)
