@@ -5,12 +5,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError
-from mars2d.core.terminal import warn
 from mars2d.output.films.film import size_of
 from mars2d.output.raster import has_pygame
 from mars2d.scenario.animation import playback_speed
