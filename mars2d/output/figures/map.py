@@ -37,7 +37,7 @@ def plot_map(drawing: Drawing) -> Figure:
     """Draw a map, areas filled and walls as lines, in a new figure with axes in metres."""
     width, height = (max(side, max(drawing.size) / 20) for side in drawing.size)
     scale = LONG_SIDE / max(width, height)
-    legend = 0.5 + 0.075 * min(max(map(len, drawing.layers)), NAME_LIMIT + 6)
+    legend = 0.5 + 0.075 * min(max(map(len, drawing.layers), default=0), NAME_LIMIT + 6)
     size = max(scale * width, MIN_SIDE) + 0.9 + legend, max(scale * height, MIN_SIDE) + 0.9
     figure = new_figure(*size)
     ax = figure.add_subplot()
