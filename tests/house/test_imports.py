@@ -26,7 +26,7 @@ LAYERS = [
 ]
 """The rooms of the house, low to high: each imports from below only, for types and late as well."""
 
-HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "svgelements", "yaml"}
+HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "wasmtime", "yaml"}
 
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if "examples" not in path.parts)
 
