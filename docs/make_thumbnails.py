@@ -22,7 +22,7 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.scenario.examples import examples
 from mars2d.window.home import Home
-from mars2d.window.memory import Memory
+from mars2d.window.screen.memory import Memory
 from mars2d.world.record import Record
 
 FOLDER = Path(__file__).parents[1] / "examples" / "thumbnails"

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from mars2d.study.sweep import sweep
     from mars2d.study.table import Table
     from mars2d.study.tournament.tournament import tournament
-    from mars2d.window.run import run
+    from mars2d.window.entry import run
 
 __version__ = "0.1.0"
 
@@ -79,7 +79,7 @@ __all__ = [
 
 _LATER = {
     "Table": "mars2d.study.table",
-    "run": "mars2d.window.run",
+    "run": "mars2d.window.entry",
     "sweep": "mars2d.study.sweep",
     "tournament": "mars2d.study.tournament.tournament",
 }

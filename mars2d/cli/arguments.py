@@ -17,7 +17,7 @@ from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.options import parse_option
 from mars2d.scenario.roles import robots_named
-from mars2d.window.display import Preferences
+from mars2d.window.screen.display import Preferences
 
 
 def add_run_arguments(parser: argparse.ArgumentParser) -> None:
@@ -56,7 +56,7 @@ def preferences_of(arguments: argparse.Namespace) -> Preferences:
     """Return the looks that `add_preferences` asks for, else those of the last window."""
     if not has_pygame():
         return Preferences()
-    from mars2d.window.memory import Memory
+    from mars2d.window.screen.memory import Memory
 
     return Memory().preferences(dark=arguments.dark, text=arguments.text)
 

@@ -16,9 +16,9 @@ def home(parser: argparse.ArgumentParser, _: argparse.Namespace) -> None:
     if not has_display():
         tell(parser.format_help().rstrip())
         return
-    from mars2d.window.display import started_display
     from mars2d.window.home import Home
-    from mars2d.window.memory import Memory
+    from mars2d.window.screen.display import started_display
+    from mars2d.window.screen.memory import Memory
 
     note = ""
     with started_display():

@@ -85,7 +85,7 @@ def _missing_in_browser(name: str) -> Finding:
 
 
 def _display() -> Finding:
-    from mars2d.window.display import display_available
+    from mars2d.window.screen.display import display_available
 
     if display_available():
         return Finding("display", "yes: windows open")

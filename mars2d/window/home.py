@@ -8,13 +8,13 @@ import pygame
 
 from mars2d.output.raster.layout import interface_scale
 from mars2d.scenario.examples import courses, examples_folder, games, title_of
-from mars2d.window.buttons import Buttons
-from mars2d.window.cards import Card, Page, Shelf
-from mars2d.window.display import PICTURES_A_SECOND, started_display
-from mars2d.window.looks import Looks
-from mars2d.window.memory import Memory
-from mars2d.window.notes import Notes
-from mars2d.window.rest import Rest
+from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
+from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.memory import Memory
+from mars2d.window.screen.rest import Rest
+from mars2d.window.widgets.buttons import Buttons
+from mars2d.window.widgets.cards import Card, Page, Shelf
+from mars2d.window.widgets.notes import Notes
 
 HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""

@@ -10,8 +10,10 @@ import pygame
 import pytest
 from PIL import Image
 
-from mars2d.window import compare_window, controls, viewpoint, window
+from mars2d.window import compare_window
 from mars2d.window.editor_window import EditorWindow
+from mars2d.window.run import controls, window
+from mars2d.window.screen import viewpoint
 from tests.processes import HIDDEN
 from tests.window import states
 

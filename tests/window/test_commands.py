@@ -12,7 +12,7 @@ import pytest
 
 from mars2d.cli import command_line as cli
 from mars2d.scenario import load_scenario
-from mars2d.window.display import display_available
+from mars2d.window.screen.display import display_available
 from mars2d.world.record import load
 from tests.processes import HIDDEN, PATIENCE, bare_environment, wait_until
 

@@ -9,9 +9,9 @@ from mars2d.cli import arguments as shared
 from mars2d.cli.command_line import BAD_INPUT, main
 from mars2d.cli.verbs import play, run
 from mars2d.scenario.roles import robots_named
-from mars2d.window import driver as driver_module
 from mars2d.window import show
-from mars2d.window.driver import ARROWS, LETTERS, Driver
+from mars2d.window.run import driver as driver_module
+from mars2d.window.run.driver import ARROWS, LETTERS, Driver
 from mars2d.world.teleop import Stick, command_of, ramped
 from tests.cases import each_case
 

@@ -23,8 +23,8 @@ from mars2d.window.editor.draft import Draft, Item, Motion
 from mars2d.window.editor.handles import spanned
 from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.verdict import judge
-from mars2d.window.looks import Looks
-from mars2d.window.viewpoint import Viewpoint
+from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.viewpoint import Viewpoint
 from tests.cases import each_case
 
 SQUARE = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))

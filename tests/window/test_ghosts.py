@@ -7,10 +7,10 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.controls import Controls, Marks
-from mars2d.window.ghosts import ghosts
-from mars2d.window.player import Player
-from mars2d.window.source import Playback
+from mars2d.window.run.controls import Controls, Marks
+from mars2d.window.run.ghosts import ghosts
+from mars2d.window.run.player import Player
+from mars2d.window.run.source import Playback
 from mars2d.world.timeline import Timeline
 from tests.worlds import ahead
 

@@ -9,7 +9,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.core.errors import InputError
 from mars2d.output.raster.painter import Painter
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.parameter_panel import LEAST_ROWS, ROW, ParameterPanel
+from mars2d.window.panels.parameter_panel import LEAST_ROWS, ROW, ParameterPanel
 
 FILE = """
 from typing import Annotated

@@ -5,11 +5,11 @@ import json
 import pytest
 
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.display import Preferences
-from mars2d.window.memory import Memory
-from mars2d.window.play import COUNTDOWN, game_of
-from mars2d.window.scores import Scores, Tally
-from mars2d.window.window import Window
+from mars2d.window.run.play import COUNTDOWN, game_of
+from mars2d.window.run.scores import Scores, Tally
+from mars2d.window.run.window import Window
+from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.memory import Memory
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from mars2d.core.errors import InputError
-from mars2d.window import keys
-from mars2d.window.display import display_available
-from mars2d.window.window import Window
+from mars2d.window.run import keys
+from mars2d.window.run.window import Window
+from mars2d.window.screen.display import display_available
 from tests.processes import HIDDEN
 from tests.window.circling import Circling
 from tests.window.person import (

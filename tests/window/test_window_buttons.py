@@ -11,7 +11,7 @@ from mars2d import load, run
 from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.table import LAYERS
 from mars2d.record.marks import marks_of
-from mars2d.window import context, keys, scope_menu, toolbar
+from mars2d.window.run import context, keys, scope_menu, toolbar
 from tests.window.person import differing
 
 

@@ -9,7 +9,7 @@ from mars2d.core.errors import LawError
 from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.compare_window import CompareWindow
-from mars2d.window.display import Preferences
+from mars2d.window.screen.display import Preferences
 from mars2d.window.trio import Trio
 from tests.cases import each_case
 from tests.window.person import differing

@@ -45,11 +45,11 @@ from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.toolbar import WIDTH, Toolbar
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
-from mars2d.window.help import Help
-from mars2d.window.keys import chord
-from mars2d.window.looks import Looks
-from mars2d.window.menu import Menu
-from mars2d.window.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.widgets.help import Help
+from mars2d.window.widgets.keys import chord
+from mars2d.window.widgets.menu import Menu
 
 TOOLS: dict[str, type[Tool]] = {
     "select": Select,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mars2d.window.keys import Key
+from mars2d.window.widgets.keys import Key
 
 TOOLS = (
     Key("select", ("v",), ("V",), "select and move"),

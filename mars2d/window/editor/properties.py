@@ -32,7 +32,7 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.panel import Row
 from mars2d.window.editor.readout import described
-from mars2d.window.menu import Entry, Menu
+from mars2d.window.widgets.menu import Entry, Menu
 
 Pixel = tuple[int, int]
 
