@@ -108,7 +108,7 @@ def test_a_recording_has_the_marks_that_its_run_had():
     ran = Marks(timeline).rows()
     player = Player(Playback(timeline.record), 1.0)
     player.go(20)
-    shown = Controls(player).time_state()
+    shown = Controls(player, player.source).time_state()
     assert {kind: [*rows] for kind, rows in shown.marks.items()} == {
         kind: [*ran[kind]] for kind in shown.marks
     }

@@ -164,5 +164,5 @@ def test_looks_help_pictures_and_leaving(compare):
     row = window.state["row"]
     window.press("r")
     window.until(lambda s: s["row"] < row or s["row"] < 5)
-    window.press("Escape")
+    window.press("ctrl+q")
     window.until(lambda s: s.get("left"))

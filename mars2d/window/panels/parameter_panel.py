@@ -18,6 +18,7 @@ from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.slider import ValueSlider
+from mars2d.window.widgets.text_field import TextField
 
 Pixel = tuple[int, int]
 Say = Literal["info", "error"]
@@ -47,7 +48,8 @@ FAST = 10
 """How many steps an arrow key goes with Shift."""
 TYPED = "0123456789.-e"
 """The characters of a number."""
-MAX_TYPED = 12
+MAX_TYPED, TYPED_WIDTH = 12, 104.0
+"""The longest number that can be typed, and the width of its field, points."""
 
 
 class Line(NamedTuple):
@@ -93,7 +95,7 @@ class ParameterPanel(Panel):
         self.places: dict[str, pygame.Rect] = {}  # of rows, by the names of parameters
         self.resets: dict[str, pygame.Rect] = {}
         self.focus: str | None = None  # the parameter that keys go to
-        self.typed = ""
+        self.typed = TextField(accepts=TYPED, most=MAX_TYPED)  # a number
         self.said: tuple[str, Say] = "", "info"
         self._held: str | None = None
         self._value = 0.0  # of what is held
@@ -128,7 +130,7 @@ class ParameterPanel(Panel):
                 heading = max(k for k, line in enumerate(self._lines) if line.parameter is None)
                 self._scroll = sum(line.height for line in self._lines[:heading])
             if self.focus not in {line.parameter.name for line in self._lines if line.parameter}:
-                self.focus, self.typed = None, ""
+                self.leave()
         return self._lines
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
@@ -143,7 +145,7 @@ class ParameterPanel(Panel):
         """Draw the content within a rectangle; the picture is kept until it changes."""
         lines, painter = self._look(), self.painter
         state = (
-            rect.copy(), painter.ui, painter.theme, lines, self.focus, self.typed, self._words(),
+            rect.copy(), painter.ui, painter.theme, lines, self.focus, self._typing, self._words(),
             self._held, self._value, self._scroll,
         )  # fmt: skip
         if self._image is None or state != self._drawn:
@@ -223,9 +225,13 @@ class ParameterPanel(Panel):
         """
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
         right, middle = end
-        if parameter.name == self.focus and self.typed:
-            image = fonts.render(f"{self.typed}|", SIZE * ui, theme.selected, bold=True)
-            return surface.blit(image, image.get_rect(midright=end)).left
+        if parameter.name == self.focus and self.typed.text:
+            box = pygame.Rect(0, 0, round(TYPED_WIDTH * ui), round((NAME - 3) * ui))
+            box.midright = end
+            self.painter.panel(surface, box, theme.paper, 4 * ui, theme.selected)
+            inner = box.inflate(-round(10 * ui), 0)
+            self.typed.draw(surface, inner, self.painter, SIZE * ui)
+            return box.left
         if parameter.unit:
             unit = fonts.render(f" {parameter.unit}", 0.9 * SIZE * ui, theme.muted)
             right -= unit.get_width()
@@ -292,7 +298,8 @@ class ParameterPanel(Panel):
         name = next((n for n, place in self.places.items() if place.collidepoint(pixel)), None)
         before, now = self._clicked, self._clock()
         again = name is not None and name == self.focus and now - before < DOUBLE
-        self.focus, self.typed, self.said, self._clicked = name, "", ("", "info"), now
+        self.leave()
+        self.focus, self.said, self._clicked = name, ("", "info"), now
         if name is None:
             return False
         if again or (name in self.resets and self.resets[name].collidepoint(pixel)):
@@ -356,30 +363,36 @@ class ParameterPanel(Panel):
 
     def leave(self) -> None:
         """Take the focus from all sliders."""
-        self.focus, self.typed = None, ""
+        self.focus = None
+        self.typed.clear()
 
-    def press(self, name: str, character: str, *, shift: bool) -> bool:
-        """Give a key to the slider that has the focus; return whether it took it.
+    @property
+    def _typing(self) -> tuple[object, ...]:
+        """All of what is typed that is drawn."""
+        return self.typed.text, self.typed.caret, self.typed.selected, self.typed.composed
 
-        name: pygame's. character: the text that it types.
-        """
+    def press(self, event: pygame.Event) -> bool:
+        """Give an event of the keyboard to the slider that has the focus; return if it took it."""
         parameter = self.parameters().get(self.focus or "") if self.is_open else None
         if parameter is None:
             return False
+        begins = event.type != pygame.KEYDOWN or event.unicode != "e" or self.typed.text
+        if begins and self.typed.handle(event):
+            self.said = "", "info"
+            return True
+        name = pygame.key.name(event.key) if event.type == pygame.KEYDOWN else ""
         if name in ("left", "right"):
-            step = parameter.step * (FAST if shift else 1) * (1 if name == "right" else -1)
+            fast = FAST if event.mod & pygame.KMOD_SHIFT else 1
+            step = parameter.step * fast * (1 if name == "right" else -1)
             self._set(parameter.name, parameter.nearest(parameter.value + step))
         elif name in ("up", "down"):
             self._focus_next(parameter.name, 1 if name == "down" else -1)
-        elif name in ("return", "enter", "keypad enter") and self.typed:
+        elif name in ("return", "enter") and self.typed.text:
             self._take(parameter)
+        elif name == "escape" and self.typed.text:
+            self.typed.clear()
         elif name == "escape":
-            self.focus, self.typed = (self.focus, "") if self.typed else (None, "")
-        elif name == "backspace" and self.typed:
-            self.typed = self.typed[:-1]
-        elif character and character in TYPED and (self.typed or character != "e"):
-            self.typed = (self.typed + character)[:MAX_TYPED]
-            self.said = "", "info"
+            self.leave()
         else:
             return False
         return True
@@ -387,8 +400,8 @@ class ParameterPanel(Panel):
     def _focus_next(self, name: str, way: int) -> None:
         """Let the next slider, or the one before, have the focus, and be seen."""
         names = [*self.parameters()]
-        self.focus = names[(names.index(name) + way) % len(names)]
-        self.typed, self.said = "", ("", "info")
+        self.leave()
+        self.focus, self.said = names[(names.index(name) + way) % len(names)], ("", "info")
         top = 0.0
         for line in self._lines:
             if line.parameter is not None and line.parameter.name == self.focus:
@@ -397,7 +410,8 @@ class ParameterPanel(Panel):
 
     def _take(self, parameter: Parameter) -> None:
         """Set the number that was typed."""
-        typed, self.typed = self.typed, ""
+        typed = self.typed.text
+        self.typed.clear()
         try:
             value = int(typed) if parameter.whole else float(typed)
         except ValueError:

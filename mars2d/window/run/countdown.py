@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from itertools import product
 from math import ceil, dist
 
@@ -11,13 +12,12 @@ import pygame
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.play import Choice, Play
 from mars2d.window.run.score_panel import draw_dot, draw_keys
-from mars2d.window.widgets.help import cap_width, draw_cap
+from mars2d.window.widgets.help import cap_width
+from mars2d.window.widgets.menu import Entry, Menu
 
-PAD, ROW, TITLE, AIM = 20.0, 46.0, 40.0, 17.0
-"""The margin, the heights of a choice, of the title and of a line below a choice, points."""
-WIDTH = 420.0
 SPOTS = 9
 """How many places from left to right, and from top to bottom, are tried for a plate."""
 NUMBER = 120.0
@@ -25,21 +25,20 @@ NUMBER = 120.0
 
 
 class Countdown:
-    """Draws over the arena before a game begins. places: where choices were drawn, by number."""
+    """Draws over the arena before a game begins. menu: of the roles to choose from."""
 
     def __init__(self, painter: Painter, play: Play) -> None:
         """Start with nothing drawn."""
         self.painter, self.play = painter, play
-        self.places: dict[int, pygame.Rect] = {}
+        self.menu = Menu()
+        self._scenario: Scenario | None = None
 
     def handle(self, event: pygame.Event) -> bool:
-        """Handle a press of a mouse button or a number; return whether it has chosen roles."""
-        if event.type == pygame.KEYDOWN and event.unicode.isdecimal():
-            return self.play.choose(int(event.unicode))
-        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            found = (n for n, place in self.places.items() if place.collidepoint(event.pos))
-            return self.play.choose(next(found, 0))
-        return False
+        """Handle an event for the menu, or a number at the end; return whether it was taken."""
+        if self.menu.handle(event):
+            return True
+        number = event.type == pygame.KEYDOWN and event.unicode.isdecimal()
+        return bool(number) and self.play.choose(int(event.unicode))
 
     def draw(
         self,
@@ -48,14 +47,14 @@ class Countdown:
         area: pygame.Rect,
         camera: Camera,
         frame: Frame,
-        pointer: tuple[int, int] | None,
     ) -> None:
         """Draw what there is to say now; area: of the picture, room: of the arena in it."""
-        self.places = {}
         robots = self._robots(camera, frame)
         if not self.play.seats:
-            self._draw_choices(surface, room, area, robots, frame, pointer)
-        elif self.play.counting:
+            self._offer(surface, room, area, robots, frame.scenario)
+            return
+        self.menu.close()
+        if self.play.counting:
             keys = self._draw_people(surface, room, robots, frame)
             self._draw_number(surface, room, [*robots, *keys])
 
@@ -101,56 +100,37 @@ class Countdown:
             plates.append(plate)
         return plates
 
-    def _draw_choices(
-        self,
-        surface: pygame.Surface,
-        room: pygame.Rect,
-        area: pygame.Rect,
-        robots: Sequence[pygame.Rect],
-        frame: Frame,
-        pointer: tuple[int, int] | None,
-    ) -> None:
-        """Draw the roles to choose from, each as a button."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        scenario, choices = frame.scenario, self.play.choices
-        pad, row = round(PAD * ui), round((ROW + AIM) * ui)
-        aims = [self._aim(choice, frame) for choice in choices]
-        needed = max(fonts.width(aim, 13.5 * ui) for aim in aims) + round(130 * ui)
-        width = min(max(round(WIDTH * ui), needed), area.width - 2 * pad)
-        plate = pygame.Rect(0, 0, width, round(TITLE * ui) + row * len(choices) + 2 * pad)
-        plate = _placed(plate, room, robots)
-        plate.clamp_ip(area)
-        self.painter.panel(surface, plate, theme.plate, 10 * ui, theme.edge)
-        title = fonts.render("Who do you play?", 20 * ui, theme.ink, bold=True)
-        surface.blit(title, (plate.left + pad, plate.top + pad))
-        for k, choice in enumerate(choices):
-            place = pygame.Rect(
-                plate.left + pad // 2, plate.top + pad + round(TITLE * ui) + k * row,
-                width - pad, row - round(4 * ui),
-            )  # fmt: skip
-            self.places[choice.number] = place
-            over = pointer is not None and place.collidepoint(pointer)
-            if over:
-                self.painter.panel(surface, place, theme.key, 6 * ui)
-            middle = place.top + round(ROW / 2 * ui)
-            left = place.left + pad // 2
-            x = draw_cap(surface, self.painter, str(choice.number), left, middle, ui)
-            for robot in choice.robots:
-                color = theme.shade(scenario.colors[robot])
-                draw_dot(surface, self.painter, color, (x + round(10 * ui), middle))
-                x += round(18 * ui)
-            words = fonts.render(choice.title, 17 * ui, theme.ink, bold=True)
-            surface.blit(words, words.get_rect(midleft=(x + round(8 * ui), middle)))
-            text = fonts.shorten(aims[k], 13.5 * ui, place.right - x - round(8 * ui))
-            image = fonts.render(text, 13.5 * ui, theme.muted)
-            surface.blit(image, (x + round(8 * ui), place.top + round((ROW - 8) * ui)))
+    def _offer(
+        self, surface: pygame.Surface, room: pygame.Rect, area: pygame.Rect,
+        robots: Sequence[pygame.Rect], scenario: Scenario,
+    ) -> None:  # fmt: skip
+        """Draw the menu of roles, beside the robots."""
+        if not self.menu.is_open or scenario is not self._scenario:
+            self._scenario = scenario
+            self.menu.open("roles", lambda: self._entries(scenario), (0, 0), stays=True)
+        size = self.menu.size(self.painter)
+        self.menu.corner = _placed(pygame.Rect((0, 0), size), room, robots).topleft
+        self.menu.draw(surface, area, self.painter)
 
-    def _aim(self, choice: Choice, frame: Frame) -> str:
+    def _entries(self, scenario: Scenario) -> list[Entry]:
+        """Return the roles to choose from, and how each wins."""
+        return [Entry("Who do you play?")] + [
+            Entry(
+                choice.title,
+                partial(self.play.choose, choice.number),
+                str(choice.number),
+                colors=[scenario.colors[robot] for robot in choice.robots],
+                more=self._aim(choice, scenario),
+            )
+            for choice in self.play.choices
+        ]
+
+    def _aim(self, choice: Choice, scenario: Scenario) -> str:
         """Return how a role wins; for two people, who has which keys."""
         contest = self.play.contest
         if len(choice.robots) > 1 or contest is None:
             return "arrow keys against W, A, S and D"
-        return contest.aim(choice.title, frame.scenario)
+        return contest.aim(choice.title, scenario)
 
 
 def _about(pixel: Sequence[int], width: int, height: int) -> pygame.Rect:

@@ -15,7 +15,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
 from mars2d.window.run.player import Player
 from mars2d.window.screen.looks import Looks
-from mars2d.window.screen.saving import copied
+from mars2d.window.widgets.clipboard import copied
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.past import Progress
 from mars2d.world.timeline import Timeline

@@ -10,8 +10,8 @@ from mars2d.output.raster.bars import Banner
 from mars2d.window.run.player import Player
 from mars2d.world.timeline import Timeline
 
-HINT = "← looks back   R restarts   Esc leaves"
-AGAIN = "R plays again   Esc leaves"
+HINT = "← looks back   R restarts   Ctrl Q leaves"
+AGAIN = "R plays again   Ctrl Q leaves"
 MEND = "correct the file and save it"
 
 

@@ -35,7 +35,7 @@ def hints_of(player: Player, game: Play | None, *, drives: bool, score_shown: bo
 
 def _of_game(game: Play, player: Player, *, score_shown: bool) -> Hints:
     if not game.seats:
-        return (*((str(each.number), each.title) for each in game.choices), ("Esc", "leave"))
+        return (*((str(each.number), each.title) for each in game.choices), ("Ctrl Q", "leave"))
     if game.counting:
         return ("Space", "start at once"), ("F1", "help")
     pause = "go on" if player.paused else "pause"

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import pygame
 
 from mars2d.output.layers.table import LAYERS
-from mars2d.window.widgets.keys import CONTROL, Key, chord
+from mars2d.window.widgets.keys import CONTROL, MODIFIERS, Key, chord
 
 MAX_NUMBER = 1_000_000
 """The largest number that can be typed before a command."""
@@ -68,6 +68,8 @@ SEE = (
     ),
 )
 
+LEAVE = Key("leave", ("ctrl+q", "ctrl+w"), ("Ctrl Q",), "close the window")
+
 DO = (
     Key("parameters", ("f2",), ("F2",), "sliders of parameters on and off"),
     Key("drive", ("h",), ("H",), "drive the selected robot by hand: arrow keys, WASD, controller"),
@@ -77,8 +79,8 @@ DO = (
     Key("film", ("v",), ("V",), "start and stop a film"),
     Key("python", ("c",), ("C",), "save the scenario as a Python file, and copy it"),
     Key("help", ("f1",), ("F1",), "all keys on and off"),
-    Key("close", ("ctrl+q", "ctrl+w"), ("Ctrl Q",), "close the window"),
-    Key("leave", ("escape",), ("Esc",), "close the help, let go, deselect, clear errors, leave"),
+    Key("escape", ("escape",), ("Esc",), "close the menu or the help, let go, deselect"),
+    LEAVE,
 )
 
 KEYS = (*TIME, *SEE, *DO)
@@ -94,11 +96,6 @@ MOUSE = (
 
 GROUPS: Mapping[str, Sequence[Key]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}
 """All keys, in the groups of the help."""
-
-MODIFIERS = frozenset(
-    f"{side} {key}" for side in ("left", "right") for key in ("shift", "ctrl", "alt", "meta", "gui")
-) | {"caps lock", "numlock", "scroll lock", "alt gr", "menu", "print screen", ""}
-"""Keys that only modify other keys."""
 
 _BY_NAME = {name: key for key in KEYS for name in key.names}
 _STEP = next(key for key in KEYS if key.action == "step")

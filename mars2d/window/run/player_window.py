@@ -26,6 +26,7 @@ from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.help import Help
+from mars2d.window.widgets.keys import chord
 from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
@@ -83,8 +84,8 @@ class PlayerWindow(ABC):
             **self.looks.actions,
             "picture": self._save_picture,
             "help": self.help.turn,
-            "close": self._close,
-            "leave": self._leave,
+            "leave": self._close,
+            "escape": self._escape,
         }
 
     @property
@@ -176,21 +177,22 @@ class PlayerWindow(ABC):
         """Answer the user while a law takes long at a line; return why to break it off, or ""."""
         if self._passing and where != self._awaited:
             self._awaited = where
-            self.notes.say(f"waiting for {where}; Esc leaves", kind="warning")
+            self.notes.say(f"waiting for {where}; Esc breaks it off", kind="warning")
         surface = pygame.display.get_surface()
         if surface is not None:
             self.draw(surface)
             pygame.display.flip()
         pygame.event.pump()
         closed = pygame.event.peek(pygame.QUIT)
-        keys_moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))
-        for event in keys_moved:  # for later, in their order
-            pygame.event.post(event)
-        escapes = [event for event in keys_moved if event.key == pygame.K_ESCAPE]
-        if closed or any(event.type == pygame.KEYDOWN for event in escapes):
+        moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))
+        for event in moved:  # for later, in their order
+            if event.key != pygame.K_ESCAPE:
+                pygame.event.post(event)
+        pressed = {chord(each.key, each.mod) for each in moved if each.type == pygame.KEYDOWN}
+        if closed or not pressed.isdisjoint(keys.LEAVE.names):
             self._open = False
             return "did not return before the window was closed"
-        return ""
+        return "did not return before Esc was pressed" if "escape" in pressed else ""
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -274,20 +276,18 @@ class PlayerWindow(ABC):
         """Close the window."""
         self._open = False
 
-    def _leave(self) -> None:
-        """Close the menu or the help, end an activity, clear errors, or leave."""
+    def _escape(self) -> None:
+        """Close the help, end an activity, or clear errors; a window is never closed by Esc."""
         if self._keyboard.number:
             return  # only the typed number is forgotten
-        if self.toolbar.menu.is_open:
-            self.toolbar.menu.close()
-        elif self.help.is_open:
+        if self.help.is_open:
             self.help.close()
         elif self._end_activity():
             pass
         elif self.notes.failed:
             self.notes.clear()
         else:
-            self._close()
+            self.notes.say("Ctrl Q closes the window")
 
     def _end_activity(self) -> bool:
         """End the last activity of the user's, such as a drag; return whether there was one."""

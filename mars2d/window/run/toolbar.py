@@ -20,7 +20,7 @@ TRANSPORT = (("start", "back", "pause", "step", "newest", "loop"),)
 SEE = ("layers", "scopes", "fit", "follow", "contacts", "predictions")
 CHANGE = ("parameters", "drive", "edit", "restart", "branch")
 SAVE = ("picture", "film", "python")
-LOOK = ("screen", "dark", "text", "help")
+LOOK = ("screen", "dark", "text", "help", "leave")
 
 
 class Toolbar:
@@ -46,7 +46,7 @@ class Toolbar:
         return {name: place for bar in self.bars for name, place in bar.places.items()}
 
     def handle(self, event: pygame.Event) -> bool:
-        """Handle a press of a mouse button; return whether a button or the menu took it."""
+        """Handle an event; return whether a button or the menu took it."""
         if self.menu.is_open and event.type == pygame.MOUSEBUTTONDOWN:
             opener = next((bar.at(event.pos) for bar in self.bars if bar.at(event.pos)), None)
             if opener is not None and opener == self.menu.name:
@@ -78,7 +78,7 @@ class Toolbar:
         surface.fill(theme.edge, (transport.left, transport.top, transport.width, edge))
         for bar, area in zip(self.bars, (transport, tools), strict=True):
             bar.draw(surface, area, painter, pointer)
-        self.menu.draw(surface, layout.plot, painter, pointer)
+        self.menu.draw(surface, layout.plot, painter)
         for bar in () if self.menu.is_open else self.bars:
             bar.draw_tip(surface, painter, pointer)
 

@@ -51,7 +51,6 @@ from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
-from mars2d.window.widgets.keys import CONTROL
 from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Progress, draw_progress
 from mars2d.world.timeline import Timeline
@@ -60,6 +59,7 @@ from mars2d.world.world import World
 if TYPE_CHECKING:
     from mars2d.window.editor import Editor
 
+TYPING = (pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING)
 SEEN = 4.0
 """The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
 
@@ -297,9 +297,7 @@ class Window(PlayerWindow):
             draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._draw_bars(surface, frame, banner)
         if self._before is not None and notes:
-            self._before.draw(
-                surface, self.viewpoint.room, layout.plot, self.camera, frame, self._pointer
-            )
+            self._before.draw(surface, self.viewpoint.room, layout.plot, self.camera, frame)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
@@ -360,21 +358,22 @@ class Window(PlayerWindow):
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
-        if self.director.handle(event):
+        over = self.editor is None and self.toolbar.menu.is_open and self.toolbar.handle(event)
+        if not over and self.director.handle(event):
             return True
         if self.editor is not None:
             self.editor.handle(event)
             if self.editor.dialogs.done:
                 self._close_editor(self.editor)
             return True
-        if self._before is not None and self._before.handle(event):
+        if not over and self._before is not None and self._before.handle(event):
             return True
-        if self.toolbar.handle(event):
+        if over or self.toolbar.handle(event):
             self._meet()
             return True
         if self._controls.handle(event) or (not self.help.is_open and self.dock.handle(event)):
             return True
-        return event.type == pygame.KEYDOWN and self._to_slider(event)
+        return event.type in TYPING and self._to_slider(event)
 
     def _point(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN:
@@ -382,11 +381,8 @@ class Window(PlayerWindow):
         self._mouse.handle(event)
 
     def _to_slider(self, event: pygame.Event) -> bool:
-        """Give a pressed key to the slider that has the focus; return whether it took it."""
-        name, shift = pygame.key.name(event.key), bool(event.mod & pygame.KMOD_SHIFT)
-        if self._drives or event.mod & CONTROL:
-            return False
-        return self.parameters.press(name, event.unicode, shift=shift)
+        """Give an event of the keyboard to the slider with the focus; return whether it took it."""
+        return not self._drives and self.parameters.press(event)
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether a pixel shows the picture, with nothing over it."""
@@ -519,7 +515,7 @@ class Window(PlayerWindow):
             self.selected = None
         elif self.game is not None and self.player.playing and not self.notes.failed:
             self.player.pause()
-            self.notes.say("paused: Space goes on, R begins again, Esc leaves")
+            self.notes.say("paused: Space goes on, R begins again, Ctrl Q leaves")
         else:
             return False
         return True
@@ -564,7 +560,7 @@ class Window(PlayerWindow):
         """Drive the selected robot by hand, or the first one; or stop driving."""
         scenario = self.player.source.scenario
         if self.game is not None:
-            self.notes.say("people drive until the end of the game; R begins again, Esc leaves")
+            self.notes.say("people drive until the end of the game; R begins again, Ctrl Q leaves")
         elif self._drives:
             self.director.let_go()
         elif self.selected is not None and self.selected >= len(scenario.robots):

@@ -19,6 +19,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import save_png
 from mars2d.scenario.python_file import as_python
 from mars2d.scenario.scenario import Scenario
+from mars2d.window.widgets.clipboard import copied
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.record import Record
 
@@ -208,17 +209,6 @@ def _removed_on_failure(path: Path) -> Iterator[None]:
     except BaseException:
         path.unlink(missing_ok=True)
         raise
-
-
-def copied(text: str) -> bool:
-    """Copy text to the clipboard; return whether that worked."""
-    if not pygame.display.get_init() or pygame.display.get_surface() is None:
-        return False
-    try:
-        pygame.scrap.put_text(text)
-        return bool(pygame.scrap.get_text() == text)
-    except pygame.error:
-        return False
 
 
 def _here() -> Path:
