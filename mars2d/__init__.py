@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from mars2d.study.run import sweep
     from mars2d.study.table import Table
     from mars2d.study.tournament.tournament import tournament
-    from mars2d.window.run import run
+    from mars2d.window.entry import run
     from mars2d.world.record import Record, load
     from mars2d.world.world import World
 
@@ -96,7 +96,7 @@ _HOMES = {
     "study.run": ("sweep",),
     "study.table": ("Table",),
     "study.tournament.tournament": ("tournament",),
-    "window.run": ("run",),
+    "window.entry": ("run",),
     "world.record": ("Record", "load"),
     "world.world": ("World",),
 }  # fmt: skip

@@ -14,7 +14,7 @@ from mars2d.output.films.film import size_of
 from mars2d.output.raster import has_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.options import parse_option
-from mars2d.window.display import Preferences
+from mars2d.window.screen.display import Preferences
 
 
 def _speed(text: str) -> float | str:

@@ -46,7 +46,7 @@ from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.registry import FAMILIES, members
 from mars2d.study import work
-from mars2d.window import keys
+from mars2d.window.run import keys
 from mars2d.world.views import PropView, RobotView
 from tests.cases import each_case
 from tests.worlds import solution

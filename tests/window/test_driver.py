@@ -7,9 +7,9 @@ from mars2d import Car, Holonomic, InputError, Robot, Scenario, Unicycle
 from mars2d.addons import Game
 from mars2d.cli.command_line import BAD_INPUT, main
 from mars2d.scenario.roles import robots_named
-from mars2d.window import driver as driver_module
 from mars2d.window import show
-from mars2d.window.driver import ARROWS, LETTERS, Driver
+from mars2d.window.run import driver as driver_module
+from mars2d.window.run.driver import ARROWS, LETTERS, Driver
 from mars2d.world.teleop import Stick, command_of, ramped
 from tests.cases import each_case
 

@@ -7,9 +7,9 @@ import pytest
 from mars2d.cli.command_line import main, parse
 from mars2d.output.raster.layout import TEXT_SIZES
 from mars2d.scenario.examples import examples, games, thumbnail_of
-from mars2d.window.display import Preferences
 from mars2d.window.home import Home
-from mars2d.window.memory import Memory
+from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.memory import Memory
 from tests.cases import each_case
 
 SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
