@@ -25,7 +25,7 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.scenario.examples import examples, thumbnail_of
 from mars2d.window.home import Home
-from mars2d.window.memory import Memory
+from mars2d.window.screen.memory import Memory
 from mars2d.world.record import Record
 
 DOCS = Path(__file__).parent

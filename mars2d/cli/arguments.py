@@ -118,7 +118,7 @@ def preferences_of(arguments: argparse.Namespace) -> Preferences:
     """Return the looks that --dark and --text ask for, else those of the last window."""
     if not has_pygame():
         return Preferences()
-    from mars2d.window.memory import Memory
+    from mars2d.window.screen.memory import Memory
 
     return Memory().preferences(dark=arguments.dark, text=arguments.text)
 
