@@ -17,7 +17,7 @@ import pygame
 from PIL import Image
 
 import mars2d
-from mars2d.output.films.film import film_rows, save_film
+from mars2d.output.films.film import film_record
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
@@ -25,7 +25,7 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import theme_of
 from mars2d.scenario.examples import examples, thumbnail_of
 from mars2d.window.home import Home
-from mars2d.window.memory import Memory
+from mars2d.window.screen.memory import Memory
 from mars2d.world.record import Record
 
 DOCS = Path(__file__).parent
@@ -65,9 +65,7 @@ def film(record: Record, path: Path) -> None:
     """Write the film of a run, all of it in `SECONDS`."""
     speed = float(record.time[-1]) / SECONDS
     size, fps = LIGHTER.get(path.stem, (FILM_SIZE, FPS))
-    frames = (record.frame(row) for row in film_rows(record.time, speed, fps))
-    sensors = path.stem not in LIGHTER
-    save_film(frames, path, fps=fps, size=size, sensors=sensors, status=f"{speed:.3g}x")
+    film_record(record, path, speed=speed, size=size, fps=fps, sensors=path.stem not in LIGHTER)
 
 
 def draw_home() -> None:

@@ -71,7 +71,7 @@ def test_bash_completes_commands_options_examples_and_files(here, capsys, words,
     pytest.importorskip("shtab")
     (here / "walk.py").touch()
     (here / "walk.txt").touch()
-    assert cli.main(["completion", "bash"]) == 0
+    assert cli.main(["doctor", "--completion", "bash"]) == 0
     (here / "complete.sh").write_text(capsys.readouterr().out)
     line = " ".join(words)
     script = (

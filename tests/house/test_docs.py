@@ -46,7 +46,7 @@ from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.registry import FAMILIES, members
 from mars2d.study import work
-from mars2d.window import keys
+from mars2d.window.run import keys
 from mars2d.world.views import PropView, RobotView
 from tests.cases import each_case
 from tests.worlds import solution
@@ -171,7 +171,7 @@ class Reader:
             return "".join(self.command(part, expected) for part in parts)
         words = shlex.split(line)
         assert words[0] == "mars2d", f"{self.document.name}: what is {line!r}?"
-        arguments = cli.parser().parse_args(words[1:])
+        arguments = cli.parse(words[1:])
         made = getattr(arguments, "video", None) or getattr(arguments, "html", None)
         needs_window = words[1:2] == ["replay"] and not made
         needs_window |= getattr(arguments, "speed", None) == 0
@@ -399,8 +399,7 @@ def module(path: Path) -> ModuleType:
 
 def verbs() -> dict[str, Any]:
     """The sub-commands and their parsers."""
-    parser = cli.parser()
-    return dict(parser._subparsers._group_actions[0].choices)
+    return {verb: cli.parser_of(verb) for verb in cli.VERBS}
 
 
 def test_each_command_has_a_section_and_each_section_a_command():

@@ -19,8 +19,7 @@ from mars2d.core.extras import pip_line
 from mars2d.scenario.examples import examples
 from mars2d.study import cluster as clusters
 from mars2d.study.cluster import cluster
-from mars2d.study.work import each_done
-from mars2d.study.workers import Failure
+from mars2d.study.work import Failure, each_done
 
 pytest.importorskip("distributed")
 

@@ -147,9 +147,8 @@ def _check_map(path: Path, options: dict[str, Any], picture: Path | None) -> Non
     for name in options:
         if name not in known:
             raise InputError(f"--set {name}: no option{nearest(name, known)}")
-    tolerance = options.pop("tolerance", maps.TOLERANCE)
     drawing = maps.read(path, **options)
-    for name, text in maps.described(drawing, maps.obstacles(drawing, tolerance), tolerance):
+    for name, text in maps.described(drawing, maps.obstacles(drawing)):
         tell(f"{name:<12}{text}")
     if picture is not None:
         tell(f"picture     {save_map(drawing, picture)}")

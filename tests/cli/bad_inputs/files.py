@@ -81,8 +81,6 @@ CASES = [
           a__csv=STUDY),
     typed("a study over notes", "mars2d sweep random_walk --out a.csv", "a.csv",
           a__csv="my notes\n"),
-    typed("a bench beside garbage", "mars2d bench S1 --compare a.json", "a.json", a__json=GARBAGE),
-    typed("a bench beside other data", "mars2d bench S1 --compare a.json", "a.json", a__json="[1]"),
     typed("a paper over a folder of one's own", "mars2d paper out --only 2", "out", "notes.txt",
           **{"out/notes__txt": "mine"}),
     typed("a check of a broken experiment", "mars2d check bad.py", "bad.py, line 1",

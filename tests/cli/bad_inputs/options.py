@@ -64,7 +64,6 @@ OF_OTHERS = [
     ("a check of a CAD file", "mars2d check plan.dwg", "plan.dwg", ".py", ".dxf"),
     ("a paper without a folder", "mars2d paper", "OUT"),
     ("a paper over a file", "mars2d paper /dev/null --only 2", "/dev/null", "folder"),
-    ("a bench into a text", "mars2d bench S1 --save a.txt", "a.txt", ".json"),
 ]
 
 OF_SWEEP = [
