@@ -130,12 +130,8 @@ class Home:
 
     def _draw_line(self, surface: pygame.Surface, footer: pygame.Rect, pad: int) -> None:
         """Say more about the chosen card, and the command that opens it."""
-        ui, theme, fonts, card = (
-            self.painter.ui,
-            self.painter.theme,
-            self.painter.fonts,
-            self.page.card,
-        )
+        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
+        card = self.page.card
         if card is None:
             return
         command = fonts.shorten(" ".join(("mars2d", *card.command)), 13 * ui, 0.45 * footer.width)
