@@ -6,7 +6,7 @@ import pytest
 
 from mars2d.cli.command_line import main, parse
 from mars2d.output.raster.layout import TEXT_SIZES
-from mars2d.scenario.examples import examples, games, thumbnail_of
+from mars2d.scenario.examples import examples, games
 from mars2d.window.home import Home
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.memory import Memory
@@ -48,15 +48,6 @@ def press(home, key, modifiers=0):
 
 def all_cards(home):
     return [card for shelf in home.shelves for card in shelf.cards]
-
-
-# -- courses --------------------------------------------------------------------------------------
-
-
-def test_each_example_has_its_pictures():
-    for name in examples():
-        for looks in ("light", "dark"):
-            assert thumbnail_of(name, looks).is_file(), name
 
 
 # -- clicks ---------------------------------------------------------------------------------------
