@@ -15,7 +15,7 @@ from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.study.job import code_of
 from mars2d.study.measures import measure_named, measured
-from mars2d.study.table import Result, Table, load_table
+from mars2d.study.table import Result, Table
 from mars2d.world.record import Record
 
 
@@ -24,7 +24,7 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
 
     An error of a law is raised, as by ``mars2d run``.
     """
-    table = load_table(path)
+    table = Table.load(path)
     then = _row(table, arguments.row, path)
     experiment = open_experiment(_source(table, path), dict(then.options), seed=then.seed)
     options = "".join(f"{name} = {shown(value)}, " for name, value in then.options.items())

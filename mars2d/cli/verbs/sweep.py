@@ -18,7 +18,7 @@ from mars2d.study.plan import parse_all, seeds_of
 from mars2d.study.run import sweep
 from mars2d.study.statistics import confident
 from mars2d.study.summary import comparison, summary
-from mars2d.study.table import Table, is_table, load_table
+from mars2d.study.table import Table, is_table
 from mars2d.study.units import checked_units, parse_units
 
 TABLE = Path("sweep.csv")
@@ -84,7 +84,7 @@ def execute(arguments: argparse.Namespace) -> None:
         raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
     if given.lower().endswith(".csv"):
         _refuse(arguments, OF_RUNS, f"{given} is there already")
-        table = load_table(given)
+        table = Table.load(given)
         stated = checked_units(parse_units(arguments.unit), [*table.settings, *table.measures])
         table = dataclasses.replace(table, units={**table.units, **stated})
         _report(arguments, table, Path(given))
