@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import tomllib
+from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 
 import pytest
@@ -86,6 +88,25 @@ def test_what_compiles_is_installed_first_where_it_is_missing(tools):
     assert remedy().startswith("dnf install gcc python3-devel && pip install ")
     tools("gcc", "apt-get")
     assert remedy().startswith("pip install ")
+
+
+def test_doctor_names_all_extras_and_the_line_for_those_that_are_missing(monkeypatch):
+    project = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = {*project["optional-dependencies"]} - {"all", "dev", "docs", "test"}
+    findings = {finding.name: finding for finding in examine()}
+    assert extras <= {*findings}
+    assert not {"dev", "docs", "test"} & {*findings}
+
+    def version(name):
+        if name == "av":
+            raise PackageNotFoundError
+        return "1"
+
+    monkeypatch.setattr("mars2d.reports.doctor.version", version)
+    findings = {finding.name: finding for finding in examine()}
+    assert findings["video"].text == 'for films as .mp4: pip install "av>=17"'
+    assert findings["video"].ok is None
+    assert findings["maps"].ok
 
 
 def test_doctor_and_long_runs_say_it(capsys, monkeypatch, tmp_path):
