@@ -23,17 +23,14 @@ AGAIN = "pip install --force-reinstall --no-deps"
 
 
 class Installed:
-    """An installed distribution: where it is, and what pip has noted of where it came from."""
+    """An installed distribution: what pip has noted of where it came from."""
 
-    def __init__(self, told: dict | None, folder: Path) -> None:
-        self.told, self.folder = told, folder
+    def __init__(self, told: dict | None) -> None:
+        self.told = told
 
     def read_text(self, name: str) -> str | None:
         assert name == "direct_url.json"
         return None if self.told is None else json.dumps(self.told)
-
-    def locate_file(self, name: str) -> Path:
-        return self.folder / name
 
 
 @pytest.fixture
@@ -53,7 +50,10 @@ def tools(monkeypatch):
 @each_case(
     "told, line",
     [
-        ({"url": "file:///a/my%20code", "dir_info": {}}, f"{AGAIN} file:///a/my%20code"),
+        (
+            {"url": "file:///a/my%20code", "dir_info": {}},
+            f"{AGAIN} --no-cache-dir file:///a/my%20code",
+        ),
         (
             {"url": "https://x.org/m.git", "vcs_info": {"vcs": "git", "commit_id": "abc"}},
             f"{AGAIN} --no-cache-dir git+https://x.org/m.git@abc",
@@ -71,7 +71,7 @@ def tools(monkeypatch):
 )
 @pytest.mark.usefixtures("tools")
 def test_it_installs_again_from_where_it_was_installed(told, line, monkeypatch):
-    monkeypatch.setattr(remedies, "distribution", lambda _: Installed(told, PACKAGE.parent))
+    monkeypatch.setattr(remedies, "distribution", lambda _: Installed(told))
     assert remedy() == line
 
 
