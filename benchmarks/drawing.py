@@ -59,8 +59,8 @@ from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame, between
 from mars2d.record.rows import COLUMNS
 from mars2d.sensors import RangeFinder
-from mars2d.window.display import Preferences, be_quick
-from mars2d.window.window import Window
+from mars2d.window.run.window import Window
+from mars2d.window.screen.display import Preferences, be_quick
 from mars2d.world.record import Record
 
 SIZE = (1280, 720)

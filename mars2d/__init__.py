@@ -28,10 +28,10 @@ if TYPE_CHECKING:
     from mars2d.scenario.scenario import Scenario
     from mars2d.scenario.toml_file import save_scenario
     from mars2d.sensors import Sensor
-    from mars2d.study.sweep import sweep
+    from mars2d.study.run import sweep
     from mars2d.study.table import Table
     from mars2d.study.tournament.tournament import tournament
-    from mars2d.window.run import run
+    from mars2d.window.entry import run
     from mars2d.world.record import Record, load
     from mars2d.world.world import World
 
@@ -93,10 +93,10 @@ _HOMES = {
     "scenario.scenario": ("Scenario",),
     "scenario.toml_file": ("save_scenario",),
     "sensors": ("Sensor",),
-    "study.sweep": ("sweep",),
+    "study.run": ("sweep",),
     "study.table": ("Table",),
     "study.tournament.tournament": ("tournament",),
-    "window.run": ("run",),
+    "window.entry": ("run",),
     "world.record": ("Record", "load"),
     "world.world": ("World",),
 }  # fmt: skip

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError
-from mars2d.core.terminal import warn
 from mars2d.output.films.film import size_of
 from mars2d.output.raster import has_pygame
 from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.options import parse_option
-from mars2d.window.display import Preferences
+from mars2d.window.screen.display import Preferences
 
 
 def _speed(text: str) -> float | str:
@@ -120,7 +118,7 @@ def preferences_of(arguments: argparse.Namespace) -> Preferences:
     """Return the looks that --dark and --text ask for, else those of the last window."""
     if not has_pygame():
         return Preferences()
-    from mars2d.window.memory import Memory
+    from mars2d.window.screen.memory import Memory
 
     return Memory().preferences(dark=arguments.dark, text=arguments.text)
 
@@ -140,10 +138,5 @@ def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None,
         raise InputError(
             "--workers is of this machine: a cluster has its own; give it or --cluster"
         )
-    with ExitStack() as stack:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", UserWarning)
-            executor = stack.enter_context(cluster(arguments.cluster))
-        for warning in caught:
-            warn(warning.message)
+    with cluster(arguments.cluster) as executor:
         yield executor, None

@@ -160,9 +160,9 @@ def _home(_: argparse.Namespace) -> None:
     if not has_display():
         tell(_Root().format_help(), end="")
         return
-    from mars2d.window.display import started_display
     from mars2d.window.home import Home
-    from mars2d.window.memory import Memory
+    from mars2d.window.screen.display import started_display
+    from mars2d.window.screen.memory import Memory
 
     note = ""
     with started_display():

@@ -129,7 +129,8 @@ def _waits(law: Callable[..., Any]) -> Iterator[str]:
     """Yield a remark on each call, in a law or a function that it names, that would wait."""
     code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
     named: list[Any] = [names.get(name) for name in code.co_names] if code else []
-    for function in (law, *(each for each in named if isinstance(each, FunctionType))):
+    functions: list[Any] = [law, *(each for each in named if isinstance(each, FunctionType))]
+    for function in functions:
         for place, node in _nodes(function):
             called = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
             if called in WAITING:

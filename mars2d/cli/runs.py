@@ -13,7 +13,7 @@ from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import courses, title_of
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.display import Preferences
+from mars2d.window.screen.display import Preferences
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
@@ -32,7 +32,7 @@ FASTEST_BY_HAND = 10.0
 
 def has_display() -> bool:
     """Return whether a window could be opened."""
-    from mars2d.window.display import display_available
+    from mars2d.window.screen.display import display_available
 
     return display_available()
 

@@ -71,7 +71,7 @@ def _library(name: str) -> Finding:
 
 
 def _display() -> Finding:
-    from mars2d.window.display import display_available
+    from mars2d.window.screen.display import display_available
 
     try:
         if display_available():

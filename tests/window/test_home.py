@@ -6,10 +6,10 @@ import pytest
 
 from mars2d.cli.command_line import main, parse
 from mars2d.output.raster.layout import TEXT_SIZES
-from mars2d.scenario.examples import examples, examples_folder, games
-from mars2d.window.display import Preferences
+from mars2d.scenario.examples import examples, games, thumbnail_of
 from mars2d.window.home import Home
-from mars2d.window.memory import Memory
+from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.memory import Memory
 from tests.cases import each_case
 
 SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
@@ -56,7 +56,7 @@ def all_cards(home):
 def test_each_example_has_its_pictures():
     for name in examples():
         for looks in ("light", "dark"):
-            assert (examples_folder() / "thumbnails" / f"{name}_{looks}.png").is_file(), name
+            assert thumbnail_of(name, looks).is_file(), name
 
 
 # -- clicks ---------------------------------------------------------------------------------------

@@ -116,11 +116,12 @@ def _save(
     if arguments.figure:
         made["picture"] = comparison.save_figure(arguments.figure)
     if arguments.video:
-        from mars2d.output.films.triptych import save_triptych
+        from mars2d.output.films.film import save_pictures
+        from mars2d.output.films.triptych import triptych
 
         made["film"] = arguments.video
         with filming(max(footage.count(last) for footage, last in reels.values())) as update:
-            save_triptych(comparison, reels, arguments.video, fps=FPS, progress=update)
+            save_pictures(triptych(comparison, reels), arguments.video, FPS, update)
     return made
 
 

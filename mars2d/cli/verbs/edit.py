@@ -37,7 +37,7 @@ def execute(arguments: argparse.Namespace) -> None:
     require_display(NO_DISPLAY)
     from mars2d.window.editor import Editor
     from mars2d.window.editor_window import EditorWindow
-    from mars2d.window.looks import Looks
+    from mars2d.window.screen.looks import Looks
 
     robots_wanted = any(name.partition(".")[0] == "robots" for name in options)
     editor = Editor(

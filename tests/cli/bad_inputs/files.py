@@ -88,7 +88,7 @@ CASES = [
     typed("a check of an empty file", "mars2d check bad.py", "bad.py", "scenario", bad__py=""),
     typed("a tournament of broken files", "mars2d tournament sumo --players nothing",
           "nothing", **{"nothing/readme__txt": "no laws"}),
-    typed("a tournament into notes", "mars2d tournament sumo --players sumo_players --out out",
+    typed("a tournament into notes", "mars2d tournament sumo --players players --out out",
           "out", "notes.txt", **{"out/notes__txt": "mine"}),
     typed("a page in a folder", "mars2d run random_walk --headless --html a.html", "a.html",
           "folder",

@@ -48,7 +48,7 @@ OF_OTHERS = [
     ("three people", "mars2d play sumo --role red,blue,red", "two people at most"),
     (
         "a law for a role that is not there",
-        "mars2d check corner_pursuers/ahead.py --for corner_game --role pursuers",
+        "mars2d check pursuers/ahead.py --for corner_game --role pursuers",
         "did you mean 'pursuer'?",
     ),
     (
@@ -91,10 +91,10 @@ OF_SWEEP = [
 OF_TOURNAMENT = [
     ("a tournament of nothing", "", "SCENARIO"),
     ("a tournament of nobody", "sumo", "--players"),
-    ("a role that is none", "sumo --role green=sumo_players", "green", "red"),
-    ("a tournament of no workers", "sumo --players sumo_players --workers 0", "workers=0"),
-    ("a tick of no time", "sumo --players sumo_players --tick-limit 0", "tick", "0"),
-    ("a match of NaN seconds", "sumo --players sumo_players --match-limit nan", "match", "nan"),
+    ("a role that is none", "sumo --role green=players", "green", "red"),
+    ("a tournament of no workers", "sumo --players players --workers 0", "workers=0"),
+    ("a tick of no time", "sumo --players players --tick-limit 0", "tick", "0"),
+    ("a match of NaN seconds", "sumo --players players --match-limit nan", "match", "nan"),
     ("a match's record without a match", "sumo --record a.npz", "--record", "--match"),
 ]
 
