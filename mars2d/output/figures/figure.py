@@ -29,10 +29,10 @@ from mars2d.output.figures.legend import (
     sign_scale,
 )
 from mars2d.output.figures.style import SCREEN, Style, style_of
-from mars2d.output.layers.arrows import has_cut
+from mars2d.output.layers.arrows import Sign, has_cut
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.impulses import impulses
-from mars2d.output.layers.legend import Sign, legends
+from mars2d.output.layers.legend import legends
 from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import pygame
 
 from mars2d.core.scene import faded
-from mars2d.output.layers.legend import Legend, Sign
+from mars2d.output.layers.arrows import Sign
+from mars2d.output.layers.legend import Legend
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 

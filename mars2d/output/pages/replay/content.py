@@ -14,6 +14,7 @@ from mars2d.core.errors import ordinal
 from mars2d.core.quantity import UNKNOWN, Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
+from mars2d.output.layers.arrows import MAX_ARROW
 from mars2d.output.layers.forces import (
     FAINTEST,
     MAX_CONTACTS,
@@ -21,7 +22,7 @@ from mars2d.output.layers.forces import (
     as_read,
     force_scale,
 )
-from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
+from mars2d.output.layers.legend import Legend, legends
 from mars2d.output.layers.rings import RING, has_ring
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
 from mars2d.output.layers.trails import (
@@ -462,7 +463,7 @@ def pack_contacts(record: Rows, kept: Int, shown: Sequence[int]) -> Columns:
     kept: the record's rows of the replay. shown: those of them that have arrows.
     """
     columns = Columns()
-    strongest = force_scale(record.scenario).strongest
+    strongest = force_scale(record.scenario).most
     rows = record.contact_rows
     place = np.searchsorted(kept, rows)
     at = np.minimum(place, len(kept) - 1)
