@@ -372,11 +372,7 @@ class Sensor(Stateful):
 
     @property
     def fan(self) -> Fan | None:
-        """The beams that it reads distances along and that `draw` draws; None for other sensors.
-
-        Then a page can hold a byte a beam in place of the shapes. A class that overrides `draw`
-        overrides this as well, or is taken to draw something else.
-        """
+        """The beams that it reads distances along; None for other sensors."""
         return None
 
     # -- when it measures --------------------------------------------------------------------

@@ -12,7 +12,7 @@ from mars2d.core.scene import Scene
 from mars2d.output.figures.comparison import COLORS, NO_DRIFT
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
-from mars2d.window.plot import Limits, draw_axes, polylines
+from mars2d.window.widgets.plot import Limits, draw_axes, polylines
 
 Float = NDArray[np.float64]
 
