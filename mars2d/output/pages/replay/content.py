@@ -357,7 +357,7 @@ class _Content:
             self.notes.append(f"not drawn, since their code is not in the record: {listed}")
         if not self.carried:
             return
-        drawings, stride = sensors.drawings(self.carried, self.poses, self.scenario.colors)
+        drawings, stride = sensors.drawings(self.carried, self.scenario.colors)
         headers: list[dict[str, Any]] = []
 
         def packed(every: int) -> tuple[Columns, int]:
