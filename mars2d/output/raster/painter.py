@@ -24,15 +24,12 @@ from mars2d.core.scene import (
     Text,
     split_wake_style,
 )
-from mars2d.output.arrow import arrow_outline
+from mars2d.output.lines import DASHES, MARK_SPACING, arrow_outline, spaced
 from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Rgba, rgba
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.strokes import (
-    DASHES,
-    MARK_SPACING,
-    arc_length,
     clip_polygon,
     dashes,
     simplified,
@@ -237,8 +234,7 @@ class Painter:
         elif line:
             brushes.stroke(surface, color, [points], width)
         if marker:
-            buckets = np.floor(arc_length(points) / (MARK_SPACING * self.ui))
-            kept = np.concatenate([[True], np.diff(buckets) > 0])
+            kept = spaced(points, MARK_SPACING * self.ui)
             self.marks(surface, points[kept], marker, ink, shape.width)
 
     def _segment(self, surface: pygame.Surface, shape: Line, camera: Camera) -> None:
