@@ -451,7 +451,7 @@ def test_geojson_has_solid_polygons_walls_and_layers(tmp_path):
     rings = [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]], [[1, 1], [3, 1], [3, 3], [1, 3], [1, 1]]]
     features = [
         ({"layer": "walls"}, {"type": "Polygon", "coordinates": rings}),
-        ({"name": "doors"}, {"type": "MultiLineString", "coordinates": [[[5, 0], [6, 0, 9]]]}),
+        ({"name": "doors"}, {"type": "MultiLineString", "coordinates": [[[5, 0, 1], [6, 0, 9]]]}),
         (None, {"type": "LineString", "coordinates": [[7, 0], [8, 0]]}),
         ({}, {"type": "Point", "coordinates": [1, 1]}),
         ({}, None),
