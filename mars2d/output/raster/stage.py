@@ -106,6 +106,9 @@ PATIENCE = 0.012
 AHEAD = 0.004
 """Where it takes longer, the seconds of each picture in which the next canvas is drawn."""
 
+OLDEST = 0.25
+"""The seconds after which an enlarged picture is drawn anew, however long that takes."""
+
 WIDE_MARGIN = 0.25
 """The margin that is drawn on all sides while the camera moves, as a share of the picture."""
 NEAR_MARGIN = 0.1
@@ -127,6 +130,7 @@ class Stage:
         self.painter = painter
         self.memory = memory
         self._canvas: Canvas | None = None
+        self._canvas_since = 0.0  # perf_counter
         self._next: Canvas | None = None  # the canvas that will be needed soon
         self._key: tuple[Hashable, ...] = ()
         self._scenario: Scenario | None = None
@@ -264,10 +268,12 @@ class Stage:
             canvas = self._next = None
         self._key, self._scenario = key, frame.scenario
         slow = canvas is not None and canvas.seconds > PATIENCE
-        if canvas is not None and hurried and slow:
+        fresh = perf_counter() - self._canvas_since < OLDEST
+        if canvas is not None and hurried and slow and (fresh or canvas.shows(camera, plot)):
             canvas = self._look_ahead(canvas, frame, camera, layers, plot)
         elif canvas is None or not canvas.is_exact(camera) or not canvas.shows(camera, plot):
             canvas = Canvas(self.painter, frame, camera, layers, size, plot, memory=self.memory)
+            self._canvas_since = perf_counter()
         self._canvas = canvas
         return canvas
 
