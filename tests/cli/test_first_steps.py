@@ -75,6 +75,9 @@ def test_bash_completes_commands_options_examples_and_files(here, capsys, words,
     (here / "walk.txt").touch()
     assert cli.main(["doctor", "--completion", "bash"]) == 0
     (here / "complete.sh").write_text(capsys.readouterr().out)
+    for shell in ("zsh", "tcsh", "fish", "powershell"):
+        assert cli.main(["doctor", "--completion", shell]) == 0
+        assert "tournament" in capsys.readouterr().out
     line = " ".join(words)
     script = (
         f"source complete.sh; COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; "

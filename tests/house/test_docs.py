@@ -405,6 +405,8 @@ def verbs() -> dict[str, Any]:
 def test_each_command_has_a_section_and_each_section_a_command():
     text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
     assert re.findall(r"^## mars2d (\w+)$", text, flags=re.M) == list(verbs())
+    lines = [[f"[`mars2d {name}`](#mars2d-{name})", line] for name, line in cli.VERBS.items()]
+    assert table(text.partition("\n## ")[0])[1:] == lines
 
 
 @each_case("verb", list(verbs()))
