@@ -1,6 +1,7 @@
 """The experiments path_planning and leader_following, and the floor that the first is played on."""
 
 import dataclasses
+import json
 from math import hypot, pi
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 import shapely
 from scipy.optimize import brentq, minimize
 
-from mars2d.addons import Map, maps
+from mars2d.addons import Map
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment, open_module
 from tests.worlds import predicted, solution
@@ -31,11 +32,17 @@ def followed():
 # -- the floor ------------------------------------------------------------------------------------
 
 
-def test_the_outlines_are_those_of_the_drawing_within_half_of_the_tolerance():
-    drawing, outlines = (maps.read(FLOOR.with_suffix(each)).pieces for each in (".dxf", ".geojson"))
-    for drawn, outline in zip(drawing, outlines, strict=True):
-        assert drawn.layer == outline.layer
-        assert drawn.geometry.hausdorff_distance(outline.geometry) < maps.TOLERANCE / 2
+def test_the_outlines_are_those_of_the_drawing():
+    script = open_module(FLOOR.with_name("make_department.py"))
+    outlines = FLOOR.with_suffix(".geojson")
+    shipped, made = (
+        json.loads(text)["features"]
+        for text in (outlines.read_text(encoding="utf-8"), script.outlines(FLOOR))
+    )
+    for one, other in zip(shipped, made, strict=True):
+        assert one["properties"] == other["properties"]
+        lines = [shapely.geometry.shape(feature["geometry"]) for feature in (one, other)]
+        assert shapely.hausdorff_distance(*lines, densify=0.01) < 2e-3
 
 
 def test_the_floor_is_30_by_20_metres_and_its_doors_are_open():
