@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-import inspect
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -15,7 +14,6 @@ from typing import Any
 
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
-from mars2d.scenario.examples import examples
 from mars2d.scenario.roles import contests_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description
@@ -97,7 +95,6 @@ def prepared(
     contest = ["capture_time"] if len(contests_of(first.scenario)) == 1 else []
     chosen = measures or (*contest, "end_time", "collisions")
     measures_of(chosen, first, first.scenario)
-    _check_columns(plan, chosen)
     stated = checked_units(units, [*plan.settings, *map(name_in, chosen)])
     blank = dataclasses.replace(blank, measures=chosen)
     return Study(title, plan, blank, tuple(troubles), codes, written, stated)
@@ -121,19 +118,10 @@ def _source(experiment: str | Path | ModuleType | Scenario) -> tuple[str, str | 
     """Return the experiment's name in the table, and the source that workers open."""
     if isinstance(experiment, Scenario):
         return experiment.title or "Scenario", experiment
-    if isinstance(experiment, ModuleType):
-        file = inspect.getsourcefile(experiment) if hasattr(experiment, "__file__") else None
-        if file is None:
-            raise InputError(
-                f"experiment = {shown(experiment)}: a module without a file; give a file, the name "
-                "of an example, or a Scenario"
-            )
-        experiment = Path(file)
-    if not isinstance(experiment, (str, Path)):
-        expected = "a file, the name of an example, or a Scenario"
+    module = isinstance(experiment, ModuleType)
+    given = getattr(experiment, "__file__", None) if module else experiment
+    if not isinstance(given, (str, Path)):
+        expected = "a file, the name of an example, a module that has a file, or a Scenario"
         raise wrong("experiment", experiment, expected)
-    path = Path(experiment)
-    if not path.is_file() and str(experiment) in examples():
-        return str(experiment), str(experiment)
-    title = path.as_posix()
-    return title, str(path.absolute()) if path.is_file() else str(experiment)
+    path = Path(given)
+    return (path.as_posix(), str(path.absolute())) if path.is_file() else (str(given), str(given))
