@@ -87,28 +87,49 @@ def sweep(
     evenly over the study, no others are made. The rows depend neither on the workers nor on the
     order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
 
-    Raises InputError, before the first run, for anything that can't be run, and if the file holds
-    another study; `StudyFailedError` if the first five fail, or a measure in the first one;
-    `StudyInterrupted` after Ctrl-C. Both have the rows as their `table`.
+    Raises InputError, before the first run, for anything that can't be run, if the file holds
+    another study, and if a file of the experiment changes meanwhile; `StudyFailedError` if the
+    first five fail, or a measure in the first one; `StudyInterrupted` after Ctrl-C. Both have the
+    rows as their `table`.
     """
     leave_if_imported_again()
     if executor is None:
         worker_count(workers)
     if not isinstance(out, (str, Path, type(None))):
         raise wrong("out", out, "the name of a file, such as 'results.csv'")
+    path = None if out is None else Path(out)
+    if path is not None and path.suffix.lower() != ".csv":
+        raise InputError(f"{path}: expected a name that ends in .csv")
     if stop_time is not None and isinstance(settings, (Mapping, type(None))):
         if settings and "stop_time" in settings:
             raise InputError("stop_time is given twice, once among the settings")
         settings = {**(settings or {}), "stop_time": stop_time}
-    plan = Plan(settings_of(settings), seeds_of(seeds))
-    listed = _listed(measures)
+    plan, listed = Plan(settings_of(settings), seeds_of(seeds)), _listed(measures)
     study = prepared(experiment, plan, listed, control=control, time_limit=time_limit, units=units)
     for trouble in study.troubles[:3]:
         warn(trouble)
     if study.troubles:
         warn("such runs are rows with their error; the others are made")
-    how = executor, workers, show_progress
-    return _run(study, None if out is None else Path(out), how, retry=retry, keep=keep)
+    if keep:
+        study = _keeping(study, path)
+    with Results(study, path, retry=retry) as results:
+        trials = _trials(study)
+        _refuse_hopeless(study, results, trials)
+        try:
+            made = _missing(study, results, trials, executor, workers, show_progress)
+            with interrupts() as check, closing(made) as rows:
+                for row in rows:
+                    _refuse_changed(study, row)
+                    results.add(row)
+                    _refuse_hopeless(study, results, trials)
+                    check()
+        except KeyboardInterrupt:
+            table = results.table()
+            where = "were made" if out is None else f"are in {out}; the same command goes on"
+            said = f"{len(table)} of {len(plan)} runs {where}"
+            raise StudyInterrupted(said, table) from None
+        results.put_in_order()
+        return results.table()
 
 
 def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Measure, ...]:
@@ -120,43 +141,6 @@ def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Me
         if not isinstance(measure, str) and not callable(measure):
             raise wrong("measures", measure, expected)
     return listed
-
-
-def _run(
-    study: Study,
-    out: Path | None,
-    how: tuple[Executor | None, int | None, bool],
-    *,
-    retry: bool,
-    keep: bool,
-) -> Table:
-    """Do the runs of a study that its file `out` does not hold, and return all rows in order.
-
-    how: executor, workers, show_progress. Raises what `sweep` does, and InputError if a file of the
-    experiment changes meanwhile.
-    """
-    if out is not None and out.suffix.lower() != ".csv":
-        raise InputError(f"{out}: expected a name that ends in .csv")
-    if keep:
-        study = _keeping(study, out)
-    with Results(study, out, retry=retry) as results:
-        trials = _trials(study)
-        _refuse_hopeless(study, results, trials)
-        try:
-            made = _missing(study, results, trials, *how)
-            with interrupts() as check, closing(made) as rows:
-                for row in rows:
-                    _refuse_changed(study, row)
-                    results.add(row)
-                    _refuse_hopeless(study, results, trials)
-                    check()
-        except KeyboardInterrupt:
-            table = results.table()
-            where = "were made" if out is None else f"are in {out}; the same command goes on"
-            said = f"{len(table)} of {len(study.plan)} runs {where}"
-            raise StudyInterrupted(said, table) from None
-        results.put_in_order()
-        return results.table()
 
 
 def _keeping(study: Study, out: Path | None) -> Study:
