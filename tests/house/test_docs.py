@@ -221,9 +221,8 @@ def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    monkeypatch.setattr(
-        os, "sched_getaffinity", lambda _: {0}, raising=False
-    )  # so few runs don't pay for a second process
+    # So few runs don't pay for a second process.
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0}, raising=False)
     Reader(document).read()
     if document in SENSORS:
         return  # their pictures are made by docs/make_sensors.py
