@@ -44,7 +44,7 @@ def execute(arguments: argparse.Namespace) -> None:
     if "physics" in options:
         raise InputError("--set physics: compare runs each physics by itself")
     if arguments.speed in (0, "max"):
-        raise InputError(f"--speed {arguments.speed}: expected a number > 0")
+        raise InputError("--speed: expected a number > 0")
     opened = partial(_opened, arguments.experiment, options, arguments.seed)
     if not (arguments.json or arguments.figure or arguments.video):
         if not arguments.headless and has_display():
