@@ -167,6 +167,15 @@ def curve(
         )  # fmt: skip
 
 
+def name_rows(ax: Axes, names: Sequence[str], count: int) -> None:
+    """Name the rows of bars of a panel, the first on top; without names it has no ticks."""
+    ax.set_ylim(0, count)
+    ax.set_yticks(np.arange(len(names)) + 0.5, names[::-1])
+    for text in ax.get_yticklabels():
+        text.set_parse_math(False)
+    ax.grid(visible=False, axis="y")
+
+
 def set_span(ax: Axes, low: float, high: float) -> None:
     """Set the limits of a panel's values to `low` and `high` with a margin.
 
