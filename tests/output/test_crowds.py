@@ -5,10 +5,15 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
+import pytest
 
+import mars2d
 from mars2d import Holonomic, Robot, Scenario
 from mars2d.addons import Communication, Theory
 from mars2d.core.scene import PALETTE, Circle, Text, rgb
+from mars2d.output.figures.contacts import plot_contacts
+from mars2d.output.figures.figure import plot_paths, save_drawing
+from mars2d.output.figures.signals import plot_signals
 from mars2d.output.layers import bodies
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.placement import Box, placed_names
@@ -122,3 +127,22 @@ def test_messages_theory_and_sensors_have_legends_where_they_are_drawn():
     assert found["sensors"] == [
         "a sonar's echo", "a laser's hit", "something is near", "range and bearing",
     ]  # fmt: skip
+
+
+# -- figures ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_figures_of_a_hundred_robots_are_files_of_less_than_two_megabytes(tmp_path):
+    robots = [Robot(pose=(k % 10, k // 10, 0), drive=Holonomic()) for k in range(98)]
+    scenario = Scenario(robots=robots, workspace=None, physics="ideal", stop_time=60)
+    noise = np.random.default_rng(1)
+    record = mars2d.run(scenario, control=lambda world: noise.normal(size=(2, 98)))
+    figures = {
+        "paths": lambda: plot_paths(record).figure,
+        "signals": lambda: plot_signals(record, ["x", "speed", "command"])[0].figure,
+        "contacts": lambda: plot_contacts(record)[0].figure,
+    }
+    for name, draw in figures.items():
+        file = save_drawing(draw, tmp_path / f"{name}.svg")
+        assert file.stat().st_size < 2e6, name

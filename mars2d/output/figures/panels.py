@@ -30,10 +30,10 @@ if TYPE_CHECKING:
 
 Float = NDArray[np.float64]
 
-MAX_VERTICES = 20_000
+MAX_VERTICES = 15_000
 """The most points in a panel, over all its curves, approximately."""
 
-MAX_BLOCKS, MIN_BLOCKS = 1000, 40
+MAX_BLOCKS, MIN_BLOCKS = 1000, 30
 """The limits of the blocks into which a long curve is cut; each block keeps its extremes."""
 
 CAPTION_LETTERS, CAPTION_HEIGHT = 12, 0.5
