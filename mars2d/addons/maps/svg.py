@@ -78,7 +78,12 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
         page = unit.metres / pixels * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, size[1]]])
         pieces = _covered(reader.drawn(normal, page, NO_LAYER))
     return Drawing(
-        name, "an SVG drawing", unit, tuple(pieces), skipped=dict(reader.skipped), within=within
+        name,
+        "an SVG drawing",
+        unit,
+        tuple(pieces),
+        skipped=dict(reader.skipped),
+        within=within + GRID,
     )
 
 
