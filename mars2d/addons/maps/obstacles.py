@@ -174,7 +174,7 @@ def _layers(drawing: Drawing) -> list[tuple[str, str]]:
 
 def _counts(found: Obstacles) -> str:
     parts = [(len(found.outlines), "outline"), (len(found.walls), "wall")]
-    return ", ".join(counted(count, thing) for count, thing in parts if count)
+    return ", ".join(counted(count, thing) for count, thing in parts if count) or "none"
 
 
 def nearest_room(
