@@ -7,7 +7,7 @@ import pytest
 from mars2d.core.extras import pip_line
 from mars2d.scenario.examples import examples
 from tests.cases import each_case
-from tests.house.test_examples import DIGESTS
+from tests.house.goldens import Golden
 
 pytestmark = pytest.mark.slow
 
@@ -25,7 +25,7 @@ def test_the_experiment_of_the_paper_runs_to_its_digest(child):
         "assert not any(sys.modules[name] for name in ('ezdxf', 'wasmtime', 'yaml'))\n"
     )
     done = child(code)
-    assert done.stdout.split() == [DIGESTS["path_planning"]], done.stderr
+    assert done.stdout.split() == [Golden.read("path_planning").digest], done.stderr
 
 
 @each_case(
