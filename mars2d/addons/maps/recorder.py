@@ -186,16 +186,20 @@ class _Recorder(Backend):
         self._area([points.vertices()], properties)
 
     def _wall(self, points: Float, properties: BackendProperties) -> None:
-        piece = wall(self._name, self._layer(properties), points, self._metres)
+        piece = wall(self._where, self._layer(properties), points, self._metres)
         if piece is not None:
             self.pieces.append(piece)
 
     def _area(self, rings: Sequence[Any], properties: BackendProperties) -> None:
         edges = [np.array([(v.x, v.y) for v in ring]).reshape(-1, 2) for ring in rings]
         for edge in edges:
-            check_finite(self._name, edge)
+            check_finite(self._where, edge)
         areas = region([edge * self._metres for edge in edges], even_odd=True)
         self.pieces += [Piece(self._layer(properties), area) for area in areas]
+
+    @property
+    def _where(self) -> str:
+        return f"{self._name}: {self.current_entity}"
 
     def _layer(self, properties: BackendProperties) -> str:
         return layer_name(self.frozen or properties.layer)

@@ -265,7 +265,7 @@ class _Reader:
                 rings[-1].append(rings[-1][0])
         found = [np.array(ring) @ matrix[:, :2].T + matrix[:, 2] for ring in rings]
         for points in found:
-            check_finite(self._name, points)
+            check_finite(f"{self._name}: path {path.get('id', '')}".rstrip(), points)
         return [points for points in found if len(points) > 1]
 
 
