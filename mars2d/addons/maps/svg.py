@@ -75,7 +75,8 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
         normal, skipped, pixels = normalised(root, size, box)
         unit = unit or _unit(given, pixels)
         reader = _Reader(name, normal, layers, within, skipped)
-        page = unit.metres / pixels * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, size[1]]])
+        scale = unit.metres / pixels
+        page = np.array([[scale, 0.0, 0.0], [0.0, -scale, scale * size[1]], [0.0, 0.0, 1.0]])
         pieces = _covered(reader.drawn(normal, page, NO_LAYER))
     return Drawing(
         name,
@@ -160,7 +161,7 @@ class _Reader:
         self.skipped = skipped
 
     def drawn(self, group: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
-        """Return what a group draws, from below; matrix (2, 3) turns its units into metres."""
+        """Return what a group draws, from below; matrix (3, 3) turns its units into metres."""
         found = []
         for element in group:
             kind = element.tag.removeprefix(SVG)
@@ -192,11 +193,11 @@ class _Reader:
         source = self._named.get(CLIP + name, clip)  # or the edge of a nested svg
         inside = _moved(matrix, source)
         if clip.get("clipPathUnits") == "objectBoundingBox":
-            back = np.linalg.inv(matrix[:, :2]).T
-            shapes, shift = [each.geometry for each in drawn], matrix[:, 2]
-            local = shapely.transform(shapes, lambda xy: (xy - shift) @ back)
+            back = np.linalg.inv(matrix)
+            shapes = [each.geometry for each in drawn]
+            local = shapely.transform(shapes, lambda xy: xy @ back[:2, :2].T + back[:2, 2])
             x0, y0, x1, y1 = shapely.total_bounds(local)
-            inside = _times(inside, np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0]]))
+            inside = inside @ np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0], [0, 0, 1]])
         counts = self.skipped.copy()
         self._clipping.append(name)
         window = self.drawn(source, inside, "")
@@ -247,7 +248,7 @@ class _Reader:
 
     def _rings(self, path: ET.Element, matrix: Float) -> list[Float]:
         """Return the points (k, 2) of each part of a path, metres."""
-        scale = float(np.linalg.norm(matrix[:, :2], 2))
+        scale = float(np.linalg.norm(matrix[:2, :2], 2))
         arcs = path.get("shape-rendering") == ROUND
         rings: list[list[Float]] = []
         for letter, numbers in re.findall(r"([MLCZ])([^MLCZ]*)", path.get("d", "")):
@@ -263,7 +264,7 @@ class _Reader:
                     rings[-1] += [*cubic(controls[k : k + 4], within, arcs=arcs)]
             elif letter == "Z":
                 rings[-1].append(rings[-1][0])
-        found = [np.array(ring) @ matrix[:, :2].T + matrix[:, 2] for ring in rings]
+        found = [np.array(ring) @ matrix[:2, :2].T + matrix[:2, 2] for ring in rings]
         for points in found:
             check_finite(f"{self._name}: path {path.get('id', '')}".rstrip(), points)
         return [points for points in found if len(points) > 1]
@@ -301,16 +302,11 @@ def _reference(text: str) -> str:
     return text[5:-1] if text.startswith("url(#") else ""
 
 
-def _times(first: Float, second: Float) -> Float:
-    """Return the transform (2, 3) that does `second`, then `first`."""
-    linear, shift = first[:, :2], first[:, 2]
-    return np.column_stack([linear @ second[:, :2], linear @ second[:, 2] + shift])
-
-
 def _moved(matrix: Float, element: ET.Element) -> Float:
-    """Return a transform (2, 3) that does the transform of an element first."""
+    """Return a transform (3, 3) that does the transform of an element first."""
     found = re.fullmatch(r"matrix\((.*)\)", element.get("transform", ""))
     if found is None:
         return matrix
     a, b, c, d, e, f = map(float, found[1].replace(",", " ").split())
-    return _times(matrix, np.array([[a, c, e], [b, d, f]]))
+    moved: Float = matrix @ np.array([[a, c, e], [b, d, f], [0.0, 0.0, 1.0]])
+    return moved
