@@ -207,7 +207,7 @@ class _Reader:
         found = [
             _Drawn(d.layer, part, d.paper)
             for d in drawn
-            for part in _parts(d.geometry.intersection(seen), d.geometry.geom_type)
+            for part in _same(d.geometry, d.geometry & seen)
         ]
         return self._clipped(found, clip, matrix)
 
@@ -272,29 +272,29 @@ class _Reader:
 
 def _covered(drawn: list[_Drawn]) -> list[Piece]:
     """Return the pieces of a drawing, without what paper covers that was drawn later."""
+    import shapely
+
     found: list[Piece] = []
     for each in drawn:
         if not each.paper:
             found.append(Piece(each.layer, each.geometry))
             continue
         cover = each.geometry.buffer(-GRID)  # a line along its edge stays
+        under = shapely.intersects([piece.geometry for piece in found], cover)
+        pairs = zip(found, under, strict=True)
         found = [
             Piece(piece.layer, part)
-            for piece in found
-            for part in (
-                _parts(piece.geometry.difference(cover), piece.geometry.geom_type)
-                if piece.geometry.intersects(cover)
-                else [piece.geometry]
-            )
+            for piece, hit in pairs
+            for part in (_same(piece.geometry, piece.geometry - cover) if hit else [piece.geometry])
         ]
     return found
 
 
-def _parts(geometry: shapely.Geometry, kind: str) -> list[shapely.Geometry]:
-    """Return the parts of a geometry that are of a kind, such as ``Polygon``."""
+def _same(before: shapely.Geometry, after: shapely.Geometry) -> list[shapely.Geometry]:
+    """Return the lines that are left of a line, or the areas that are left of an area."""
     import shapely
 
-    return [part for part in shapely.get_parts(geometry).tolist() if part.geom_type == kind]
+    return [p for p in shapely.get_parts(after).tolist() if p.geom_type == before.geom_type]
 
 
 def _reference(text: str) -> str:
