@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import pygame
 
 from mars2d import Robot, Scenario, World
-from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
-from mars2d.window.dock import Dock, Panel
-from mars2d.window.viewpoint import Viewpoint
+from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.dock import Dock, Panel
 from tests.cases import each_case
 from tests.window.written import painter
 
@@ -52,7 +54,9 @@ class Seen:
         self.draw(spot)
 
     def draw(self, spot=None):
-        room = self.dock.arrange(self.layout, self.frame)
+        *_, low, high = self.frame.scenario.bounds
+        fit = partial(fitted, self.frame.scenario, self.layout.size)
+        room = self.dock.arrange(self.layout, self.frame, fit, high - low)
         self.view.arrange(self.layout, self.frame.scenario, room)
         self.dock.draw(self.surface, self.frame, spot)
         xmin, xmax, ymin, ymax = self.frame.scenario.bounds
@@ -107,6 +111,25 @@ def test_where_there_is_little_room_the_one_opened_last_is_seen_whole():
     assert seen.click(seen.dock.plates["panel0"].center)
     seen.draw()
     assert seen.dock.plates["panel0"].height > 100 > seen.dock.plates["panel2"].height
+
+
+def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fitted():
+    panels = [Plain("scopes"), Plain("inspector", least=300.0, wanted=500.0)]
+    panels[1].frames = False
+    seen = Seen(panels, (1024, 768))
+    for framed in (False, True):
+        panels[0].is_open = framed
+        alone = seen.draw().arena
+        panels[1].is_open = True
+        assert seen.draw().arena == alone
+        seen.draw(alone.center)
+        assert not seen.dock.plates["inspector"].collidepoint(alone.center)
+        panels[1].is_open = False
+        assert seen.draw().arena == alone
+    panels[0].is_open, panels[1].is_open = False, True
+    seen.draw()
+    seen.dock.reframe()
+    assert not seen.draw().dock.plates["inspector"].colliderect(seen.arena)
 
 
 def test_a_panel_is_closed_by_its_button_and_opened_by_name():

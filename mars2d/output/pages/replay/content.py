@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,15 +14,15 @@ from mars2d.core.quantity import ANGLE, DISTANCE, UNKNOWN, Quantity
 from mars2d.core.scene import Scene
 from mars2d.geometry.shapes import Shape
 from mars2d.output.figures.extent import View, check_rows
+from mars2d.output.layers.arrows import MAX_ARROW
 from mars2d.output.layers.forces import (
     FAINTEST,
     MAX_CONTACTS,
     SLIPPING,
     as_read,
     force_scale,
-    mean_forces,
 )
-from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
+from mars2d.output.layers.legend import Legend, legends
 from mars2d.output.layers.rings import RING, has_ring
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
 from mars2d.output.layers.trails import (
@@ -46,6 +45,7 @@ from mars2d.output.pages.replay.drawings import (
     shapes_of,
 )
 from mars2d.output.pages.replay.sensors import Carried
+from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
@@ -127,7 +127,7 @@ class _Content:
         bounded = scenario.workspace is not None and scenario.on_exit != "ignore"
         return {
             "title": scenario.title,
-            "file": Path(record.filename).name,
+            "file": record.filename,
             "seed": record.seed,
             "digest": record.digest,
             "versions": dict(record.versions),
@@ -360,7 +360,7 @@ class _Content:
             self.notes.append(f"not drawn, since their code is not in the record: {listed}")
         if not self.carried:
             return
-        drawings, stride = sensors.drawings(self.carried, self.poses, self.scenario.colors)
+        drawings, stride = sensors.drawings(self.carried, self.scenario.colors)
         header, every = self._fit(
             "what sensors draw",
             ROOM - self.columns.size - self.columns.beside,
@@ -403,11 +403,10 @@ def _table(animation: Animation) -> list[dict[str, Any]]:
 def _legend(legend: Legend) -> dict[str, Any]:
     """Return a legend for the page: its arrow at all round numbers, and its signs."""
     ruler = legend.ruler
-    numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
     return {
         "layer": legend.layer,
         "arrow": ruler and ["arrow", ruler.color, None, ruler.width],
-        "lengths": [[ruler.unit * each, ruler.in_words(each)] for each in numbers] if ruler else [],
+        "lengths": ruler.lengths if ruler else [],
         "signs": [
             {"room": sign.room, "meaning": sign.meaning, "shapes": shapes_of(sign.scene)}
             for sign in legend.signs
@@ -459,7 +458,7 @@ def pack_contacts(record: Rows, kept: Int, shown: Sequence[int]) -> Columns:
     kept: the record's rows of the replay. shown: those of them that have arrows.
     """
     columns = Columns()
-    strongest = force_scale(record.scenario).strongest
+    strongest = force_scale(record.scenario).most
     rows = record.contact_rows
     place = np.searchsorted(kept, rows)
     at = np.minimum(place, len(kept) - 1)

@@ -1,0 +1,173 @@
+"""Plots over time in a window: axes, curves, and how numbers are written beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil, pi
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.output.layers.arrows import round_force
+from mars2d.output.raster.brushes import rgba
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.strokes import hairlines
+from mars2d.output.signals import thinned
+
+Float = NDArray[np.float64]
+
+
+class Limits(NamedTuple):
+    """The ends of both axes: of time, seconds, and of values."""
+
+    start: float
+    end: float
+    low: float
+    high: float
+
+    def pixels(self, area: pygame.Rect, times: Float, values: Float) -> Float:
+        """Return where points of the plot lie on the surface, (k, 2)."""
+        x = area.left + (times - self.start) / (self.end - self.start) * area.width
+        y = area.bottom - (values - self.low) / (self.high - self.low) * area.height
+        return np.column_stack([x, y])
+
+
+def limits_of(start: float, end: float, values: Float) -> Limits:
+    """Return axes on which all finite values have room, with 0 where it is not far off."""
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    if 0.0 < low < 0.6 * high:
+        low = 0.0
+    elif 0.6 * low < high < 0.0:
+        high = 0.0
+    least = max(0.02 * max(abs(low), abs(high)), 1e-9)
+    if high - low < least:
+        if low == high == 0.0:
+            high = 1.0
+        else:
+            low, high = (low + high - least) / 2, (low + high + least) / 2
+    room = 0.08 * (high - low)
+    return Limits(start, end, low - (room if low else 0.0), high + (room if high else 0.0))
+
+
+def draw_axes(
+    surface: pygame.Surface,
+    area: pygame.Rect,
+    painter: Painter,
+    limits: Limits,
+    unit: str = "",
+    *,
+    times: bool = True,
+) -> None:
+    """Draw the grid and the numbers of both axes.
+
+    unit: of the values. times: whether numbers of time stand below the area.
+    """
+    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+    start, end, low, high = limits
+    lines = max(1.0, min(3.0, area.height / (36 * ui)))
+    step = round_force((high - low) / lines)
+    for k in range(ceil(low / step - 1e-9), int(np.floor(high / step + 1e-9)) + 1):
+        y = area.bottom - round((k * step - low) / (high - low) * area.height)
+        surface.fill(theme.grid_axis if k == 0 else theme.grid, (area.left, y, area.width, 1))
+        text = f"{k * step:.4g} {unit}".strip().replace("-", "\N{MINUS SIGN}")
+        image = fonts.render(text, 11 * ui, theme.muted)
+        surface.blit(image, image.get_rect(midright=(area.left - round(6 * ui), y)))
+    step = round_force((end - start) / max(1.0, min(4.0, area.width / (66 * ui))))
+    for k in range(ceil(start / step - 1e-9), int(end / step + 1e-9) + 1):
+        x = area.left + round((k * step - start) / (end - start) * area.width)
+        surface.fill(theme.grid, (x, area.top, 1, area.height))
+        image = fonts.render(f"{k * step:.6g} s", 11 * ui, theme.muted)
+        place = image.get_rect(midtop=(x, area.bottom + round(3 * ui)))
+        if times and place.right <= area.right + round(10 * ui):
+            place.right = min(place.right, area.right)
+            surface.blit(image, place)
+
+
+def polylines(
+    area: pygame.Rect,
+    limits: Limits,
+    times: Float,
+    values: Float,
+    *,
+    held: str = "",
+    wraps: bool = False,
+) -> list[Float]:
+    """Return the lines of a curve through values (T,) at times (T,), each (k, 2) pixels.
+
+    held: as of a `Signal`: a value that holds is drawn as a step. wraps: whether they are angles,
+    which jump from one end of their range to the other. Long curves are thinned to their extremes.
+    """
+    lies = np.searchsorted(times, [limits.start, limits.end])
+    seen = slice(max(int(lies[0]) - 1, 0), int(lies[1]) + 1)
+    times, values = times[seen], values[seen]
+    if not len(times):
+        return []
+    kept = thinned(values, max(1, area.width // 2))
+    first = 2 * times[0] - times[1] if len(times) > 1 else times[0]  # a row before
+    after = 2 * times[-1] - times[-2] if len(times) > 1 else times[-1]
+    times, values = times[kept], values[kept]
+    finite = np.isfinite(values)
+    with np.errstate(invalid="ignore"):
+        leaps = np.abs(np.diff(values)) > pi if wraps else np.zeros(len(values) - 1, dtype=bool)
+    if held:
+        edges = np.append(first, times) if held == "pre" else np.append(times, after)
+        times, values = np.repeat(edges, 2)[1:-1], np.repeat(values, 2)
+        finite, leaps = np.repeat(finite, 2), np.repeat(np.append(leaps, [False]), 2)[:-1]
+        leaps[::2] = False
+    points = limits.pixels(area, times, np.where(np.isfinite(values), values, 0.0))
+    points[:, 1] = np.clip(points[:, 1], area.top - 10 * area.height, area.bottom + area.height)
+    breaks = np.flatnonzero(~finite[1:] | ~finite[:-1] | leaps) + 1
+    parts = np.split(np.arange(len(points)), breaks)
+    return [points[part] for part in parts if finite[part[0]]]
+
+
+def draw_curve(
+    surface: pygame.Surface, painter: Painter, lines: list[Float], color: str, width: float
+) -> None:
+    """Draw the lines of a curve in a colour of the theme; width: points."""
+    ink = rgba(color)[:3]
+    for points in lines:
+        if len(points) > 1:
+            hairlines(surface, ink, points, width * painter.ui)
+        else:
+            pygame.draw.aacircle(surface, ink, points[0].tolist(), width * painter.ui)
+
+
+def draw_crowd(
+    surface: pygame.Surface,
+    area: pygame.Rect,
+    limits: Limits,
+    times: Float,
+    values: Float,
+    colors: Sequence[str],
+) -> None:
+    """Draw many curves (T, k) at once, thin and without steps; only finite values are drawn."""
+    lies = np.searchsorted(times, [limits.start, limits.end])
+    seen = slice(max(int(lies[0]) - 1, 0), int(lies[1]) + 1)
+    times, values = times[seen], values[seen]
+    size = max(1, 4 * len(times) // max(area.width, 1))
+    if size > 1:  # of each block its smallest and its largest value
+        starts = np.arange(0, len(times), size)
+        pair = np.fmin.reduceat(values, starts, axis=0), np.fmax.reduceat(values, starts, axis=0)
+        values = np.stack(pair, axis=1).reshape(-1, values.shape[1])
+        times = np.repeat(times[starts], 2)
+    if len(times) < 2:
+        return
+    high = (np.nan_to_num(values, nan=limits.low) - limits.low) / (limits.high - limits.low)
+    y = np.rint(area.bottom - np.clip(high, -1.0, 2.0) * area.height).astype(int).T.tolist()
+    share = (times - limits.start) / (limits.end - limits.start)
+    x = np.rint(area.left + share * area.width).astype(int).tolist()
+    for k, color in enumerate(colors):
+        pygame.draw.lines(surface, color, closed=False, points=list(zip(x, y[k], strict=True)))
+
+
+def as_number(value: float, unit: str = "") -> str:
+    """Return a number with three digits and its unit, for example ``0.200 m/s``."""
+    if not np.isfinite(value):
+        return "nothing"
+    size = abs(value)
+    text = f"{value:.3g}" if size >= 1000 or 0 < size < 1e-3 else f"{value:#.3g}".rstrip(".")
+    return f"{text} {unit}".strip().replace("-", "\N{MINUS SIGN}")
