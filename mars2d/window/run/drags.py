@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import atan2, cos, hypot, pi, radians, sin
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 import pygame
@@ -57,28 +57,11 @@ def pull_of(scenario: Scenario, body: int) -> tuple[float, float]:
     return force, min(speed, MAX_PULL_SPEED)
 
 
-class Drag(Protocol):
-    """A drag of the mouse that has begun on a body."""
-
-    body: int
-    keeps: bool
-    """Whether a drag that is cancelled ends as if it were released."""
-
-    def move(self, frame: Frame, point: Point, mods: int) -> None:
-        """Follow the pointer to a point [m]; mods: the modifier keys held, as pygame's flags."""
-
-    def end(self) -> None:
-        """Release the body."""
-
-    def pose(self, frame: Frame) -> Triple | None:
-        """Return the pose at which the body is shown, None for its own."""
-
-    def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
-        """Draw the effect of the drag."""
-
-
 class Pull:
-    """Pulls a body by a spring from the point where it was gripped to the pointer."""
+    """Pulls a body by a spring from the point where it was gripped to the pointer.
+
+    keeps: whether a drag that is cancelled ends as if it were released.
+    """
 
     keeps = True
 
@@ -227,6 +210,10 @@ class Turn(Placement):
             end = x + way * cos(theta), y + way * sin(theta)
             scene.line([(x, y), end], stroke=faded(color, 0.7), width=1.5)
             scene.circle(end, 0.0, fill=color, stroke=HALO, width=1.5, pixels=3.5)
+
+
+Drag = Pull | Move | Turn
+"""A drag of the mouse that has begun on a body."""
 
 
 # -- poses and points -------------------------------------------------------------------------
