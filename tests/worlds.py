@@ -12,10 +12,19 @@ import numpy as np
 import mars2d
 from mars2d import Record, Scenario, World
 from mars2d.geometry.shapes import Polygon
+from mars2d.scenario.examples import GAME, examples
 from mars2d.scenario.experiment import open_experiment
 
 ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
 """A shape that is not convex, metres."""
+
+
+def solution(name: str) -> Path:
+    """Return the file of the model answer to an example's exercises."""
+    file = examples()[name]
+    if file.name == GAME:
+        return file.with_name("solution.py")
+    return file.parent / "solutions" / file.name
 
 
 def ahead(robot: Any) -> tuple[float, float]:
@@ -58,6 +67,14 @@ def predicted(name: str | Path, seed: int = 0, **options: Any) -> tuple[Record, 
     experiment = open_experiment(name, options)
     record = mars2d.run(experiment.scenario, control=experiment.control, seed=seed)
     return record, {each.name: each for each in experiment.predictions(record)}
+
+
+def played(name: str | Path, seed: int = 0, **options: Any) -> tuple[Record, Any, Sequence[Any]]:
+    """Run a game; return its record, its outcome or None, and its predictions."""
+    experiment = open_experiment(name, options, seed=seed)
+    record = mars2d.run(experiment.scenario, control=experiment.control, seed=seed)
+    game = next((addon for addon in record.scenario.addons if addon.key == "game"), None)
+    return record, game and game.outcome(record), experiment.predictions(record)
 
 
 def untimed(error: BaseException) -> str:

@@ -109,7 +109,8 @@ class CompareWindow(PlayerWindow):
                     painter.theme.edge, (arena.plot.left, whole.plot.top, round(ui), first.bottom)
                 )
         step = trio.scenario.sampling_time
-        self.plot.draw(surface, self._plot_place, painter, trio.drifts, step, frame.time)
+        times = step, frame.time, step * trio.newest
+        self.plot.draw(surface, self._plot_place, painter, trio.drifts, *times)
         text, kind = self.player.status()
         draw_header(surface, whole, painter, frame, Status(text, kind))
         pointer = self._pointer

@@ -5,20 +5,10 @@ from math import hypot
 import numpy as np
 import pytest
 
-import mars2d
 from mars2d.geometry.voronoi import Tessellation
-from mars2d.scenario.examples import examples_folder
-from mars2d.scenario.experiment import open_experiment
+from tests.worlds import played, solution
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
-
-
-def played(name, seed=0, **options):
-    """The experiment's record, its game's outcome and its predictions."""
-    experiment = open_experiment(name, options)
-    record = mars2d.run(experiment.scenario, control=experiment.control, seed=seed)
-    game = next((a for a in record.scenario.addons if a.key == "game"), None)
-    return record, game and game.outcome(record), experiment.predictions(record)
 
 
 def areas(record):
@@ -142,7 +132,7 @@ def test_the_dog_brings_all_sheep_in(start):
 
 @pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])
 def test_the_model_answers_do_what_they_say(name):
-    _, outcome, predictions = played(f"{examples_folder()}/solutions/{name}.py")
+    _, outcome, predictions = played(solution(name))
     assert all(p.ok for p in predictions)
     if outcome:
         before = played(name)[1]

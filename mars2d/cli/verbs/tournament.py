@@ -16,6 +16,7 @@ from mars2d.core.scene import NAMED, rgb
 from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
+from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import contest_of
 from mars2d.study.isolation.limits import Limits
@@ -97,7 +98,7 @@ def execute(arguments: argparse.Namespace) -> None:
         settings=parse_all(arguments.set),
         stop_time=arguments.stop_time,
     )
-    path = arguments.out or Path(f"tournament_{Path(planned.experiment).stem}")
+    path = arguments.out or Path(f"tournament_{experiment_name(Path(planned.experiment))}")
     if arguments.match is not None:
         _play_one(arguments, planned, path, limits)
     else:

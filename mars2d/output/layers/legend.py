@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,7 +11,6 @@ import numpy as np
 from mars2d.addons.base import Addon
 from mars2d.core.plane import Point
 from mars2d.core.scene import (
-    INK,
     PALETTE,
     THEORY,
     Arrow,
@@ -23,48 +22,17 @@ from mars2d.core.scene import (
     faded,
 )
 from mars2d.core.usercode import called
-from mars2d.output.layers.arrows import arrow
-from mars2d.output.layers.forces import FORCE, SLIP, SLIP_EDGE, force_scale, in_newtons, round_force
-from mars2d.output.layers.impulses import FRICTION, NORMAL, impulse_scale, in_newton_seconds
+from mars2d.output.layers.arrows import Ruler, Sign, arrow
+from mars2d.output.layers.forces import SLIP, SLIP_EDGE, force_scale
+from mars2d.output.layers.impulses import FRICTION, impulse_scale
 from mars2d.output.layers.messages import LOST_LINK
-from mars2d.output.layers.velocities import VELOCITY, in_metres_a_second, speed_scale
+from mars2d.output.layers.velocities import VELOCITY, speed_scale
 from mars2d.scenario.scenario import Scenario
-
-MAX_ARROW = 72.0
-"""The greatest length of an arrow, points; it means 1, 2, 5, 10 ... newtons or metres a second."""
-
 
 SIGNED = ("messages", "theory", "sensors")
 """The layers whose signs have a legend in pictures without plates, too."""
 ROW = 16.0
 """The height of a row of signs without a plate, points."""
-
-
-class Ruler(NamedTuple):
-    """An arrow whose length is a quantity.
-
-    width: points. unit: the metres that one unit is long. longest: metres; see
-    `arrows.shortening`. in_words: formats a number of units.
-    """
-
-    color: str
-    width: float
-    unit: float
-    longest: float
-    in_words: Callable[[float], str]
-
-    def within(self, most: float) -> tuple[float, str]:
-        """Return the longest arrow of a round number up to `most`: metres, and in words."""
-        number = round_force(most / self.unit)
-        return number * self.unit, self.in_words(number)
-
-
-class Sign(NamedTuple):
-    """A sign and its meaning. scene: round (0, 0), in points. room: its width, points."""
-
-    scene: Scene
-    room: float
-    meaning: str
 
 
 class Legend(NamedTuple):
@@ -79,16 +47,13 @@ def legends(scenario: Scenario) -> list[Legend]:
     """Return the legends of all layers that have one in an experiment; none without robots."""
     if not scenario.robots:
         return []
-    force, speed, impulse = force_scale(scenario), speed_scale(scenario), impulse_scale(scenario)
-    newtons = Ruler(FORCE, force.width, force.newton, force.longest, in_newtons)
-    paces = Ruler(VELOCITY, speed.width, speed.meter_a_second, speed.longest, in_metres_a_second)
-    blow = Ruler(NORMAL, impulse.width, impulse.newton_second, impulse.longest, in_newton_seconds)
+    newtons, paces, blow = force_scale(scenario), speed_scale(scenario), impulse_scale(scenario)
     rubbing = Sign(_rubbing(), 24.0, "friction, and its cone")
     turning = Sign(_turning(), 24.0, "turn in 1 s")
     found = [
-        Legend("forces", (_shortened(newtons), Sign(_slipping(), 18.0, "slips")), newtons),
-        Legend("impulses", (_shortened(blow), rubbing), blow),
-        Legend("velocities", (_shortened(paces), turning), paces),
+        Legend("forces", (newtons.limit, Sign(_slipping(), 18.0, "slips")), newtons),
+        Legend("impulses", (blow.limit, rubbing), blow),
+        Legend("velocities", (paces.limit, turning), paces),
     ]
     if signs := _of_sensors(scenario):
         found.append(Legend("sensors", signs))
@@ -105,12 +70,14 @@ def sign_rows(shown: Sequence[Legend], corner: Point, point: float) -> Scene:
 
     point: how long a point is, metres. For pictures without plates.
     """
-    scene, (x, y) = Scene(), corner
-    for k, sign in enumerate(sign for legend in shown for sign in legend.signs):
-        middle = x + 14.0 * point, y + ROW * k * point
+    scene, signs = Scene(), [sign for legend in shown for sign in legend.signs]
+    column = max((sign.room for sign in signs), default=0.0)
+    for k, sign in enumerate(signs):
+        level = corner[1] + ROW * (k + 0.5) * point
+        middle = corner[0] + column / 2 * point, level
         scene.extend(_moved(shape, middle, point) for shape in sign.scene.shapes)
-        place = middle[0] + 16.0 * point, middle[1]
-        scene.text(place, sign.meaning, color=INK, anchor="left", halo="#ffffff")
+        place = corner[0] + (column + 2.0) * point, level
+        scene.text(place, sign.meaning, color=sign.color, anchor="left", halo="#ffffff")
     return scene
 
 
@@ -162,14 +129,6 @@ def _theory() -> Scene:
     scene = Scene()
     scene.line([(-12, 0), (12, 0)], stroke=THEORY, width=2.0)
     return scene
-
-
-def _shortened(ruler: Ruler) -> Sign:
-    """Return the sign of an arrow that is drawn shorter than it is, as it stands for too much."""
-    scene = Scene()
-    start, way = np.array([-16.0, 0.0]), np.array([32.0, 0.0])
-    arrow(scene, start, way, fill=ruler.color, width=ruler.width, shortened=True)
-    return Sign(scene, 36.0, f"over {ruler.in_words(ruler.longest / ruler.unit)}")
 
 
 def _rubbing() -> Scene:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from time import perf_counter
 
 import numpy as np
 import pygame
@@ -17,10 +16,11 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
+from mars2d.output.lines import DASHES, MARK_SPACING
 from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.strokes import DASHES, MARK_SPACING, dashes, hair_shifts, hairlines
+from mars2d.output.raster.strokes import dashes, hair_shifts, hairlines
 from mars2d.output.raster.theme import Theme, mixed
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -211,11 +211,8 @@ class Wakes:
         self._every = FIRST_STRIDE
         self._kept: dict[int, Kept] = {}
 
-    def show(self, frame: Frame, until: float = float("inf")) -> bool:
-        """Show the paths of props, which may be unknown, and of robots up to a frame.
-
-        until: at which time of the clock to stop. Returns whether all is drawn.
-        """
+    def show(self, frame: Frame) -> None:
+        """Show the paths of props, which may be unknown, and of robots up to a frame."""
         paths = frame.prop_path, frame.path
         rows, cuts = len(paths[1]), sorted({row for row, _ in frame.leaps})
         self._begin(paths)
@@ -229,9 +226,6 @@ class Wakes:
                 trails.prolong(self.surface, path[:end], those)
             if self._most and end % self._every == 0:
                 self._keep(end)
-            if perf_counter() > until:
-                break
-        return self._drawn == rows
 
     def finish(self, surface: pygame.Surface, frame: Frame, shift: tuple[int, int]) -> None:
         """Draw the loose ends of the paths that `show` has drawn up to a frame.

@@ -10,16 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.interrupt import interrupts
-from mars2d.study.code import WatchedFiles
 from mars2d.study.isolation.limits import Limits
-from mars2d.study.run import CountingBar
+from mars2d.study.progress import progress
 from mars2d.study.tournament.folder import Folder
 from mars2d.study.tournament.league import Tournament
 from mars2d.study.tournament.match import Match, Played, play
 from mars2d.study.tournament.page import save_html
 from mars2d.study.tournament.schedule import Files, Schedule, law_code, schedule
-from mars2d.study.work import each_done, worker_count
-from mars2d.study.workers import Failure, leave_if_imported_again
+from mars2d.study.tournament.watch import WatchedFiles
+from mars2d.study.work import Failure, each_done, leave_if_imported_again, worker_count
 
 MATCHES, LEAGUE, PAGE = "matches.csv", "league.csv", "league.html"
 """The files that are written to a tournament's folder at the end."""
@@ -110,21 +109,19 @@ def play_schedule(
         done = [] if folder is None else [*folder.before]
         missing = matches_without(planned.matches, done)
         interrupted = False
-        bar = CountingBar(len(missing)) if show_progress else None
+        bar = progress(len(missing), unit="match", show=show_progress)
         try:
             with interrupts() as check:
                 for played in play_all(missing, limits, replays, executor, workers):
                     done.append(played)
                     if folder is not None:
                         folder.keep(played)
-                    if bar is not None:
-                        bar.add()
+                    bar.update()
                     check()
         except KeyboardInterrupt:
             interrupted = True
         finally:
-            if bar is not None:
-                bar.close()
+            bar.close()
     result = Tournament.of(planned, done)
     if out is not None:
         save_all(result, out)

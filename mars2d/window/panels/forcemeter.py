@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mars2d.core.materials import GRAVITY
-from mars2d.output.signals import net_forces
-from mars2d.record.contact import CONTACT, rows_of
+from mars2d.record.contact import CONTACT, net_forces, pair_forces, rows_of
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.scenario import Scenario
 
@@ -87,8 +86,9 @@ class Meter:
         self._rows = rows[bisect_left(rows["time"], (first - 0.5) * dt) :]
         self._scenario, self._steps, self._body = frame.scenario, steps, body
         rows = rows_of(self._rows, np.arange(steps + 1, dtype=float) * dt, dt)
-        force = net_forces(self._rows, rows, [body], range(first + 1, steps + 1), dt)[:, 0]
-        self._reading = Reading(first * dt, force, _effort(frame, body, first))
+        pairs = pair_forces(self._rows, rows, dt)
+        net = net_forces(pairs, [body], range(first + 1, steps + 1))[:, :, 0]
+        self._reading = Reading(first * dt, np.hypot(*net.T), _effort(frame, body, first))
         return self._reading
 
 

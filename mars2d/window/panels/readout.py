@@ -12,7 +12,8 @@ from mars2d.bodies.drives.base import Drive
 from mars2d.core.description import snake_case
 from mars2d.core.plane import wrap
 from mars2d.core.quantity import UNKNOWN
-from mars2d.output.layers.forces import in_newtons, mean_forces
+from mars2d.output.layers.forces import in_newtons
+from mars2d.record.contact import pair_forces
 from mars2d.record.frame import Frame
 
 MAX_MESSAGES = 3
@@ -120,7 +121,8 @@ def contacts_of(frame: Frame, body: int) -> list[str]:
     """Return the names and forces of a body's contacts, the strongest first."""
     rows = frame.contacts
     mine = rows[(rows["a"] == body) | (rows["b"] == body)]
-    size = np.hypot(*mean_forces(mine, frame.scenario.sampling_time).T)
+    mine = pair_forces(mine, np.zeros(len(mine), dtype=int), frame.scenario.sampling_time)
+    size = np.hypot(*mine["force"].T)
     lines = []
     for k in np.argsort(-size, kind="stable").tolist():
         a, b = int(mine["a"][k]), int(mine["b"][k])

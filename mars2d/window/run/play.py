@@ -11,7 +11,7 @@ import numpy as np
 from mars2d.addons.contest import Contest
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Steer
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.roles import contests_of, role_of, roles_of
@@ -247,5 +247,5 @@ def game_of(experiment: Experiment) -> str:
     path = experiment.source.path
     name = experiment.scenario.title if path is None else str(path.absolute())
     if path is not None and path in examples().values():
-        name = path.stem
+        name = experiment_name(path)
     return ", ".join([name, *(f"{key} = {value}" for key, value in sorted(options.items()))])

@@ -18,6 +18,7 @@ from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame
 from mars2d.scenario.controllers import standing_still
+from mars2d.scenario.examples import experiment_name
 from mars2d.window.panels.inspector import Inspector
 from mars2d.window.panels.parameter_panel import ParameterPanel
 from mars2d.window.panels.predictions import Predictions
@@ -645,4 +646,4 @@ def _cast(source: Source) -> tuple[list[str | None], list[str | None]]:
 def _stem(source: Source) -> str:
     """Return the name for saved files, without a number."""
     path = source.experiment.source.path if isinstance(source, Timeline) else None
-    return source.scenario.title if path is None else path.stem
+    return source.scenario.title if path is None else experiment_name(path)

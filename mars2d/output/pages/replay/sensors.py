@@ -1,4 +1,4 @@
-"""The readings of a record's sensors, as columns of a replay."""
+"""What a record's sensors draw of their readings."""
 
 from __future__ import annotations
 
@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
-from mars2d.output.pages.replay.columns import Columns, Int
+from mars2d.output.pages.replay.columns import Int
 from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows
-from mars2d.sensors.base import Fan, Sensor
+from mars2d.sensors.base import Sensor
 
 if TYPE_CHECKING:
     from mars2d.record.rows import Rows
@@ -20,47 +19,36 @@ if TYPE_CHECKING:
 FEW_SCENES = 8
 """The most scenes of a sensor that is never thinned."""
 
-MAX_BEAMS = 360
-"""The most beams of a sensor that are drawn."""
-
-MAX_DRAWN = 5000
+MAX_DRAWN = 10_000
 """The most readings that are drawn."""
-
-LEVELS = 254
-"""The levels to which distances are rounded; one more level means that nothing is there."""
 
 ELSEWHERE = np.array([0.7, -0.4, 1.1])
 """A pose that tells drawings in a robot's frame from drawings in that of the world."""
 
 
 class Carried:
-    """A sensor on a robot, and its readings at the rows of a replay, (R, ...)."""
+    """A sensor on a robot, and its readings at the rows of a replay, (R, ...).
 
-    def __init__(self, name: str, robot: int, sensor: Sensor, readings: NDArray[Any]) -> None:
-        """Keep them together."""
-        self.name, self.robot, self.sensor, self.readings = name, robot, sensor, readings
+    pose: (R, 3), of the robot where each was measured. lags: whether some were so at earlier rows.
+    """
 
-    @property
-    def beams(self) -> Fan:
-        """The beams of a sensor that has some."""
-        fan = self.sensor.fan
-        assert fan is not None
-        return fan
-
-    @property
-    def is_fan(self) -> bool:
-        """Whether its readings are distances along beams, and drawn as such."""
-        fan, kind = self.sensor.fan, type(self.sensor)
-        if fan is None or _definer(kind, "draw") is not _definer(kind, "fan"):
-            return False  # a class of the user's may draw something else
-        return self.readings.shape[1:] == np.shape(fan.angles) and self.readings.dtype.kind == "f"
+    def __init__(self, record: Rows, kept: Int, name: str, k: int, sensor: Sensor) -> None:
+        """Take the k-th robot that has a sensor; kept: the rows of the replay, (R,)."""
+        self.name, self.robot, self.sensor = name, record.sensor_robots[name][k], sensor
+        self.readings = record.sensors[name][kept, k]
+        dt = record.scenario.sampling_time
+        measured = [sensor.measured_at(row, dt) for row in kept.tolist()]
+        self.pose: Float = record.pose[measured, :, self.robot]
+        self.lags = sensor.period(dt) > 1 or sensor.age(dt) > 0
 
     def changes(self) -> Int:
-        """Return the rows at which its reading changes."""
+        """Return the rows at which its reading changes, or from where it is drawn if it lags."""
         if not len(self.readings):
             return np.empty(0, dtype=np.int64)
         bits = np.ascontiguousarray(self.readings).view(np.uint8).reshape(len(self.readings), -1)
         changed = np.any(bits[1:] != bits[:-1], axis=1)
+        if self.lags:
+            changed |= np.any(np.diff(self.pose, axis=0) != 0, axis=1)
         return np.concatenate([[0], np.flatnonzero(changed) + 1])
 
 
@@ -70,94 +58,32 @@ def carried(record: Rows, kept: Int) -> Iterator[Carried]:
         for k, robot in enumerate(robots):
             sensor = record.scenario.robots[robot].sensor(name)
             if sensor is not None:
-                yield Carried(name, robot, sensor, record.sensors[name][kept, k])
+                yield Carried(record, kept, name, k, sensor)
 
 
-def fans_of(fans: list[Carried], colors: tuple[str, ...]) -> list[dict[str, Any]]:
-    """Return the beams of sensors, and the styles in which `draw` draws their area and hits."""
-    found = []
-    for each in fans:
-        fan = each.beams
-        skip = _skip(len(fan.angles))
-        sample = _drawn(
-            each, np.zeros(3), np.full(len(fan.angles), fan.range / 2), colors[each.robot]
-        )
-        area, hits = sample.styles[:2]
-        found.append({
-            "name": each.name,
-            "robot": each.robot,
-            "range": fan.range,
-            "mount": list(each.sensor.mount),
-            "first": float(fan.angles[0]),
-            "apart": float(fan.angles[1] - fan.angles[0]) * skip if len(fan.angles) > 1 else 0.0,
-            "beams": len(fan.angles[::skip]),
-            "cone": fan.cone,
-            "closed": fan.closed,
-            "styles": [list(area), list(hits)],
-        })  # fmt: skip
-    return found
-
-
-def pack_fans(fans: list[Carried], every: int) -> tuple[Columns, int]:
-    """Return the distances of all fans at one row in `every`, a byte each."""
-    columns = Columns()
-    rows = np.arange(0, len(fans[0].readings), every)
-    levels = []
-    for each in fans:
-        far = each.readings[rows][:, :: _skip(each.readings.shape[1])]
-        share = far / each.beams.range
-        near = np.isfinite(far)
-        level = np.rint(LEVELS * np.clip(np.where(near, share, 0.0), 0, 1)).astype(np.uint8)
-        levels.append(np.where(near, level, LEVELS + 1).astype(np.uint8))
-    columns.add_bytes("fans", np.concatenate(levels, axis=1), every=every)
-    return columns, len(rows)
-
-
-def beams_left_out(fans: list[Carried]) -> list[str]:
-    """Return for each kind of scanner of too many beams, in words, how many of them are drawn."""
-    skips = {each.name: _skip(each.readings.shape[1]) for each in fans}
-    return [f"beams of {name}: one in {skip}" for name, skip in skips.items() if skip > 1]
-
-
-def _definer(kind: type, name: str) -> type | None:
-    """Return the class in which an attribute of a class is defined."""
-    return next((each for each in kind.__mro__ if name in vars(each)), None)
-
-
-def _skip(beams: int) -> int:
-    return -(-beams // MAX_BEAMS)
-
-
-def drawings(
-    sensors: list[Carried], pose: Float, colors: tuple[str, ...]
-) -> tuple[list[Drawing], int]:
-    """Return the sensors' drawings of their readings, one for each `stride` rows, and the stride.
-
-    pose: (R, 3, n), of the rows of a replay.
-    """
+def drawings(sensors: list[Carried], colors: tuple[str, ...]) -> tuple[list[Drawing], int]:
+    """Return the drawings of readings, one for each `stride` rows, and the stride."""
     changes = [each.changes() for each in sensors]
-    stride = 1
-    while (
-        sum(len(np.unique(rows // stride)) for rows in changes if len(rows) > FEW_SCENES)
-        > MAX_DRAWN
-    ):
+    stride, many = 1, [rows for rows in changes if len(rows) > FEW_SCENES]
+    while sum(len(np.unique(rows // stride)) for rows in many) > MAX_DRAWN:
         stride *= 2
     found = [
-        _drawing(each, rows if len(rows) <= FEW_SCENES else _last(rows, stride), pose, colors)
+        _drawing(each, rows if len(rows) <= FEW_SCENES else _last(rows, stride), colors)
         for each, rows in zip(sensors, changes, strict=True)
     ]
     return found, stride
 
 
 def _last(rows: Int, stride: int) -> Int:
-    """Return the last row of each `stride` rows."""
-    return np.array([*{row // stride: row for row in rows.tolist()}.values()], dtype=np.int64)
+    """Return the first row, and the last of each `stride` rows."""
+    last = {row // stride: row for row in rows.tolist()}
+    return np.array(sorted({int(rows[0]), *last.values()}), dtype=np.int64)
 
 
-def _drawing(each: Carried, rows: Int, pose: Float, colors: tuple[str, ...]) -> Drawing:
+def _drawing(each: Carried, rows: Int, colors: tuple[str, ...]) -> Drawing:
     color = colors[each.robot]
-    if len(rows) and not _rigid(each, rows, color):
-        pairs = zip(pose[rows, :, each.robot], each.readings[rows], strict=True)
+    if len(rows) and (each.lags or not _rigid(each, rows, color)):
+        pairs = zip(each.pose[rows], each.readings[rows], strict=True)
         return Drawing(rows.tolist(), [_drawn(each, *pair, color) for pair in pairs])
     known: dict[bytes, Flat] = {}
     scenes: list[Flat] = []
