@@ -103,7 +103,7 @@ class Buttons:
         draw_tooltip(surface, painter, control.tip if self._keys else control.title, **at)
 
     def _arrange(self, area: pygame.Rect, ui: float) -> None:
-        """Lay out the buttons in an area: in two columns or smaller if they would not fit."""
+        """Lay out the buttons in an area: in several columns or smaller if they would not fit."""
         upright = self._upright = area.height > area.width
         long, thick = (area.height, area.width) if upright else (area.width, area.height)
         gap = round(GAP * ui)
@@ -111,9 +111,9 @@ class Buttons:
         def side_in(lanes: int) -> int:
             rows = sum(ceil(len(group) / lanes) for group in self._groups)
             each = long / (rows + BREAK * len(self._groups)) - gap
-            return round(max(8, min(self._side * ui, thick / lanes - 2 * gap, each)))
+            return round(max(8, min(self._side * ui, (thick - gap) / lanes - gap, each)))
 
-        lanes = max((1, 2), key=lambda lanes: (side_in(lanes), -lanes))
+        lanes = max((1, 2, 3), key=lambda lanes: (side_in(lanes), -lanes))
         side = side_in(lanes)
         along, first = round(0.5 * BREAK * side) + gap, (thick - lanes * (side + gap) + gap) // 2
         self.places = {}
