@@ -95,7 +95,7 @@ class Pull:
 
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
         """Draw the spring and its force."""
-        start = _world_point(_pose(frame, self.body), self.grip)
+        start = _world_point(frame.body_pose(self.body), self.grip)
         draw_ring(scene, frame, self.body, GOOD, 2.0)
         scene.line([start, self.target], stroke=HALO, width=5.0)
         scene.line([start, self.target], stroke=FORCE, width=2.5)
@@ -121,7 +121,7 @@ class Placement:
         point: Point,
     ) -> None:
         self.body, self._do, self._clock = body, do, clock
-        self.before = self.now = _pose(frame, body)
+        self.before = self.now = frame.body_pose(body)
         self.start = point
         self._fault, self._checked, self._at = "", -1.0, self.before
 
@@ -223,11 +223,6 @@ def _signed(text: str) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
-def _pose(frame: Frame, body: int) -> Triple:
-    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
-    return x, y, theta
-
-
 def with_pose(frame: Frame, body: int, pose: Triple) -> Frame:
     """Return a frame with one body put at another pose."""
     robots, props, n = frame.pose.copy(), frame.prop_pose.copy(), frame.pose.shape[1]
@@ -242,7 +237,7 @@ def with_pose(frame: Frame, body: int, pose: Triple) -> Frame:
 
 def local_point(frame: Frame, body: int, point: Point) -> Point:
     """Return a point [m] in a body's own frame."""
-    x, y, theta = _pose(frame, body)
+    x, y, theta = frame.body_pose(body)
     dx, dy, c, s = point[0] - x, point[1] - y, cos(theta), sin(theta)
     return c * dx + s * dy, c * dy - s * dx
 
@@ -266,7 +261,7 @@ def _within(rigid: Rigid, point: Point) -> Point:
 def draw_ring(scene: Scene, frame: Frame, body: int, color: str, width: float) -> None:
     """Draw a ring round a body; width: of its line, points."""
     center, radius = bounding_circle(
-        frame.scenario.bodies[body].shape, np.array(_pose(frame, body))
+        frame.scenario.bodies[body].shape, np.array(frame.body_pose(body))
     )
     for stroke, more in ((HALO, 2.0), (color, 0.0)):
         scene.circle(center, radius, stroke=stroke, width=width + more, pixels=6.0)
@@ -282,7 +277,7 @@ def draw_label(
     side: Literal["above", "below"] = "above",
 ) -> None:
     """Write a text above or below the ring round a body."""
-    shape, pose = frame.scenario.bodies[body].shape, np.array(_pose(frame, body))
+    shape, pose = frame.scenario.bodies[body].shape, np.array(frame.body_pose(body))
     (x, y), radius = bounding_circle(shape, pose)
     off = radius + 12 / camera.scale
     place = x, y + off if side == "above" else y - off
