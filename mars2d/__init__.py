@@ -34,7 +34,7 @@ from mars2d.world.world import World
 if TYPE_CHECKING:
     from mars2d.study.sweep import sweep
     from mars2d.study.table import Table
-    from mars2d.study.tournament.tournament import tournament
+    from mars2d.tournaments.tournament import tournament
     from mars2d.window.run import run
 
 __version__ = "0.1.0"
@@ -81,7 +81,7 @@ _LATER = {
     "Table": "mars2d.study.table",
     "run": "mars2d.window.run",
     "sweep": "mars2d.study.sweep",
-    "tournament": "mars2d.study.tournament.tournament",
+    "tournament": "mars2d.tournaments.tournament",
 }
 """The names that are imported when they are first asked for: not every program needs them."""
 

@@ -9,8 +9,8 @@ from mars2d.addons import Game
 from mars2d.cli.command_line import main
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.roles import contest_of
-from mars2d.study.tournament.page.rules import rules_page
-from mars2d.study.tournament.rules import Rules
+from mars2d.tournaments.page.rules import rules_page
+from mars2d.tournaments.rules import Rules
 from tests.browser import Tab
 from tests.cases import each_case
 

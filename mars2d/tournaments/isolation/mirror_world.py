@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
-import pickle
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn, cast
 
 import numpy as np
@@ -15,8 +13,8 @@ from mars2d.core.plane import Outline
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import Message, as_text
 from mars2d.scenario.scenario import Scenario
-from mars2d.study.isolation.observation import Briefing, Cast, News
-from mars2d.study.isolation.protocol import STEP, STEP_HEAD, Layout
+from mars2d.tournaments.isolation.limits import MB
+from mars2d.tournaments.isolation.observation import Briefing, Cast, Seen
 from mars2d.world.channel import Channel
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView, unknown
 
@@ -41,24 +39,25 @@ REFUSED = {
 }  # fmt: skip
 """The attributes of a World that a MirrorWorld lacks, with the substitute if there is one."""
 
-NO_NEWS = News({}, {}, {})
-NO_CONTACTS = np.empty(0, dtype=CONTACT)
-
 
 class Mailbox(Channel):
-    """The channel of an isolated law: it keeps messages to and from its robots."""
+    """The channel of an isolated law: it keeps messages to and from its robots.
+
+    sent: (sender, content as JSON, receivers) of each message of this control step. arrived: by
+    receiver.
+    """
 
     def __init__(self, names: Sequence[str], limit: int) -> None:
         """Take the names of all robots, and the most bytes that may be sent in a control step."""
         self._names = [*names]
         self._indices = {name: i for i, name in enumerate(names)}
         self._limit, self._size = limit, 0
-        self._outbox: list[tuple[int, str, list[int] | None]] = []
+        self.sent: list[tuple[int, str, list[int] | None]] = []
         self.arrived: Mapping[int, tuple[Message, ...]] = {}
 
     def inbox(self, robot: int) -> tuple[Message, ...]:
         """Return the messages that have arrived for a robot at the current control step."""
-        return self.arrived.get(robot, ())
+        return self.arrived[robot]
 
     def send(self, sender: int, content: Any, to: Any) -> None:
         """Keep a message from a robot. Raises LawError as the world's channel does."""
@@ -67,24 +66,11 @@ class Mailbox(Channel):
         self._size += 100 + len(text) + 8 * len(receivers or ())
         if self._size > self._limit:
             raise LawError(f"robot.send: more than {self._limit} bytes in one control step")
-        self._outbox.append((sender, text, receivers))
+        self.sent.append((sender, text, receivers))
 
-    def taken(self) -> bytes:
-        """Return and forget sent messages, [[sender, content, receivers], ...] as JSON, or b''."""
-        sent, self._outbox, self._size = self._outbox, [], 0
-        return json.dumps(sent).encode() if sent else b""
-
-
-class _Streams:
-    """The random streams of robots, from states that the match computed from its seed."""
-
-    def __init__(self, states: Mapping[str, Mapping[str, Any]]) -> None:
-        self._states = states
-
-    def stream(self, name: str) -> np.random.Generator:
-        generator = np.random.PCG64(0)
-        generator.state = cast("Any", self._states[name])
-        return np.random.Generator(generator)
+    def turn(self, arrived: Mapping[int, tuple[Message, ...]]) -> None:
+        """Begin the next control step."""
+        self.sent, self._size, self.arrived = [], 0, arrived
 
 
 def _refused(what: str) -> Any:
@@ -111,36 +97,37 @@ class OtherView(RobotView):
     send = _refused("send")
 
 
+def _rows(name: str, first: int, last: int) -> Any:
+    """Return a property for some rows of one of the arrays that are seen."""
+    return property(lambda world: getattr(world._seen, name)[first:last])
+
+
 class MirrorWorld:
     """Stands in for the World in an isolated law's process: the visible part, by the same names.
 
-    robots: views of all robots. mine: the views with which the law is called.
+    robots: views of all robots. mine: the views with which the law is called. Its arrays are read
+    only, and new at each control step.
     """
 
-    def __init__(self, briefing: Briefing, velocities: Callable[[], tuple[bytes, bytes]]) -> None:
-        """Take the briefing; there are no observations before the first `show`.
-
-        velocities: requests the frame of the current control step with velocities.
-        """
-        self._ask_velocities = velocities
+    def __init__(self, briefing: Briefing) -> None:
+        """Take the briefing; there are no observations before the first `show`."""
+        self._seen: Any = None
         self.scenario: Scenario | Cast = briefing.scenario
         self.obstacles: tuple[Outline, ...] = briefing.obstacles
-        self.iteration = -1
-        described = briefing.scenario.robots
-        props = len(briefing.scenario.props)
-        self._layout = Layout(len(described), props)
+        described, world = briefing.scenario.robots, cast("Simulation", self)
         self._mailbox: Mailbox | None = None
         if briefing.talks:
-            limit = int(briefing.limits.output * 1e6)
+            limit = int(briefing.limits.output * MB)
             self._mailbox = Mailbox([str(robot.name) for robot in described], limit)
-        self._neighbours: dict[int, Sequence[int]] = {}
-        world = cast("Simulation", self)
         names = [str(described[i].name) for i in briefing.robots]
-        keys = [f"robot {name}" for name in names]
-        stream = _Streams(dict(zip(keys, briefing.streams, strict=True))).stream
-        self._minds = {
-            i: Mind(name, stream) for i, name in zip(briefing.robots, names, strict=True)
-        }
+        states = {f"robot {name}": s for name, s in zip(names, briefing.streams, strict=True)}
+
+        def stream(name: str) -> np.random.Generator:
+            generator = np.random.PCG64(0)
+            generator.state = cast("Any", states[name])
+            return np.random.Generator(generator)
+
+        self._minds = {i: Mind(n, stream) for i, n in zip(briefing.robots, names, strict=True)}
         for mind, sensors in zip(self._minds.values(), briefing.sensors, strict=True):
             mind.sense._names.extend(sensors)
         self.mine = [
@@ -151,45 +138,23 @@ class MirrorWorld:
             RobotView(world, i, self._minds[i]) if i in self._minds else OtherView(world, i)
             for i in range(len(described))
         ]
-        self.props = tuple(PropView(world, i) for i in range(props))
+        self.props = tuple(PropView(world, i) for i in range(len(briefing.scenario.props)))
 
-    def show(self, kind: bytes, body: bytes) -> None:
-        """Take the observations of a control step from its frame."""
-        self.iteration, contacts, more = STEP_HEAD.unpack_from(body)
-        self._seen: dict[str, Float] = {}
-        self._body, self._with_velocities = body, kind != STEP
-        if len(body) == (self._layout.moving if self._with_velocities else self._layout.still):
-            self._take_news(b"", b"")
-            return
-        end = len(body) - more
-        self._take_news(body[end - contacts : end], body[end:])
-
-    def _take_news(self, contacts: bytes, more: bytes) -> None:
-        self._contacts = np.frombuffer(contacts, CONTACT) if contacts else NO_CONTACTS
-        news = News(*pickle.loads(more)) if more else NO_NEWS
-        self._neighbours.update(news.neighbours)
-        for robot, readings in news.readings.items():
-            for name, reading in readings.items():
-                if isinstance(reading, np.ndarray):
-                    reading.setflags(write=False)
-                vars(self._minds[robot].sense)[name] = reading
+    def show(self, seen: Seen) -> None:
+        """Take what is seen at a control step."""
+        self._seen = seen
+        readings = [reading for row in seen.readings.values() for reading in row.values()]
+        for each in (*seen, *readings):
+            if isinstance(each, np.ndarray):
+                each.setflags(write=False)
+        for robot, row in seen.readings.items():
+            vars(self._minds[robot].sense).update(row)
         if self._mailbox is not None:
-            self._mailbox.arrived = news.inbox
+            self._mailbox.turn(seen.inbox)
 
-    def _part(self, name: str) -> Float:
-        if name not in self._seen:
-            self._seen[name] = self._layout.part(self._body, name)
-        return self._seen[name]
-
-    def _moving(self, name: str) -> Float:
-        if not self._with_velocities:
-            _, body = self._ask_velocities()
-            self._body, self._with_velocities = body, True
-        return self._part(name)
-
-    def taken_letters(self) -> bytes:
-        """Return the messages sent since the last call; see `Mailbox.taken`."""
-        return b"" if self._mailbox is None else self._mailbox.taken()
+    def letters(self) -> list[tuple[int, str, list[int] | None]]:
+        """Return the messages of this control step: (sender, content as JSON, receivers)."""
+        return [] if self._mailbox is None else self._mailbox.sent
 
     def __getattr__(self, name: str) -> NoReturn:
         if name in REFUSED:
@@ -199,6 +164,16 @@ class MirrorWorld:
 
     # -- the interface of World ------------------------------------------------------------------
 
+    pose = _rows("state", 0, 3)
+    position = _rows("state", 0, 2)
+    velocity = _rows("state", 3, 6)
+    command = _rows("state", 6, 8)
+    prop_pose = _rows("props", 0, 3)
+    prop_velocity = _rows("props", 3, 6)
+    iteration = property(lambda world: world._seen.iteration)
+    effort = property(lambda world: world._seen.state[8])
+    contacts = property(lambda world: np.frombuffer(world._seen.contacts, CONTACT))
+
     @property
     def view(self) -> MirrorWorld:
         """Itself: it is all that a law may see."""
@@ -207,7 +182,7 @@ class MirrorWorld:
     @property
     def time(self) -> float:
         """The simulated time, seconds: iteration x sampling time."""
-        return self.iteration * self.scenario.sampling_time
+        return cast("float", self.iteration * self.scenario.sampling_time)
 
     @property
     def sampling_time(self) -> float:
@@ -215,51 +190,11 @@ class MirrorWorld:
         return self.scenario.sampling_time
 
     @property
-    def pose(self) -> Float:
-        """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; new at each step."""
-        return self._part("pose")
-
-    @property
-    def position(self) -> Float:
-        """The positions (2, n): x, y [m]. Read only; new at each step."""
-        return self._part("pose")[:2]
-
-    @property
-    def velocity(self) -> Float:
-        """The robots' velocities (3, n) at this instant: x', y' [m/s], theta' [rad/s]."""
-        return self._moving("velocity")
-
-    @property
-    def prop_pose(self) -> Float:
-        """The poses of the props' centres of mass (3, p): x, y [m], theta [rad]. Read only."""
-        return self._part("prop_pose")
-
-    @property
-    def prop_velocity(self) -> Float:
-        """The velocities of the props (3, p): x', y' [m/s], theta' [rad/s]."""
-        return self._moving("prop_velocity")
-
-    @property
-    def effort(self) -> Float:
-        """The share of its bounds that each drive used in the last step, (n,), 0 to 1."""
-        return self._part("effort")
-
-    @property
     def geometric_center(self) -> Float:
         """The geometric centres (2, n) [m], `Robot.center_offset` behind those of rotation."""
         offset = np.array([robot.center_offset for robot in self.scenario.robots])
         x, y, theta = self.pose
         return np.array([x - offset * np.cos(theta), y - offset * np.sin(theta)])
-
-    @property
-    def command(self) -> Float:
-        """The last command (2, n) after saturation; zeros at first. Read only."""
-        return self._part("command")
-
-    @property
-    def contacts(self) -> NDArray[np.void]:
-        """The contacts since the last step, rows of dtype `mars2d.record.CONTACT`."""
-        return self._contacts
 
     @property
     def workspace(self) -> Outline | None:
@@ -273,7 +208,7 @@ class MirrorWorld:
 
     def neighbour_indices(self, robot: int) -> Sequence[int]:
         """Return the current neighbours of one of the law's robots, by ``Scenario.neighbours``."""
-        return self._neighbours[robot]
+        return cast("Seen", self._seen).neighbours[robot]
 
     @property
     def channel(self) -> Mailbox:

@@ -13,7 +13,7 @@ from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from mars2d.study.isolation.limits import Limits
+from mars2d.tournaments.isolation.limits import Limits
 
 SEES = {
     "full": "everything, as robot.world",

@@ -8,10 +8,10 @@ from math import isfinite
 
 from mars2d.core.errors import counted
 from mars2d.output.raster.theme import DARK, LIGHT, mixed
-from mars2d.study.tournament.league import DRAW, WIN, Standing, Tournament, is_draw
-from mars2d.study.tournament.match import Played
-from mars2d.study.tournament.page.rules import dots
-from mars2d.study.tournament.page.words import (
+from mars2d.tournaments.league import DRAW, WIN, Standing, Tournament, is_draw
+from mars2d.tournaments.match import Played
+from mars2d.tournaments.page.rules import dots
+from mars2d.tournaments.page.words import (
     DASH,
     clean,
     escaped,
@@ -21,7 +21,7 @@ from mars2d.study.tournament.page.words import (
     rounds_of,
     time_cell,
 )
-from mars2d.study.tournament.rules import Rules
+from mars2d.tournaments.rules import Rules
 
 SORTED_BY = ' aria-sort="ascending"'
 STANDING_COLUMNS = (

@@ -4,15 +4,43 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
+from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, policy
 from mars2d.output.raster.theme import DARK
-from mars2d.study.tournament.page.words import escaped, read
-from mars2d.study.tournament.rules import Role, Rules
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.roles import contest_of
+from mars2d.study.plan import Plan, settings_of
+from mars2d.tournaments.isolation.limits import Limits
+from mars2d.tournaments.page.words import escaped, read
+from mars2d.tournaments.rules import Role, Rules
 
 NOTE = re.compile(r"[A-Z][\w ,]{2,24}: ")
 """How a line of a docstring begins that says something new."""
+
+
+def save_rules(
+    path: Path,
+    experiment: str | Path,
+    limits: Limits,
+    *,
+    settings: Mapping[str, Any],
+    stop_time: float | None,
+    first_seed: int,
+    seeds: int,  # noqa: ARG001 - rules are the same for each
+) -> None:
+    """Write the page of a game's rules, in its first round. Raises InputError if that fails."""
+    options = next(iter(Plan(settings_of(settings), (first_seed,)).points()))
+    always = {} if stop_time is None else {"stop_time": stop_time}
+    opened = open_experiment(experiment, {**options, **always}, seed=first_seed)
+    rules = Rules.of(opened, contest_of(opened.scenario, str(experiment)))
+    with atomic_write(path) as file:
+        page = rules_page(replace(rules, limits=limits))
+        file.write(page.encode("utf-8", errors="replace"))
 
 
 def rules_page(rules: Rules) -> str:

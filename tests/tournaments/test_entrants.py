@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mars2d.core.errors import InputError
-from mars2d.study.tournament.schedule import entrants, law_code, law_files
+from mars2d.tournaments.schedule import entrants, law_code, law_files
 from tests.cases import each_case
 
 ROLES = ("pursuer", "evader")

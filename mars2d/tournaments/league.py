@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import html
 import io
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
@@ -17,9 +18,9 @@ from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.study.statistics import Interval, proportion
 from mars2d.study.table import cell, word_cell
-from mars2d.study.tournament.match import Played
-from mars2d.study.tournament.rules import Rules
-from mars2d.study.tournament.schedule import Schedule
+from mars2d.tournaments.match import Played, settled
+from mars2d.tournaments.rules import Rules
+from mars2d.tournaments.schedule import Schedule
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -129,6 +130,29 @@ def _standing(
     )
 
 
+def group_of(law: str) -> str:
+    """Return the group that a law is of: the name of its file, without folders."""
+    return law.rpartition("/")[2]
+
+
+def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
+    """Return a group's row in the grading sheet, from its roles and matches."""
+    reasons = [each.verdicts[role] for role, each in matches if role in each.verdicts]
+    firsts = {verdict.kind: verdict.text for verdict in reversed(reasons)}
+    kinds = Counter(verdict.kind for verdict in reasons)
+    return {
+        "group": group,
+        "matches": len(matches),
+        "points": sum(_points(each, role) for role, each in matches),
+        "forfeits": len(reasons),
+        "reasons": "; ".join(f"{count} x {kind}: {firsts[kind]}" for kind, count in kinds.items()),
+    }
+
+
+def _points(played: Played, role: str) -> float:
+    return WIN * (played.winner == role) + DRAW * is_draw(played)
+
+
 def is_draw(played: Played) -> bool:
     """Return whether a match has no winner although no law failed."""
     return played.winner is None and not played.verdicts and not played.error
@@ -174,7 +198,7 @@ class Tournament:
     @classmethod
     def of(cls, schedule: Schedule, matches: Iterable[Played]) -> Tournament:
         """Return the tournament of a schedule from the matches that were played, in any order."""
-        done = tuple(sorted(matches, key=lambda played: played.match.number))
+        done = tuple(settled(schedule.matches, matches))
         return cls(
             title=schedule.title,
             experiment=schedule.experiment,
@@ -231,19 +255,36 @@ class Tournament:
             for standing in self.standings
         )
 
+    def grade_rows(self) -> tuple[dict[str, Any], ...]:
+        """Return a row for each group, which is the name of its files: matches, points, forfeits.
+
+        ``reasons`` says in words why it has forfeited.
+        """
+        groups: dict[str, list[tuple[str, Played]]] = {}
+        for played in self.matches:
+            if not played.error:
+                for role, law in played.match.laws.items():
+                    groups.setdefault(group_of(law), []).append((role, played))
+        return tuple(_grade(group, groups[group]) for group in sorted(groups))
+
+    def _table(self, name: str) -> tuple[dict[str, Any], ...]:
+        tables = {
+            "matches": self.rows, "league": self.standing_rows, "grades": self.grade_rows,
+        }  # fmt: skip
+        if name not in tables:
+            raise InputError(f"table={name!r}: expected {', '.join(map(repr, tables))}")
+        return tables[name]()
+
     def to_frame(self, table: str = "matches") -> DataFrame:
-        """Return a table of pandas: "matches", one row a match, or "league", one row a law."""
-        if table not in ("matches", "league"):
-            raise InputError(f"to_frame({table!r}): expected 'matches' or 'league'")
+        """Return a table of pandas: "matches", "league", one row a law, or "grades", a group."""
+        rows = self._table(table)
         with extra("data", "tables need pandas"):
             import pandas as pd
-        return pd.DataFrame(self.rows() if table == "matches" else self.standing_rows())
+        return pd.DataFrame(rows)
 
     def save_csv(self, path: str | Path, table: str = "matches") -> Path:
-        """Write one row a match, or with table="league" one row a law; return the path."""
-        if table not in ("matches", "league"):
-            raise InputError(f"save_csv(table={table!r}): expected 'matches' or 'league'")
-        rows = self.rows() if table == "matches" else self.standing_rows()
+        """Write a table, see `to_frame`, and return the path."""
+        rows = self._table(table)
         text = io.StringIO(newline="")
         writer = csv.writer(text)
         writer.writerow(rows[0] if rows else [])

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
-from mars2d.study.tournament.league import Tournament
-from mars2d.study.tournament.match import Played
-from mars2d.study.tournament.page.rules import dot_style, rules_section
-from mars2d.study.tournament.page.tables import (
+from mars2d.tournaments.league import Tournament
+from mars2d.tournaments.match import Played
+from mars2d.tournaments.page.rules import dot_style, rules_section
+from mars2d.tournaments.page.tables import (
     choices,
     details,
     match_table,
@@ -20,7 +20,7 @@ from mars2d.study.tournament.page.tables import (
     shades,
     standing_tables,
 )
-from mars2d.study.tournament.page.words import clean, escaped, facts, read
+from mars2d.tournaments.page.words import clean, escaped, facts, read
 
 __all__ = ["MAX_REPLAYS_SIZE", "league_page", "save_html"]
 

@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import counted
-from mars2d.study.tournament.league import Tournament
-from mars2d.study.tournament.match import Match
+from mars2d.tournaments.league import Tournament
+from mars2d.tournaments.match import Match
 
 DASH = "\N{EN DASH}"
 """Shown in place of missing values."""

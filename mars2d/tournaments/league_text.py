@@ -7,8 +7,8 @@ from itertools import groupby
 from math import isnan
 
 from mars2d.core.errors import counted
-from mars2d.study.tournament.league import Standing, Tournament, head_to_head, league
-from mars2d.study.tournament.match import Played
+from mars2d.tournaments.league import Standing, Tournament, head_to_head, league
+from mars2d.tournaments.match import Played
 
 MAX_WIDTH = 100
 """The greatest width of the table of who beat whom; a wider one is only on the page."""

@@ -11,12 +11,12 @@ from mars2d import Robot, Scenario
 from mars2d.addons import Game
 from mars2d.output.pages.replay import page as replay_page
 from mars2d.output.pages.replay import replay_data
-from mars2d.study.isolation import Verdict
-from mars2d.study.tournament.league import Tournament, league
-from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.page import league_page, save_html
-from mars2d.study.tournament.page.tables import COLOR_STEPS
-from mars2d.study.tournament.page.words import DASH
+from mars2d.tournaments.isolation import Verdict
+from mars2d.tournaments.league import Tournament, league
+from mars2d.tournaments.match import Match, Played
+from mars2d.tournaments.page import league_page, save_html
+from mars2d.tournaments.page.tables import COLOR_STEPS
+from mars2d.tournaments.page.words import DASH
 from tests.browser import Tab
 
 EVIL = "</script><script>alert(1)</script>'\"&amp;<img src=x onerror=alert(1)>\u2028{{title}}"

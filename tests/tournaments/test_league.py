@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from mars2d.study.isolation import Verdict
-from mars2d.study.tournament.league import Tournament, head_to_head, league
-from mars2d.study.tournament.league_text import league_text
-from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.page import save_html
+from mars2d.tournaments.isolation import Verdict
+from mars2d.tournaments.league import Tournament, head_to_head, league
+from mars2d.tournaments.league_text import league_text
+from mars2d.tournaments.match import Match, Played
+from mars2d.tournaments.page import save_html
 
 ROLES = ("pursuer", "evader")
 

@@ -13,14 +13,14 @@ from typing import Any
 from mars2d.core.errors import InputError
 from mars2d.core.files import growing, writing
 from mars2d.physics.settings import versions
-from mars2d.study.isolation.limits import Limits, Verdict
-from mars2d.study.tournament.match import Match, Played
-from mars2d.study.tournament.schedule import Schedule, law_code
+from mars2d.tournaments.isolation.limits import Limits, Verdict
+from mars2d.tournaments.match import Match, Played
+from mars2d.tournaments.schedule import Schedule
 
 PLAYED = "played.jsonl"
 """The file that is written while matches are played."""
 
-FORMAT = 2
+FORMAT = 3
 """The version of the file's format; a folder with another version is refused."""
 
 
@@ -29,16 +29,19 @@ def _prints(schedule: Schedule, limits: Limits) -> dict[int, str]:
 
     That is the experiment, laws, options, seed, limits and versions, but not the match's number.
     """
-    every = dict.fromkeys(file for match in schedule.matches for file in match.files.values())
-    laws = {file: _hash(law_code(Path(file)).values()) for file in every}
-    others = sorted(schedule.files - {Path(file) for file in every})
+    code = {
+        file: _hash(match.code[role].values())
+        for match in schedule.matches
+        for role, file in match.files.items()
+    }
+    others = sorted(schedule.files - {*map(Path, code)})
     common = _hash([f"{versions()} {limits}".encode(), *(path.read_bytes() for path in others)])
     return {
         match.number: _hash(
             [
                 common.encode(),
                 repr((match.options, match.seed, match.laws)).encode(),
-                *(laws[file].encode() for file in match.files.values()),
+                *(code[file].encode() for file in match.files.values()),
             ]
         )
         for match in schedule.matches
@@ -170,7 +173,8 @@ def _make(path: Path) -> None:
 
 def _named(match: Match) -> Match:
     """Return a match with its options as text for people; its hash identifies it."""
-    return replace(match, options={name: repr(value) for name, value in match.options.items()})
+    options = {name: repr(value) for name, value in match.options.items()}
+    return replace(match, options=options, code={})
 
 
 def _played(kept: Mapping[str, Any], match: Match) -> Played:

@@ -17,10 +17,9 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.policy import SUFFIX as POLICY
 from mars2d.scenario.roles import contest_of
 from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
-from mars2d.study.tournament.match import Match
-from mars2d.study.tournament.rules import Rules
-
-IMPORT = re.compile(rb"(?:^|[;:])\s*(?:from|import)\s+([a-zA-Z0-9_., \t]+)", re.MULTILINE)
+from mars2d.tournaments.isolation.source import law_code
+from mars2d.tournaments.match import Match
+from mars2d.tournaments.rules import Rules
 
 Files = str | Path | Sequence[str | Path]
 """One or several files of laws, folders or patterns."""
@@ -64,7 +63,7 @@ def schedule(
 ) -> Schedule:
     """Return the schedule in which each law of a role plays each of the other, with all seeds.
 
-    The arguments are those of `mars2d.tournament`. Only the experiment is read, and no law. Raises
+    The arguments are those of `mars2d.tournament`. The laws' files are read, but not run. Raises
     InputError for anything that can't be played.
     """
     if not isinstance(experiment, (str, Path)):
@@ -95,6 +94,7 @@ def schedule(
         raise InputError(f"these are {count:,} matches: {MAX_RUNS:,} at most")
     named = str(experiment) if str(experiment) in examples() else str(opened.source.path)
     law_names = names_of(law for laws in taking_part.values() for law in laws)
+    code = {law: law_code(Path(law)) for law in law_names}
     matches = tuple(
         Match(
             number=number,
@@ -103,6 +103,7 @@ def schedule(
             seed=seed,
             laws={role: law_names[law] for role, law in files.items()},
             files=files,
+            code={role: code[law] for role, law in files.items()},
         )
         for number, (options, files, seed) in enumerate(
             itertools.product(rounds, pairings, plan.seeds), 1
@@ -272,6 +273,8 @@ def _all_files(named: Files, beside: Path | None) -> list[Path]:
 def names_of(files: Iterable[str | Path]) -> dict[str, str]:
     """Return a name for each law's file: its own, preceded by folders where needed to be unique.
 
+    Characters that nobody sees are escaped, also line breaks.
+
     >>> names_of(["a/hunt.py", "b/hunt.py", "b/flee.py"])
     {'a/hunt.py': 'a/hunt', 'b/hunt.py': 'b/hunt', 'b/flee.py': 'flee'}
     """
@@ -283,29 +286,5 @@ def names_of(files: Iterable[str | Path]) -> dict[str, str]:
             (k for k in range(1, len(parts)) if all(o[-k:] != parts[-k:] for o in others)),
             len(parts),
         )
-        names[file] = "/".join(parts[-depth:])
+        names[file] = repr("/".join(parts[-depth:]))[1:-1]
     return names
-
-
-def law_code(law: Path) -> dict[Path, bytes]:
-    """Return the contents of a law's file and of the files beside it that it imports, by path.
-
-    All .py files of an imported folder count. The files are not run; imports are found in the text.
-    """
-    contents: dict[Path, bytes] = {}
-    waiting = [law]
-    while waiting:
-        path = waiting.pop()
-        if path in contents or not path.is_file():
-            continue
-        contents[path] = path.read_bytes()
-        if path.suffix == POLICY:
-            continue  # it imports nothing
-        lines = re.findall(IMPORT, contents[path])
-        names = sorted(
-            {name.decode() for line in lines for name in re.findall(rb"[a-zA-Z0-9_]+", line)}
-        )
-        for folder in dict.fromkeys((path.parent, law.parent)):
-            for name in names:
-                waiting += [folder / f"{name}.py", *sorted((folder / name).rglob("*.py"))]
-    return contents

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from functools import partial
@@ -10,18 +11,17 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.interrupt import interrupts
-from mars2d.study.code import WatchedFiles
-from mars2d.study.isolation.limits import Limits
-from mars2d.study.run import CountingBar
-from mars2d.study.tournament.folder import Folder
-from mars2d.study.tournament.league import Tournament
-from mars2d.study.tournament.match import Match, Played, play
-from mars2d.study.tournament.page import save_html
-from mars2d.study.tournament.schedule import Files, Schedule, law_code, schedule
+from mars2d.core.progress import Progress
 from mars2d.study.work import each_done, worker_count
 from mars2d.study.workers import Failure, leave_if_imported_again
+from mars2d.tournaments.folder import Folder
+from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits
+from mars2d.tournaments.league import Tournament
+from mars2d.tournaments.match import TIME_OUTS, Match, Played, play, settled
+from mars2d.tournaments.page import save_html
+from mars2d.tournaments.schedule import Files, Schedule, schedule
 
-MATCHES, LEAGUE, PAGE = "matches.csv", "league.csv", "league.html"
+MATCHES, LEAGUE, GRADES, PAGE = "matches.csv", "league.csv", "grades.csv", "league.html"
 """The files that are written to a tournament's folder at the end."""
 
 LIMITS = Limits()
@@ -106,20 +106,24 @@ def play_schedule(
     """
     if executor is None:
         worker_count(workers)
+    function = partial(play, limits=limits, replays=replays)
     with nullcontext() if out is None else Folder(out, planned, limits, replays) as folder:
         done = [] if folder is None else [*folder.before]
-        missing = matches_without(planned.matches, done)
+        bar = Progress(len(planned.matches), "matches") if show_progress else None
         interrupted = False
-        bar = CountingBar(len(missing)) if show_progress else None
         try:
             with interrupts() as check:
-                for played in play_all(missing, limits, replays, executor, workers):
-                    done.append(played)
-                    if folder is not None:
-                        folder.keep(played)
-                    if bar is not None:
-                        bar.add()
-                    check()
+                while left := missing(planned, done):
+                    for index, outcome in each_done(function, left, executor, workers):
+                        played = _result(left[index], outcome)
+                        done.append(played)
+                        if folder is not None:
+                            folder.keep(played)
+                        if bar is not None:
+                            bar.update(len(done))
+                        check()
+                        if _stops(played, done):
+                            break  # its matches that are left are not to be played
         except KeyboardInterrupt:
             interrupted = True
         finally:
@@ -130,51 +134,36 @@ def play_schedule(
         save_all(result, out)
     if interrupted:
         where = "were played" if out is None else f"are in {out}; the same command goes on"
-        said = f"{len(done)} of {len(planned.matches)} matches {where}"
+        said = f"{len(result.matches)} of {len(planned.matches)} matches {where}"
         raise TournamentInterrupted(said, result)
     return result
 
 
+def missing(planned: Schedule, played: Sequence[Played]) -> list[Match]:
+    """Return the matches that are still to be played."""
+    known = {each.match.number for each in settled(planned.matches, played)}
+    return [match for match in planned.matches if match.number not in known]
+
+
+def _result(match: Match, done: Played | Failure) -> Played:
+    return Played.without_result(match, done.error) if isinstance(done, Failure) else done
+
+
+def _stops(played: Played, done: Sequence[Played]) -> bool:
+    """Return whether a match has shown that one of its laws is out of time for good."""
+    late = {played.match.laws[r] for r, v in played.verdicts.items() if v.kind in OUT_OF_TIME}
+    times = Counter(
+        each.match.laws[role]
+        for each in done
+        for role, verdict in each.verdicts.items()
+        if verdict.kind in OUT_OF_TIME
+    )
+    return any(times[law] == TIME_OUTS for law in late)
+
+
 def save_all(result: Tournament, folder: Path) -> None:
-    """Write both tables and the page of a tournament to a folder."""
+    """Write the tables and the page of a tournament to a folder."""
     result.save_csv(folder / MATCHES)
     result.save_csv(folder / LEAGUE, "league")
+    result.save_csv(folder / GRADES, "grades")
     save_html(result, folder / PAGE)
-
-
-def matches_without(matches: Iterable[Match], played: Iterable[Played]) -> list[Match]:
-    """Return the matches that were not played."""
-    done = {each.match.number for each in played}
-    return [match for match in matches if match.number not in done]
-
-
-def play_all(
-    matches: Sequence[Match],
-    limits: Limits,
-    replays: bool,
-    executor: Executor | None = None,
-    workers: int | None = None,
-) -> Iterator[Played]:
-    """Play each match in another process, and yield results as they come.
-
-    A match has no result if its process fails, or if the file of one of its laws changes meanwhile.
-    """
-    function: Callable[[Match], Played] = partial(play, limits=limits, replays=replays)
-    watched = _watched(matches)
-    for index, done in each_done(function, matches, executor, workers):
-        match = matches[index]
-        changed = [file for role in match.files.values() if (file := watched[role].changed())]
-        if changed:
-            yield Played.without_result(match, f"{changed[0].name} has changed meanwhile")
-        elif isinstance(done, Failure):
-            yield Played.without_result(match, done.error)
-        else:
-            yield done
-
-
-def _watched(matches: Sequence[Match]) -> dict[str, WatchedFiles]:
-    """Return a watch on the files of each law."""
-    watched = {file: WatchedFiles() for match in matches for file in match.files.values()}
-    for file, watch in watched.items():
-        watch.add(law_code(Path(file)))
-    return watched
