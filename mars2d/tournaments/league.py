@@ -25,6 +25,10 @@ from mars2d.tournaments.schedule import Schedule
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+UNPROTECTED = (
+    "not protected on this system: a law that means to could have harmed other laws and files"
+)
+
 WIN, DRAW = 1.0, 0.5
 """The points for a match; a loss gives none."""
 
@@ -130,6 +134,11 @@ def _standing(
     )
 
 
+def matches_of(count: int) -> str:
+    """Return a number of matches as text."""
+    return "1 match" if count == 1 else f"{count} matches"
+
+
 def group_of(law: str) -> str:
     """Return the group that a law is of: the name of its file, without folders."""
     return law.rpartition("/")[2]
@@ -145,7 +154,9 @@ def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
         "matches": len(matches),
         "points": sum(_points(each, role) for role, each in matches),
         "forfeits": len(reasons),
-        "reasons": "; ".join(f"{count} x {kind}: {firsts[kind]}" for kind, count in kinds.items()),
+        "reasons": "; ".join(
+            f"{matches_of(count)}: {kind}: {firsts[kind]}" for kind, count in kinds.items()
+        ),
     }
 
 
@@ -208,6 +219,11 @@ class Tournament:
             settings=schedule.settings,
             rules=schedule.rules,
         )
+
+    @property
+    def unprotected(self) -> bool:
+        """Whether a match was played where the system does not keep laws from harming others."""
+        return any(not played.protected for played in self.matches)
 
     def rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each match: its number, settings, seed, laws and result.

@@ -7,7 +7,14 @@ from itertools import groupby
 from math import isnan
 
 from mars2d.core.errors import counted
-from mars2d.tournaments.league import Standing, Tournament, head_to_head, league
+from mars2d.tournaments.league import (
+    UNPROTECTED,
+    Standing,
+    Tournament,
+    head_to_head,
+    league,
+    matches_of,
+)
 from mars2d.tournaments.match import Played
 
 MAX_WIDTH = 100
@@ -20,7 +27,9 @@ MAX_FAULT_LENGTH = 160
 def league_text(tournament: Tournament) -> str:
     """Return the league tables, the table of who beat whom, and notes on faults."""
     parts = (_tables, _matrix, _rounds, _faults, _notes)
-    return "\n\n".join(filter(None, (part(tournament) for part in parts)))
+    told = [part(tournament) for part in parts]
+    told.append(f"Isolation: {UNPROTECTED}" if tournament.unprotected else "")
+    return "\n\n".join(filter(None, told))
 
 
 def aligned(rows: Sequence[Sequence[str]], left: int) -> list[str]:
@@ -129,7 +138,7 @@ def _faults(tournament: Tournament) -> str:
             law = played.match.laws[role]
             faults.setdefault((law, verdict.kind), []).append((played, verdict.text))
     lines = [
-        f"{law}: {matches(len(found))} forfeited: {kind}: {_cut(found[0][1])}"
+        f"{law}: {matches_of(len(found))} forfeited: {kind}: {_cut(found[0][1])}"
         f" ({_numbers(played for played, _ in found)})"
         for (law, kind), found in faults.items()
     ]
@@ -138,15 +147,10 @@ def _faults(tournament: Tournament) -> str:
         if played.error:
             errors.setdefault(played.error, []).append(played)
     lines += [
-        f"{matches(len(found))} without a result: {_cut(error)} ({_numbers(found)})"
+        f"{matches_of(len(found))} without a result: {_cut(error)} ({_numbers(found)})"
         for error, found in errors.items()
     ]
     return "\n".join(lines)
-
-
-def matches(count: int) -> str:
-    """Return a number of matches as text."""
-    return "1 match" if count == 1 else f"{count} matches"
 
 
 def _cut(text: str) -> str:

@@ -198,8 +198,8 @@ def test_the_folder_has_a_row_for_each_match_and_law_and_a_page(evening):
     ]
     with (evening.out / "grades.csv").open(newline="") as file:
         grades = [[*row.values()] for row in csv.DictReader(file)]
-    slow = "2 x slow: loop.py, line 2: no command after 1 s"
-    out = "4 x late: ran out of time in 2 matches before, and forfeits the rest"
+    slow = "2 matches: slow: loop.py, line 2: no command after 1 s"
+    out = "4 matches: late: ran out of time in 2 matches before, and forfeits the rest"
     assert grades[1] == ["loop", "6", "0.0", "6", f"{slow}; {out}"]
     assert [row[:4] for row in grades] == [
         ["crash", "4", "0.0", "4"],

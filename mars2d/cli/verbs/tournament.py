@@ -20,8 +20,8 @@ from mars2d.study.plan import parse_all
 from mars2d.study.work import worker_count
 from mars2d.tournaments.folder import played_before
 from mars2d.tournaments.isolation.limits import Limits
-from mars2d.tournaments.league import Tournament
-from mars2d.tournaments.league_text import league_text, matches
+from mars2d.tournaments.league import Tournament, matches_of
+from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, replayed
 from mars2d.tournaments.page.rules import save_rules
 from mars2d.tournaments.schedule import Schedule, schedule
@@ -124,7 +124,7 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     count = len(planned.matches)
     before = count - len(missing(planned, played_before(path, planned, limits)))
     known = f", {before} of them played before" if before else ""
-    tell(f"{planned.title}: {who}: {matches(count)}{known}")
+    tell(f"{planned.title}: {who}: {matches_of(count)}{known}")
     replays = not arguments.no_replays
     with workers_of(arguments) as (executor, workers):
         try:
@@ -136,7 +136,9 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
             raise
     _report(result, path)
     if failed := sum(bool(played.error) for played in result.matches):
-        raise Mars2dError(f"{matches(failed)} without a result: the same command plays them again")
+        raise Mars2dError(
+            f"{matches_of(failed)} without a result: the same command plays them again"
+        )
 
 
 def _report(result: Tournament, path: Path) -> None:

@@ -39,7 +39,7 @@ KEPT_OUTPUT = 64_000
 GRACE = 0.5
 """How long a process may take to end, seconds."""
 
-PATIENCE = 10
+PATIENCE = 3
 """How many times its time a law may take by the clock on the wall, on a machine that is busy."""
 
 FAULTS = ("start", "memory", "error", "command", "output")
@@ -217,7 +217,7 @@ class LawProcess:
             if hasattr(os, "killpg"):
                 os.killpg(self._process.pid or 0, signal.SIGKILL)
         self._process.kill()
-        self._process.join(PATIENCE)
+        self._process.join(10 * GRACE)
         self.printed = self._all_printed().partition(CRASH)[0][:KEPT_OUTPUT]
         with suppress(ValueError):  # it does not end
             self._process.close()

@@ -15,6 +15,7 @@ from mars2d.tournaments.page.rules import dot_style, rules_section
 from mars2d.tournaments.page.tables import (
     choices,
     details,
+    grades,
     match_table,
     matrix,
     shades,
@@ -44,6 +45,7 @@ def league_page(tournament: Tournament) -> str:
         "script": script,
         "facts": facts(tournament, kept),
         "standings": standing_tables(tournament),
+        "grades": grades(tournament),
         "matrix": matrix(tournament),
         "choices": choices(tournament),
         "matches": match_table(tournament, kept),

@@ -70,10 +70,14 @@ def _standing_row(standing: Standing) -> str:
         f"<td>{standing.won}</td>",
         f"<td>{standing.drawn}</td>",
         f"<td>{standing.lost}</td>",
-        f"<td{' class=bad' if standing.forfeits else ''}>{standing.forfeits}</td>",
+        _forfeits(standing.forfeits),
         time_cell(standing.capture_time, 1),
     ]
     return f"<tr>{''.join(cells)}</tr>"
+
+
+def _forfeits(count: int) -> str:
+    return f"<td{' class=bad' if count else ''}>{count}</td>"
 
 
 def _share(standing: Standing) -> str:
@@ -95,6 +99,21 @@ def _share(standing: Standing) -> str:
         f'<rect class="mean" x="{middle:.1f}" y="0" width="2" height="12"/></svg>'
     )
     return f"{bar}<span>{words}</span> <small>{low:.0f} to {high:.0f}</small>"
+
+
+def grades(tournament: Tournament) -> str:
+    """Return the table of all groups, with what each needs for its grade."""
+    rows = "\n".join(
+        f'<tr><th scope="row">{named(row["group"])}</th><td>{row["matches"]}</td>'
+        f'<td class="points">{row["points"]:g}</td>{_forfeits(row["forfeits"])}'
+        f'<td class="ending">{escaped(row["reasons"])}</td></tr>'
+        for row in tournament.grade_rows()
+    )
+    columns = ("Group", "Matches", "Points", "Forfeits", "Reasons")
+    return (
+        f'<table class="grades"><caption class="unseen">Grading sheet</caption>\n'
+        f"{header(columns)}\n<tbody>\n{rows}\n</tbody></table>"
+    )
 
 
 # -- who beat whom ---------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import counted
-from mars2d.tournaments.league import Tournament
+from mars2d.tournaments.league import UNPROTECTED, Tournament
 from mars2d.tournaments.match import Match
 
 DASH = "\N{EN DASH}"
@@ -88,6 +88,8 @@ def facts(tournament: Tournament, kept: int) -> str:
         "Seeds": _numbers(played.match.seed for played in matches),
         "Matches": ", ".join(compress(counts, (True, forfeits, failed))),
     }
+    if tournament.unprotected:
+        found["Isolation"] = UNPROTECTED
     left = sum(bool(played.replay) for played in matches[kept:])
     if left:
         found["Replays"] = (
