@@ -19,7 +19,7 @@ import pygame
 
 from mars2d import Robot, Scenario
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.window import Window
+from mars2d.window.run.window import Window
 from mars2d.world.timeline import Timeline
 
 

@@ -37,8 +37,7 @@ from mars2d.core.progress import Progress
 from mars2d.geometry import edges_of, inside_polygon, point_segment_distance, wrap
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.island import Island
-from mars2d.study.work import each_done
-from mars2d.study.workers import Failure
+from mars2d.study.work import Failure, each_done
 
 Float = NDArray[np.float64]
 Outline = Sequence[tuple[float, float]]

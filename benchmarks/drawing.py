@@ -46,6 +46,7 @@ from typing import Any
 import numpy as np
 import pygame
 from numpy.typing import NDArray
+from scenes import s2
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
@@ -57,10 +58,9 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame, between
 from mars2d.record.rows import COLUMNS
-from mars2d.reports.bench.scenes import s2
 from mars2d.sensors import RangeFinder
-from mars2d.window.display import Preferences, be_quick
-from mars2d.window.window import Window
+from mars2d.window.run.window import Window
+from mars2d.window.screen.display import Preferences, be_quick
 from mars2d.world.record import Record
 
 SIZE = (1280, 720)

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 import pygame
+from scenes import Turns, s2
 
 from mars2d import Robot, Scenario
 from mars2d.addons import Map
@@ -32,7 +33,6 @@ from mars2d.output.films.footage import Cut, Footage, shots
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster.picture import Artist
 from mars2d.record.frame import Frame
-from mars2d.reports.bench.scenes import Turns, s2
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.sensors import RangeFinder
 from mars2d.world.loop import simulate

@@ -23,10 +23,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scenes import Scene, among_crates, team
+from worlds import SETTINGS, deepest, world_of
 
 from mars2d.output.figures.figure import GRID, INK, MUTED
-from mars2d.reports.bench.scenes import Scene, among_crates, team
-from mars2d.reports.bench.worlds import SETTINGS, deepest, world_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

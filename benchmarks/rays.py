@@ -4,7 +4,7 @@
 
 Rays: 20 robots with 180 beams of 5 m among boxes that stand 1.5 m apart on average, of 20, 200 and
 2000 segments in all; the robots are discs or squares. `fans`: `RangeFinder.read_all`, all beams of
-all robots at once, in numpy. `pymunk`: its method `Space.segment_query_first` for each beam. Both
+all robots at once, compiled. `pymunk`: its method `Space.segment_query_first` for each beam. Both
 take turns in one process, so that the ratio holds on a noisy machine; by how much their distances
 differ is part of the benchmark.
 

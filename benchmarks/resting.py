@@ -10,8 +10,8 @@ import time
 from itertools import product
 
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window import rest
-from mars2d.window.window import Window
+from mars2d.window.run.window import Window
+from mars2d.window.screen import rest
 from mars2d.world.timeline import Timeline
 
 EXAMPLES = "head_on", "push_box", "crowd"

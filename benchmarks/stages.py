@@ -16,9 +16,10 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from mars2d.reports.bench.scenes import SCENES, Scene
-from mars2d.reports.bench.suite import STEPS, warmed_up
-from mars2d.reports.bench.worlds import SETTINGS
+from scenes import SCENES, Scene
+from suite import STEPS, warmed_up
+from worlds import SETTINGS
+
 from mars2d.world.world import World
 
 STAGES = {
@@ -56,7 +57,7 @@ def shares(scene: Scene, max_overlap: float, least_time: float) -> dict[str, flo
     world = watched(scene, max_overlap, watches)
     steps, taken = 0, 0.0
     while taken < least_time:
-        if steps and scene.proximity:  # see mars2d/reports/bench/suite.py
+        if steps and scene.proximity:  # see suite.py
             world = watched(scene, max_overlap, watches)
         start = time.perf_counter()
         for _ in range(STEPS[scene.name]):

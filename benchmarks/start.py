@@ -1,4 +1,4 @@
-"""How long a start takes: importing the package, and a whole run from shell to shell.
+"""How long a start takes: importing the package, the help, and a whole run from shell to shell.
 
     python benchmarks/start.py [--json OUT.json] [--rounds N]
 
@@ -8,15 +8,36 @@ Each figure is the median of several new processes, with modules compiled as pip
 from __future__ import annotations
 
 import argparse
-import json
+import os
 import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from mars2d.reports.bench.suite import COMMANDS, seconds, with_bytecode
+import outcome
 
 ROUNDS = 9
 
-EVERY = {"bare python": ("-c", "pass"), "import numpy": ("-c", "import numpy"), **COMMANDS}
+EVERY: dict[str, Sequence[str]] = {
+    "bare python": ("-c", "pass"),
+    "import numpy": ("-c", "import numpy"),
+    "import mars2d": ("-c", "import mars2d"),
+    "mars2d --help": ("-m", "mars2d", "--help"),
+    "mars2d list": ("-m", "mars2d", "list"),
+    "mars2d run random_walk --headless": ("-m", "mars2d", "run", "random_walk", "--headless"),
+}
+"""What is timed, as arguments of Python."""
+
+
+def seconds(arguments: Sequence[str], environment: dict[str, str]) -> float:
+    """Return how long Python takes with these arguments, from its start to its end."""
+    start = time.perf_counter()
+    command = [sys.executable, *arguments]
+    subprocess.run(command, check=True, env=environment, stdout=subprocess.DEVNULL)
+    return time.perf_counter() - start
 
 
 def main() -> None:
@@ -26,7 +47,9 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=ROUNDS, help="how often all are timed")
     arguments = parser.parse_args()
     times: dict[str, list[float]] = {name: [] for name in EVERY}
-    with with_bytecode() as environment:
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    with TemporaryDirectory() as folder:
+        environment["PYTHONPYCACHEPREFIX"] = folder
         for round_ in range(arguments.rounds + 1):
             for name, command in EVERY.items():
                 taken = seconds(command, environment)
@@ -36,8 +59,7 @@ def main() -> None:
     python = medians["bare python"]
     for name, median in medians.items():
         print(f"{name:<36}{median:7.3f} s   {median - python:+7.3f} s over bare python")
-    if arguments.json is not None:
-        arguments.json.write_text(json.dumps(medians, indent=2) + "\n", encoding="utf-8")
+    outcome.write(medians, arguments.json)
 
 
 if __name__ == "__main__":

@@ -21,8 +21,7 @@ from typing import NamedTuple
 from outcome import write
 
 import mars2d
-from mars2d.study.work import each_done
-from mars2d.study.workers import Failure
+from mars2d.study.work import Failure, each_done
 
 EXPERIMENT = "random_walk"
 

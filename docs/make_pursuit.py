@@ -60,7 +60,7 @@ class Study(NamedTuple):
 
 STUDIES = {
     "straight_chase": Study(
-        {"pursuer": "chase_pursuers/bearing.py"},
+        {"pursuer": "pursuers/bearing.py"},
         {"an empty floor": {}, "crates in the way": {"crates": True}},
         capture,
         "capture, later than predicted [s]",

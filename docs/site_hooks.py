@@ -23,7 +23,13 @@ from mkdocs.structure.pages import Page
 
 import mars2d
 from mars2d.core.description import Description
-from mars2d.scenario.examples import courses, examples, title_of
+from mars2d.scenario.examples import (
+    courses,
+    examples,
+    experiment_name,
+    thumbnail_of,
+    title_of,
+)
 from mars2d.scenario.registry import summary
 
 DOCS = Path(__file__).parent
@@ -41,8 +47,8 @@ MODULES = (
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add the pages that follow from the package, and the pictures of the gallery."""
-    for picture in sorted((ROOT / "examples" / "thumbnails").glob("*.png")):
-        at = f"thumbnails/{picture.name}"
+    for picture in sorted((ROOT / "examples").rglob("*.png")):
+        at = str(picture.relative_to(ROOT))
         files.append(File.generated(config, at, abs_src_path=str(picture)))
     files.append(File.generated(config, "gallery.md", content=gallery()))
     files.append(File.generated(config, "reference/index.md", content=contents()))
@@ -66,7 +72,7 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
         return f"{match[1]}{target}{'#' if anchor else ''}{anchor})"
 
     up = "../" * page.url.count("/")
-    markdown = re.sub(r'src="[./]*examples/(thumbnails/[^"]+)"', rf'src="{up}\1"', markdown)
+    markdown = re.sub(r'src="[./]*(examples/[^"]+)"', rf'src="{up}\1"', markdown)
     return re.sub(r"(\]\()([^)\s]+)\)", led, markdown)
 
 
@@ -91,11 +97,11 @@ def card(name: str) -> str:
     title, line = title_of(name)
     pictures = "".join(
         f'<img class="{looks}-picture" loading="lazy" alt="" '
-        f'src="../thumbnails/{name}_{looks}.png">'
+        f'src="../{thumbnail_of(name, looks).relative_to(ROOT)}">'
         for looks in ("light", "dark")
     )
     links = [
-        f"[source](../examples/{examples()[name].parent.name}/{name}.py)",
+        f"[source](../{examples()[name].relative_to(ROOT)})",
         f'<a href="../try/index.html?example={name}">try it</a>',
     ]
     for folder in ("experiments", "pursuit"):
@@ -177,11 +183,9 @@ def uses(name: str) -> Iterator[str]:
     word = re.compile(rf"\b{re.escape(name)}\b")
     for path, text in documents():
         if word.search(text):
-            title = path.stem if path.suffix == ".py" else str(path.relative_to(DOCS))[:-3]
-            lies = f"../{title}.md"
-            if path.suffix == ".py":
-                lies = f"../../examples/{path.parent.name}/{path.name}"
-            yield f"[{title}]({lies})"
+            title = str(path.relative_to(DOCS))[:-3] if path.suffix == ".md" else None
+            lies = f"../../{path.relative_to(ROOT)}" if title is None else f"../{title}.md"
+            yield f"[{title or experiment_name(path)}]({lies})"
 
 
 @cache

@@ -99,7 +99,7 @@ def started(command: list[str], **options: Any) -> Iterator[subprocess.Popen[str
 @functools.cache
 def _nursery() -> Nursery:
     """Start the process that command lines are forked from."""
-    return Nursery(dict(os.environ), "mars2d.cli.command_line", "matplotlib.figure")
+    return Nursery(dict(os.environ), "mars2d.cli.verbs.run", "matplotlib.figure")
 
 
 def mars(

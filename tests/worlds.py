@@ -12,10 +12,19 @@ import numpy as np
 import mars2d
 from mars2d import Record, Scenario, World
 from mars2d.geometry.shapes import Polygon
+from mars2d.scenario.examples import GAME, examples
 from mars2d.scenario.experiment import open_experiment
 
 ELL = Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)])
 """A shape that is not convex, metres."""
+
+
+def solution(name: str) -> Path:
+    """Return the file of the model answer to an example's exercises."""
+    file = examples()[name]
+    if file.name == GAME:
+        return file.with_name("solution.py")
+    return file.parent / "solutions" / file.name
 
 
 def ahead(robot: Any) -> tuple[float, float]:

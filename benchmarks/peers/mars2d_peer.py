@@ -1,6 +1,6 @@
 """MARS2D itself: rigid bodies with contact forces and friction, everything recorded.
 
-What was set, and how: `mars2d.reports.bench.worlds.world_of` builds the scene as its peers get it.
+What was set, and how: `world_of` of benchmarks/worlds.py builds the scene as its peers get it.
 "default" is the `max_overlap` that users get, 1 mm; "loose" is 20 mm, with which there is about one
 substep a control step. The law is asked at each control step. Poses, commands, readings and
 contacts with their impulses are recorded at each.
@@ -13,8 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 from peer import Float, Simulator, main
-
-from mars2d.reports.bench.worlds import SETTINGS, world_of
+from worlds import SETTINGS, world_of
 
 
 class Mars2d(Simulator):

@@ -3,7 +3,7 @@
 A script derives its class from `Peer` and ends with `main(TheClass)`. It then runs a scene by
 itself, or, with ``--serve``, is told by ``run.py`` what to do, a line of JSON at a time. It runs
 where MARS2D is not installed: this file needs numpy alone, and takes the scenes, and what measures
-gaps, by their paths.
+gaps, from the folder above.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import hashlib
-import importlib.util
 import json
 import sys
 import time
@@ -23,11 +22,13 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SCENES", "Engine", "Geometry", "Peer", "Simulator", "main"]
+sys.path.append(str(Path(__file__).parents[1]))
+import gaps
+import scenes
+
+__all__ = ["SCENES", "Engine", "Geometry", "Peer", "Simulator", "gaps", "main", "scenes"]
 
 Float = NDArray[np.float64]
-
-BENCH = Path(__file__).parents[2] / "mars2d" / "reports" / "bench"
 
 TOLERANCE = 2e-3
 """How far a peer's readings may be from geometry, metres: peers count in 32 bits, or draw a circle
@@ -43,26 +44,13 @@ SETTLED = 3
 """So many steps a peer may take to reach the speed that it is told."""
 
 
-def _module(name: str) -> Any:
-    """Load a module of the bench by the path of its file."""
-    spec = importlib.util.spec_from_file_location(f"mars2d_bench_{name}", BENCH / f"{name}.py")
-    if spec is None or spec.loader is None:
-        raise ImportError(f"cannot load {name}.py of {BENCH}")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # dataclasses look themselves up there
-    spec.loader.exec_module(module)
-    return module
-
-
-scenes, gaps = _module("scenes"), _module("gaps")
-
 SCENES: dict[str, Callable[[], Any]] = scenes.SCENES
 
 
 class Simulator(ABC):
     """A simulator with a scene in it, that is stepped.
 
-    scene: a Scene of `mars2d.reports.bench.scenes`. setting: one of the class's `SETTINGS`.
+    scene: a Scene of `scenes`. setting: one of the class's `SETTINGS`.
     command: the last command of its robots (2, n), v [m/s] and omega [rad/s].
 
     episode: the number of steps after which the scene starts again. The law of S1 has final states,

@@ -1,30 +1,28 @@
 """What the page asks of Python: sources of examples, their parameters, and runs."""
 
 import json
-import shutil
-from pathlib import Path
 
 import mars2d
 from mars2d.output.pages.replay import page
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 
-PLACE = Path("/home/pyodide/experiment")
-shutil.copytree(next(iter(examples().values())).parent, PLACE, dirs_exist_ok=True)
+TEXTS = {name: file.read_text() for name, file in examples().items()}
 
 
 def names():
     """Return the names of the examples."""
-    return list(examples())
+    return list(TEXTS)
 
 
 def source(name):
     """Return an example's text."""
-    return json.dumps({"text": examples()[name].read_text(), "name": name})
+    return json.dumps({"text": TEXTS[name], "name": name})
 
 
 def _file(code, name):
-    file = PLACE / f"{name}.py"
+    """Return the example's own file, beside its laws and maps, with this code in it."""
+    file = examples()[name]
     file.write_text(code)
     return file
 

@@ -1,12 +1,13 @@
 """Shove and spin: a blow off the centre of mass spins the body.
 
-Question: a ball hits a box off its centre. How much of the blow goes into turning?
+Question: a ball hits a box off its centre. How fast does the box leave, how fast does it turn?
 Prediction: a smooth ball (m, v) with restitution e meets a body (M, I) at the lever b with the blow
-J = (1 + e) v / (1 / m + 1 / M + b^2 / I) (Newton, Poisson). A box leaves with the speed J / M and
-the spin J b / I; a braked robot turns by (J b)^2 / (2 I T), until its torque T has stopped it. One
-rough disc grazes another at an angle a from the line of centres: with J cos(a) goes a tangential
-blow K = mu J cos(a) (Coulomb), or m v sin(a) / 6 if less: that ends the slip. It spins both discs
-with 2 K / (m r), as I = m r^2 / 2. Measured: how all have moved at the end.
+J = (1 + e) v / (1 / m + 1 / M + b^2 / I) (Newton, Poisson). All of it gives the box its speed
+J / M, wherever it hits, and its moment J b gives the spin J b / I. A braked robot turns by
+(J b)^2 / (2 I T), until its torque T has stopped it. One rough disc grazes another at an angle a
+from the line of centres: with J cos(a) goes a tangential blow K = mu J cos(a) (Coulomb), or
+m v sin(a) / 6 if less: that ends the slip. It spins both discs with 2 K / (m r), as I = m r^2 / 2.
+Measured: how all have moved at the end.
 """
 
 from math import asin, cos, sin

@@ -6,7 +6,8 @@ Prediction: a smooth wall stops only the part of the speed across it: v cos a is
 slide at u. Its wheels slip at (v cos a - u) along the wall and v sin a across it, and push with
 their force F in that direction. The wall bears all across it, but along it only mu times that
 (Coulomb, 1785). So v cos a - u = mu v sin a, which gives u = v (cos a - mu sin a). Nothing is left
-of it from tan a = 1 / mu on: there the robot sticks.
+of it from tan a = 1 / mu on: there the robot sticks. This needs wheels that spin, pushing against
+their slip whatever its direction (no grip), and a heading that the wall can't turn (max_torque).
 Measured: each robot's speed over the second half, and with what the wall presses and drags at the
 end. The last two have a friction 2 % below and 2 % above the one at which they stick.
 """

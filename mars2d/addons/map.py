@@ -65,14 +65,14 @@ class Map(Addon):
         tolerance: float = 0.02,
         at: Sequence[float] | None = None,
     ) -> Map:
-        """Return the map in a file: .dxf, .svg, .yaml of ROS, .pgm, .png, .jpg, .geojson, .wkt.
+        """Return the map in a file: a drawing, an occupancy grid of ROS, an image, GeoJSON, WKT.
 
         path: a relative one is looked for beside the file that calls this, then in the current
         folder; a Map is returned as it is. layers: names or patterns such as ``*WALL*``, a list
         or one text with commas. unit: ``mm``, ``cm``, ``m``, ``in``, ``ft`` or metres, in place of
         what the file says. resolution: metres per pixel of an image. tolerance: how far corners
-        may move to have fewer of them [m]. at: (x, y) [m] of the lower left corner of what
-        is read. Raises InputError, which names the file and what was expected.
+        and curves may be off, to have fewer corners [m]. at: (x, y) [m] of the lower left corner
+        of what is read. Raises InputError, which names the file and what was expected.
         """
         if isinstance(path, Map):
             return path
@@ -82,6 +82,8 @@ class Map(Addon):
 
         caller = Path(sys._getframe(1).f_code.co_filename)
         file = file_beside(Path(path), caller, "a map", maps.SUFFIXES)
-        drawing = maps.read(file, layers=layers, unit=unit, resolution=resolution, at=at)
-        found = maps.obstacles(drawing, tolerance)
+        drawing = maps.read(
+            file, layers=layers, unit=unit, resolution=resolution, at=at, tolerance=tolerance
+        )
+        found = maps.obstacles(drawing)
         return cls(found.outlines, walls=found.walls)

@@ -1,113 +1,20 @@
-"""Arguments that several verbs share: `add_...` adds them, `..._of` returns their values."""
+"""Arguments that several verbs share, and their values."""
 
 from __future__ import annotations
 
 import argparse
-import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
-from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError
-from mars2d.core.terminal import warn
-from mars2d.output.raster import has_pygame, require_pygame
+from mars2d.output.films.film import size_of
+from mars2d.output.raster import has_pygame
 from mars2d.scenario.animation import playback_speed
-from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.options import parse_option
-from mars2d.scenario.roles import robots_named
-from mars2d.window.display import Preferences
-
-
-def add_run_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of all verbs that run an experiment."""
-    parser.add_argument("--headless", action="store_true", help="run without a window")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of all random streams")
-
-
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that change an experiment before it is run."""
-    parser.add_argument("--stop-time", type=float, metavar="S", help="seconds to simulate")
-    parser.add_argument(
-        "--set", action="append", default=[], metavar="KEY=VALUE", help="override a field"
-    )
-
-
-def options_of(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return the options that `add_options` asks for, by the names of fields."""
-    options = dict(parse_option(setting) for setting in arguments.set)
-    if arguments.stop_time is not None:
-        options["stop_time"] = arguments.stop_time
-    return options
-
-
-def add_preferences(parser: argparse.ArgumentParser) -> None:
-    """Add the looks of the window."""
-    parser.add_argument(
-        "--dark", action=argparse.BooleanOptionalAction, help="a dark window, or a light one"
-    )
-    parser.add_argument(
-        "--text", type=_text, metavar="X", help="the window's text X times as large"
-    )
-
-
-def preferences_of(arguments: argparse.Namespace) -> Preferences:
-    """Return the looks that `add_preferences` asks for, else those of the last window."""
-    if not has_pygame():
-        return Preferences()
-    from mars2d.window.memory import Memory
-
-    return Memory().preferences(dark=arguments.dark, text=arguments.text)
-
-
-def _text(text: str) -> float:
-    try:
-        return Preferences(text=float(text)).text
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected a number from 0.5 to 4") from error
-
-
-def add_human(parser: argparse.ArgumentParser) -> None:
-    """Add the choice of a robot to drive by hand."""
-    parser.add_argument(
-        "--human",
-        action="append",
-        default=[],
-        metavar="WHO",
-        help="a robot to drive by hand: its name or index, or a role; may be given twice",
-    )
-
-
-def humans_of(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
-    """Return the indices of the robots that `add_human` asks for."""
-    robots = robots_named(experiment.scenario, arguments.human, "--human")
-    if robots and (arguments.headless or not has_display()):
-        require_pygame("a window")
-        why = "not --headless" if arguments.headless else "and there is no display"
-        who = ", ".join(arguments.human)
-        raise InputError(f"--human {who}: driving by hand needs a window, {why}")
-    return robots
-
-
-def add_theory(parser: argparse.ArgumentParser) -> None:
-    """Add the switch that shows theoretical predictions."""
-    parser.add_argument("--theory", action="store_true", help="draw what theory predicts")
-
-
-def theory_of(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return the options that `add_theory` asks for."""
-    return {"animation.theory": True} if arguments.theory else {}
-
-
-def add_speed(parser: argparse.ArgumentParser) -> None:
-    """Add the speed of playback."""
-    parser.add_argument(
-        "--speed",
-        type=_speed,
-        metavar="X",
-        help="of window or film: 1 is real time, 0 is one step per key press, max",
-    )
+from mars2d.window.screen.display import Preferences
 
 
 def _speed(text: str) -> float | str:
@@ -119,8 +26,23 @@ def _speed(text: str) -> float | str:
         raise argparse.ArgumentTypeError(f"{text!r}: expected a number >= 0, or max") from error
 
 
-def times(text: str) -> list[float | str]:
-    """Return the times [s] that an argument lists, separated by commas; the last may be "end"."""
+def _size(text: str) -> tuple[int, int]:
+    try:
+        return size_of(text)
+    except InputError as error:
+        expected = "expected width and height in pixels, such as 1280x720"
+        raise argparse.ArgumentTypeError(f"{text!r}: {expected}") from error
+
+
+def _text(text: str) -> float:
+    try:
+        return Preferences(text=float(text)).text
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a number from 0.5 to 4") from error
+
+
+def _times(text: str) -> list[float | str]:
+    """Return times [s], separated by commas; the last may be "end"."""
     try:
         items = [item.strip() for item in text.split(",")]
         return [item if item == "end" else float(item) for item in items]
@@ -128,14 +50,77 @@ def times(text: str) -> list[float | str]:
         raise argparse.ArgumentTypeError(f"{text!r}: expected times, such as 1,30,end") from None
 
 
+def _many(**action: Any) -> dict[str, Any]:
+    return {"action": "append", "default": [], **action}
+
+
+SHARED: dict[str, dict[str, Any]] = {
+    "experiment": {"help": "a .py or .toml file, or the name of an example"},
+    "record": {"type": Path, "help": "a saved run: .npz, .csv, .mcap"},
+    "--headless": {"action": "store_true", "help": "run without a window"},
+    "--seed": {"type": int, "default": 0, "metavar": "N", "help": "of all random streams"},
+    "--speed": {
+        "type": _speed,
+        "metavar": "X",
+        "help": "of window or film: 1 is real time, 0 is one step per key press, max",
+    },
+    "--stop-time": {"type": float, "metavar": "S", "help": "seconds to simulate"},
+    "--set": _many(metavar="KEY=VALUE", help="override a field"),
+    "--figure": {"type": Path, "metavar": "OUT", "help": "draw a picture: .png, .pdf, .svg"},
+    "--at": {"type": _times, "metavar": "T1,T2,...", "help": "draw snapshots at these times"},
+    "--video": {"type": Path, "metavar": "OUT", "help": "make a film: .gif, .mp4"},
+    "--size": {"type": _size, "metavar": "WxH", "help": "of the film, pixels (default: 1280x720)"},
+    "--from": {"type": float, "dest": "start", "metavar": "S", "help": "start at this time"},
+    "--to": {"type": float, "dest": "end", "metavar": "S", "help": "end at this time"},
+    "--html": {
+        "type": Path,
+        "metavar": "OUT.html",
+        "help": "a replay for any browser, in one file",
+    },
+    "--theory": {"action": "store_true", "help": "draw what theory predicts"},
+    "--dark": {"action": argparse.BooleanOptionalAction, "help": "a dark window, or a light one"},
+    "--text": {"type": _text, "metavar": "X", "help": "the window's text X times as large"},
+    "--workers": {"type": int, "metavar": "N", "help": "processes; by default one per core"},
+    "--cluster": {"metavar": "ADDRESS", "help": "a Dask scheduler, such as tcp://10.0.0.5:8786"},
+    "--json": {"action": "store_true", "help": "print the outcome as one line of JSON"},
+}
+"""The arguments by name."""
+
+
+def add_shared(parser: argparse.ArgumentParser, names: str) -> None:
+    """Add shared arguments to a verb; names: with spaces between them, options without hyphens."""
+    for name in names.split():
+        if name in SHARED:
+            parser.add_argument(name, metavar=name.upper(), **SHARED[name])
+        else:
+            parser.add_argument(f"--{name}", **SHARED[f"--{name}"])
+
+
+def add_preferences(parser: argparse.ArgumentParser) -> None:
+    """Add the looks of the window."""
+    add_shared(parser, "dark text")
+
+
 def add_workers(parser: argparse.ArgumentParser) -> None:
     """Add the number of processes on this machine, or the cluster, for many runs."""
-    parser.add_argument(
-        "--workers", type=int, metavar="N", help="number of processes; by default one per core"
-    )
-    parser.add_argument(
-        "--cluster", metavar="ADDRESS", help="a Dask scheduler, such as tcp://10.0.0.5:8786"
-    )
+    add_shared(parser, "workers cluster")
+
+
+def options_of(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return the options of --set, --stop-time and --theory, by the names of fields."""
+    options = dict(map(parse_option, arguments.set))
+    if getattr(arguments, "stop_time", None) is not None:
+        options["stop_time"] = arguments.stop_time
+    return options | ({"animation.theory": True} if getattr(arguments, "theory", False) else {})
+
+
+def preferences_of(arguments: argparse.Namespace) -> Preferences:
+    """Return the looks that --dark and --text ask for, else those of the last window."""
+    if not has_pygame():
+        return Preferences()
+    from mars2d.window.screen.memory import Memory
+
+    return Memory().preferences(dark=arguments.dark, text=arguments.text)
 
 
 @contextmanager
@@ -153,10 +138,5 @@ def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None,
         raise InputError(
             "--workers is of this machine: a cluster has its own; give it or --cluster"
         )
-    with ExitStack() as stack:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", UserWarning)
-            executor = stack.enter_context(cluster(arguments.cluster))
-        for warning in caught:
-            warn(warning.message)
+    with cluster(arguments.cluster) as executor:
         yield executor, None

@@ -8,27 +8,28 @@ import os
 import re
 import signal
 import sys
-import threading
 import traceback
-from collections.abc import Collection, Iterator, Sequence
-from contextlib import contextmanager, suppress
-from functools import cache, partial
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
-from types import FrameType
 from typing import NoReturn
 
 from mars2d import __version__
-from mars2d.cli.home import home
-from mars2d.cli.verbs import VERBS
-from mars2d.core.errors import InputError, Mars2dError, likely
+from mars2d.cli.verbs import GROUPS, VERBS
+from mars2d.core.errors import InputError, Mars2dError, likely, nearest, one_line
 from mars2d.core.interrupt import ENDING, INTERRUPTED, interrupts
-from mars2d.core.terminal import legible, usable_standard_files, warn
+from mars2d.core.terminal import legible, tell, usable_standard_files, warn
 from mars2d.core.words import instead
 
 OK, FAULT, BAD_INPUT = 0, 1, 2
 
-UNUSABLE = (errno.ENAMETOOLONG, errno.EACCES)
-"""Errors of paths typed by the user for which even asking whether they exist fails."""
+ABOUT = """\
+usage: mars2d [-h] [--version] [COMMAND ...]
+
+Teams of mobile robots in the plane. Without a command: a window with all
+examples, games, and your own files. COMMAND --help shows its options.
+"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -42,8 +43,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     legible()
     os.environ["MPLBACKEND"] = "agg"  # a law that shows a figure of its own waits for nobody
     try:
-        with interrupts(), hang_up_as_interrupt():
-            code = _outcome(argv)
+        code = _outcome(sys.argv[1:] if argv is None else argv)
     except KeyboardInterrupt as interrupt:
         warn(str(interrupt) or "interrupted")
         code = INTERRUPTED
@@ -62,15 +62,13 @@ def _leave(code: int) -> NoReturn:
     os._exit(code)
 
 
-def _outcome(argv: Sequence[str] | None) -> int:
+def _outcome(words: Sequence[str]) -> int:
     """Execute the verb, print an error that it raises, and return the exit code."""
     try:
-        words = sys.argv[1:] if argv is None else argv
-        arguments, unknown = parser(words[:1]).parse_known_args(words)
-        if unknown:
-            arguments.refuse(f"unrecognized arguments: {' '.join(unknown)}")
-        arguments.execute(arguments)
-        sys.stdout.flush()
+        arguments = parse(words)
+        with interrupts():
+            arguments.execute(arguments)
+            sys.stdout.flush()
     except InputError as error:
         warn(error)
         return BAD_INPUT
@@ -78,13 +76,10 @@ def _outcome(argv: Sequence[str] | None) -> int:
         warn(error)
         return FAULT
     except BrokenPipeError:
-        _stop_telling()  # the reader of our output, such as `head`, has ended
+        return OK  # the reader of our output, such as `head`, has ended
     except Exception as error:
-        if isinstance(error, OSError) and error.errno in UNUSABLE and error.filename:
-            warn(f"{error.filename}: {error.strerror}")
-            return BAD_INPUT
-        if isinstance(error, FileNotFoundError) and not _has_folder():
-            warn("the current folder is gone: go to another one, by cd")
+        if isinstance(error, OSError) and (error.filename or error.errno == errno.ENOENT):
+            warn(f"{error.filename or 'the current folder'}: {error.strerror}")
             return BAD_INPUT
         traceback.print_exc()
         warn("this is a fault of MARS2D's; please report it as above")
@@ -92,108 +87,90 @@ def _outcome(argv: Sequence[str] | None) -> int:
     return OK
 
 
-def _has_folder() -> bool:
-    """Return whether the current folder is still there."""
-    try:
-        return Path.cwd().is_dir()
-    except FileNotFoundError:
-        return False
+def parse(words: Sequence[str]) -> argparse.Namespace:
+    """Return the arguments of a command, with the function that executes it.
 
-
-def _stop_telling() -> None:
-    """Discard the rest of the output: Python would fail with it as it ends."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())
-    os.close(nowhere)
-    sys.stderr.close()
-
-
-def parser(words: Sequence[str] = ()) -> argparse.ArgumentParser:
-    """Return the parser of all verbs, or only of the one that some words begin with.
-
-    The others' modules are then imported only if an error is to be said.
+    Raises InputError for words that are no command.
     """
-    root = _Parser(
-        prog="mars2d",
-        usage="mars2d [-h] [--version] [COMMAND ...]",
-        description="Teams of mobile robots in the plane. Without a command: a window with all "
-        "examples, games, and your own files.",
-        allow_abbrev=False,
-    )
+    if words and words[0] in VERBS:
+        return parser_of(words[0]).parse_args(words[1:])
+    if words and not words[0].startswith("-"):
+        raise InputError(f"there is no command {words[0]!r}{_meant(words[0])}")
+    root = _Root(prog="mars2d", allow_abbrev=False)
     root.add_argument("--version", action="version", version=f"mars2d {__version__}")
-    root.set_defaults(execute=partial(home, root), refuse=root.error)
-    verbs = root.add_subparsers(prog="mars2d", metavar="COMMAND", parser_class=_Parser)
-    for name in words[:1] if words and words[0] in VERBS else VERBS:
-        verb = VERBS[name]
-        doc = (verb.execute.__doc__ or "").strip()
-        sub = verbs.add_parser(name, help=doc, description=doc, allow_abbrev=False)
-        sub.set_defaults(execute=verb.execute, refuse=sub.error)
-        verb.add_arguments(sub)
-    return root
+    root.set_defaults(execute=_home)
+    return root.parse_args(words)
 
 
-@cache
-def _all_options() -> frozenset[str]:
-    """Return the options of all verbs."""
-    found: list[str] = []
-    for verb in VERBS.values():
-        sub = _Parser(add_help=False)
-        verb.add_arguments(sub)
-        found += sub.options
-    return frozenset(found)
+def _meant(word: str) -> str:
+    """Return a hint at the meaning of a word in the place of a verb."""
+    from mars2d.scenario.examples import examples
+
+    if Path(word).suffix in (".py", ".toml") or word in examples():
+        return f"; write mars2d run {word}"
+    runs = [f"run {name}" for name in examples()]
+    return likely(word, VERBS) or likely(f"run {word}", runs, 0.8) or nearest(word, VERBS, most=20)
+
+
+def parser_of(verb: str) -> argparse.ArgumentParser:
+    """Return the parser of a verb, whose module is imported."""
+    module = import_module(f"mars2d.cli.verbs.{verb}")
+    parser = _Parser(prog=f"mars2d {verb}", description=module.execute.__doc__, allow_abbrev=False)
+    parser.set_defaults(execute=module.execute)
+    module.add_arguments(parser)
+    return parser
+
+
+def _options(parser: argparse.ArgumentParser) -> list[str]:
+    return [option for action in parser._actions for option in action.option_strings]
 
 
 class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one line that suggests the nearest known word."""
 
-    @property
-    def options(self) -> list[str]:
-        """The options of this parser itself."""
-        return [option for action in self._actions for option in action.option_strings]
-
-    def _meant(self, word: str, known: Collection[str]) -> str:
-        """Return a hint at the meaning of a word of the command line."""
-        if self.prog == "mars2d" and Path(word).suffix in (".py", ".toml"):
-            return f"; write mars2d run {word}"
-        if meant := instead(word, self.prog):
-            return meant
-        return "" if word in _all_options() else likely(word, known)  # another verb's is no slip
-
     def error(self, message: str) -> NoReturn:
         """Raise InputError instead of printing the usage and exiting."""
-        known, message = self.options, message.partition(" (choose from")[0]
-        for action in self._actions:
-            if isinstance(action, argparse._SubParsersAction):
-                known += [*action.choices]
-                known += [o for sub in action.choices.values() for o in sub._option_string_actions]
+        known = _options(self)
         words = [word for word in re.split(r"[\s'=:]+", message) if word not in known]
         if message.startswith("the following arguments are required"):
             words = []  # the user typed none of these
-        hint = next(filter(None, (self._meant(word, known) for word in words)), "")
+        of_others = {option for verb in VERBS for option in _options(parser_of(verb))}
+        hints = [instead(word, self.prog) for word in words]
+        hints += [likely(word, known) for word in words if word not in of_others]  # no slips
+        hint = next(filter(None, hints), "")
         raise InputError(f"{message}{hint} (see {self.prog} --help)")
 
 
-@contextmanager
-def hang_up_as_interrupt() -> Iterator[None]:
-    """Treat the end of the terminal (SIGHUP) as Ctrl-C, so that recorded data are saved.
+class _Root(_Parser):
+    """The parser of ``mars2d`` alone, whose help is one screen."""
 
-    Output to the terminal is discarded from then on, since writing it would fail. Has no effect
-    outside the main thread, under nohup, and on Windows, which has no SIGHUP.
-    """
-    ours = threading.current_thread() is threading.main_thread() and sys.platform != "win32"
-    if not ours or signal.getsignal(signal.SIGHUP) is not signal.SIG_DFL:
-        yield
+    def format_help(self) -> str:
+        """Return what each verb is for."""
+        groups = [
+            "\n".join([f"\n{title}:", *(f"  {name:<12}{line}" for name, line in group.items())])
+            for title, group in GROUPS.items()
+        ]
+        return "\n".join([ABOUT.rstrip(), *groups, ""])
+
+
+def _home(_: argparse.Namespace) -> None:
+    """Show the home, and run the commands chosen there; print the help if there is no display."""
+    from mars2d.cli.runs import has_display
+
+    if not has_display():
+        tell(_Root().format_help(), end="")
         return
-    shown = [number for number in (1, 2) if os.isatty(number)]
+    from mars2d.window.home import Home
+    from mars2d.window.screen.display import started_display
+    from mars2d.window.screen.memory import Memory
 
-    def hang_up(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
-        with Path(os.devnull).open("wb") as nowhere:
-            for each in shown:
-                os.dup2(nowhere.fileno(), each)
-        signal.raise_signal(signal.SIGINT)
-
-    signal.signal(signal.SIGHUP, hang_up)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    note = ""
+    with started_display():
+        while (command := Home(Memory(), note).run()) is not None:
+            note = ""
+            try:
+                chosen = parse(command)
+                chosen.execute(chosen)
+            except Mars2dError as error:
+                warn(error)
+                note = one_line(error)

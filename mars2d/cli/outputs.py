@@ -9,20 +9,27 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from mars2d.cli.arguments import times
-from mars2d.cli.films import Film, add_film, save_film_of
+from mars2d.cli.arguments import add_shared
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.files import why_unwritable
 from mars2d.core.interrupt import interrupts
+from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
+from mars2d.output.films.footage import Cut
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster import require_pygame
+from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
+
+if TYPE_CHECKING:
+    from mars2d.output.films.footage import Footage
+    from mars2d.record.frame import Frame
 
 OUTPUTS = {
     "record": tuple(formats.FORMATS),
@@ -32,30 +39,28 @@ OUTPUTS = {
 }
 """The arguments that name output files, with their possible suffixes."""
 
+KINDS = {"record": "record", "figure": "figure", "video": "film", "html": "page"}
+"""The words for the output files."""
+
+FPS, SIZE = 25, (1280, 720)
+"""Frames per second of a film, and its default size, pixels."""
+
+DURATION = 12.0
+"""The duration of a film for which no speed was given, seconds."""
+
 HAIR = 1e-9
 """A time so little after the end, as a share of it, is the end: 600 * 0.1 is not quite 60."""
 
-KINDS = {"record": "record", "figure": "figure", "video": "film", "html": "page"}
-"""The words for the output files."""
+Make = Callable[[], object]
+"""A function that makes a film, or another file."""
 
 Made = dict[str, Path]
 """The files that were made, by the names of their arguments."""
 
 
-def add_pictures(parser: argparse.ArgumentParser) -> None:
-    """Add the figure with its snapshots, the film and the page."""
-    add = parser.add_argument
-    add("--figure", type=Path, metavar="OUT", help="draw the paths: .png, .pdf, .svg")
-    add("--at", type=times, metavar="T1,T2,...", help="draw snapshots at these times instead")
-    add_film(parser)
-    add_html(parser)
-
-
 def add_html(parser: argparse.ArgumentParser) -> None:
     """Add the replay as an HTML page."""
-    parser.add_argument(
-        "--html", type=Path, metavar="OUT.html", help="a replay for any browser, in one file"
-    )
+    add_shared(parser, "html")
 
 
 def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str, ...]]) -> None:
@@ -67,16 +72,15 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
         path: Path | None = getattr(arguments, name)
         if path is None:
             continue
+        why, folder = why_unwritable(path), path.parent
         if path.suffix.lower() not in suffixes:
-            wanted = " or ".join(suffixes)
-            raise InputError(f"--{name} {path}: expected a name that ends in {wanted}")
-        if not path.parent.is_dir():
-            raise InputError(f"--{name} {path}: there is no folder {path.parent}")
-        if not os.access(path.parent, os.W_OK):
-            raise InputError(f"--{name} {path}: nothing can be written in {path.parent.absolute()}")
-        why = why_unwritable(path)
+            why = f"expected a name that ends in {' or '.join(suffixes)}"
+        elif not folder.is_dir():
+            why = f"there is no folder {folder}"
+        elif not os.access(folder, os.W_OK):
+            why = f"nothing can be written in {folder.absolute()}"
         if why:
-            raise InputError(f"--{name} {path}: can't be written: {why}")
+            raise InputError(f"--{name} {path}: {why}")
         if name == "video":
             require_pygame("a film")
             if path.suffix.lower() == ".mp4":
@@ -85,14 +89,75 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
             formats.require(path)
 
 
-def check_snapshots(arguments: argparse.Namespace) -> None:
-    """Raise InputError for times of snapshots without a figure."""
-    if arguments.at is not None and arguments.figure is None:
-        raise InputError("--at needs --figure OUT")
+# -- films -----------------------------------------------------------------------------------------
+
+
+def check_film(arguments: argparse.Namespace, scenario: Scenario, last: float) -> None:
+    """Check the options of a film of a run that lasts `last` seconds. Raises InputError."""
+    options = {"--size": arguments.size, "--from": arguments.start, "--to": arguments.end}
+    if arguments.video is not None:
+        film.check_film(arguments.video, arguments.size or SIZE, FPS)
+        speed = film_speed(scenario, arguments.speed)
+        Cut.of(last, speed, FPS, arguments.start, arguments.end, "the run")
+        return
+    for name, value in options.items():
+        if value is not None:
+            raise InputError(f"{name} needs --video OUT: it is of the film")
+
+
+def film_speed(scenario: Scenario, speed: float | str | None) -> float:
+    """Return a film's speed: as given, else the animation's, else that of a film of `DURATION`."""
+    for choice in (speed, scenario.animation.playback_speed):
+        if isinstance(choice, float) and choice > 0:
+            return choice
+    return max(scenario.stop_time / DURATION, 1e-9)
+
+
+def save_footage(footage: Footage, last: Frame, arguments: argparse.Namespace) -> None:
+    """Make the requested film from the footage of a run, with a progress bar."""
+    with filming(footage.count(last)) as update:
+        film.save_film(
+            footage.frames(last),
+            arguments.video,
+            fps=FPS,
+            size=arguments.size or SIZE,
+            status=f"{footage.speed:.3g}x",
+            progress=update,
+        )
+
+
+def save_film_of(record: Record, arguments: argparse.Namespace) -> None:
+    """Make the requested film of a record, with a progress bar."""
+    speed = film_speed(record.scenario, arguments.speed)
+    start, end = arguments.start, arguments.end
+    with filming(film.cut_of(record, speed, FPS, start, end).count) as update:
+        film.film_record(
+            record,
+            arguments.video,
+            speed=speed,
+            fps=FPS,
+            size=arguments.size or SIZE,
+            start=start,
+            end=end,
+            progress=update,
+        )
+
+
+@contextmanager
+def filming(frames: int) -> Iterator[Callable[[int], None]]:
+    """Show a progress bar of a film; yields a function to be called with the frames done."""
+    progress = Progress(frames, "frames")
+    try:
+        yield progress.update
+    finally:
+        progress.close()
+
+
+# -- a run and its files ---------------------------------------------------------------------------
 
 
 def run_and_save(
-    arguments: argparse.Namespace, run: Callable[[], tuple[Record, Film | None]]
+    arguments: argparse.Namespace, run: Callable[[], tuple[Record, Make | None]]
 ) -> tuple[Record, Made, list[Mars2dError]]:
     """Run, and save all requested outputs however the run ends; return files and failures.
 
@@ -101,60 +166,58 @@ def run_and_save(
     the data up to then are saved, their place is printed, and the error is raised.
     """
     ended: Mars2dError | Interrupted | None = None
-    film: Film | None = None
+    of_run: Make | None = None
     target: Path | None = arguments.record
     saving = "" if target is None else f"the run is being saved in {one_line(target)}"
-    with interrupts(held=saving, rescue=lambda kept: _rescue(arguments, kept)):
+
+    def rescue(kept: Record | None) -> None:
+        if kept is not None and len(kept) and target is not None:
+            _say_kept(*_tried(arguments, {"record": lambda: save_record(target, kept)}), kept)
+
+    with interrupts(held=saving, rescue=rescue):
         try:
-            record, film = run()
+            record, of_run = run()
         except (Mars2dError, Interrupted) as error:
             if error.record is None or not len(error.record):
                 raise
             ended, record = error, error.record
-        made, troubles = _tried(arguments, {"record": lambda: save_record(arguments, record)})
-    makers: dict[str, Film] = {
+        makers: dict[str, Make] = {"record": lambda: save_record(arguments.record, record)}
+        made, troubles = _tried(arguments, makers)
+    makers = {
         "figure": lambda: _save_figure(arguments, record),
         "html": lambda: record.save_html(arguments.html),
-        "video": film or (lambda: save_film_of(record, arguments)),
+        "video": of_run or (lambda: save_film_of(record, arguments)),
     }
     others, more = _tried(arguments, makers)
     made, troubles = made | others, troubles + more
     if ended is None:
         return record, made, troubles
-    say(troubles)
-    if made:
-        files = ", ".join(map(str, made.values()))
-        warn(f"what was recorded until {record.time[-1]:g} s is in {files}")
+    _say_kept(made, troubles, record)
     raise ended
 
 
-def _rescue(arguments: argparse.Namespace, record: Record | None) -> None:
-    """Save the record of a run that does not end."""
-    if record is None or not len(record) or arguments.record is None:
-        return
-    _, troubles = _tried(arguments, {"record": lambda: save_record(arguments, record)})
-    say(troubles)
-    if not troubles:
-        warn(f"what was recorded until {record.time[-1]:g} s is in {one_line(arguments.record)}")
-
-
 def _tried(
-    arguments: argparse.Namespace, makers: Mapping[str, Film]
+    arguments: argparse.Namespace, makers: Mapping[str, Make]
 ) -> tuple[Made, list[Mars2dError]]:
     """Make the requested outputs independently of each other; return files made, and errors."""
     made: Made = {}
     troubles = []
     for name, make in makers.items():
-        path: Path | None = getattr(arguments, name)
-        if path is None:
-            continue
-        try:
-            make()
-        except Mars2dError as error:
-            troubles.append(error)
-        else:
-            made[name] = path
+        if (path := getattr(arguments, name)) is not None:
+            try:
+                make()
+                made[name] = path
+            except Mars2dError as error:
+                troubles.append(error)
     return made, troubles
+
+
+def _say_kept(made: Made, troubles: Iterable[Mars2dError], record: Record) -> None:
+    """Print errors of saving, and where the data of a run that was broken off are."""
+    say(troubles)
+    if made:
+        files = ", ".join(one_line(path) for path in made.values())
+        warn(f"what was recorded until {record.time[-1]:g} s is in {files}")
 
 
 def tell_files(made: Made) -> None:
@@ -169,12 +232,11 @@ def say(troubles: Iterable[Mars2dError]) -> None:
         warn(trouble)
 
 
-def save_record(arguments: argparse.Namespace, record: Record) -> None:
+def save_record(target: Path, record: Record) -> None:
     """Save the record, and those of its branches beside it; a log has been written already.
 
     If the record can't be saved in its place, it is kept elsewhere, and InputError says where.
     """
-    target: Path = arguments.record
     if not formats.is_streamed(target):
         formats.save_or_rescue(record, target)
     elif not target.exists():
@@ -187,9 +249,8 @@ def save_record(arguments: argparse.Namespace, record: Record) -> None:
 
 
 def _save_figure(arguments: argparse.Namespace, record: Record) -> None:
-    times = _times_within(arguments.at, record)
     with naming_lost_letters():
-        figure.save_figure(record, arguments.figure, times)
+        figure.save_figure(record, arguments.figure, _times_within(arguments.at, record))
 
 
 @contextmanager

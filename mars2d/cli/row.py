@@ -14,7 +14,7 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output.formats import log_to
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.study.code import code_of
+from mars2d.study.job import code_of
 from mars2d.study.measures import measure_named, measured
 from mars2d.study.table import Result, Table, load_table
 from mars2d.world.record import Record

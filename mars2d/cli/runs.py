@@ -1,4 +1,4 @@
-"""Runs in a window or without one, and the lines printed about them."""
+"""Runs in a window or without one, and what several verbs print."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
-from mars2d.core.terminal import tell, warn
+from mars2d.core.terminal import tell
+from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import courses, title_of
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.prediction import Prediction, table
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.display import Preferences
+from mars2d.window.screen.display import Preferences
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
@@ -32,9 +32,16 @@ FASTEST_BY_HAND = 10.0
 
 def has_display() -> bool:
     """Return whether a window could be opened."""
-    from mars2d.window.display import display_available
+    from mars2d.window.screen.display import display_available
 
     return display_available()
+
+
+def require_display(otherwise: str) -> None:
+    """Raise InputError where no window can be opened; otherwise: what there is to say."""
+    if not has_display():
+        require_pygame("a window")
+        raise InputError(otherwise)
 
 
 def show(
@@ -50,21 +57,19 @@ def show(
 ) -> Record:
     """Run in a window, at the experiment's own speed unless one is given.
 
-    humans: robots that are driven by hand; then the speed is one to drive at. log: writes each row
-    while the run goes on. watchers: called at each control step. kept: whether the record is saved
-    afterwards; else the window asks, where hands have changed the run. play: whether it is a game
-    whose roles people may choose.
+    humans: robots that are driven by hand; then the speed is one to drive at. log, watchers, play:
+    as of `show_experiment`. kept: whether the record is saved; else the window asks, where hands
+    have changed the run.
     """
     from mars2d.window.show import show_experiment
 
     scenario = experiment.scenario
     own = speed_by_hand(scenario, humans) if humans or play else scenario.animation.playback_speed
-    pace = own if speed is None else speed
     return show_experiment(
         experiment,
-        pace,
+        own if speed is None else speed,
         watchers,
-        preferences=preferences,
+        preferences,
         humans=humans,
         log=log,
         asks=not kept,
@@ -79,9 +84,8 @@ def speed_by_hand(scenario: Scenario, robots: Sequence[int] = ()) -> float:
     `LEAST` at least.
     """
     xmin, xmax, ymin, ymax = scenario.bounds
-    quickest = max(
-        scenario.robots[k].drive.max_linear_speed for k in robots or range(len(scenario.robots))
-    )
+    drives = [scenario.robots[k].drive for k in robots or range(len(scenario.robots))]
+    quickest = max(drive.max_linear_speed for drive in drives)
     factor = max(xmax - xmin, ymax - ymin) / (CROSSING * quickest)
     factor = min(factor, scenario.stop_time / LEAST, FASTEST_BY_HAND)
     return float(f"{factor:.1g}")
@@ -99,29 +103,6 @@ def run_headless(
         return simulate(experiment, speed, [*watchers, progress], log)
     finally:
         progress.close()
-
-
-def predictions_of(experiment: Experiment, record: Record) -> tuple[Prediction, ...]:
-    """Return the predictions of an experiment's checks; print why if they can't be made."""
-    if not record.finished:
-        warn_unchecked(experiment, "cut short")
-    elif record.interventions:
-        warn_unchecked(experiment, "changed by hand")
-    return experiment.predictions(record)
-
-
-def print_predictions(experiment: Experiment, record: Record) -> None:
-    """Print the predictions of an experiment's checks as a table, if it has any."""
-    predictions = predictions_of(experiment, record)
-    if predictions:
-        title = [experiment.source.summary] if experiment.source.summary else []
-        tell("", *title, table(predictions), sep="\n")
-
-
-def warn_unchecked(experiment: Experiment, happened: str) -> None:
-    """Print why an experiment's checks were not made, if it has any."""
-    if experiment.source.checks is not None:
-        warn(f"the run was {happened}, so its checks were not made")
 
 
 def print_table(title: str, lines: Mapping[str, str]) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.metadata import PackageNotFoundError, requires
 
 from mars2d.core.errors import MissingExtraError
 
@@ -16,6 +15,8 @@ def pip_line(name: str) -> str:
     >>> pip_line("video")
     'pip install "av>=17"'
     """
+    from importlib.metadata import PackageNotFoundError, requires
+
     try:
         declared = requires("mars2d") or []
     except PackageNotFoundError:  # it runs from its folder without being installed

@@ -1,8 +1,8 @@
-"""Ctrl-C and SIGTERM: raised once, not lost, and late while something is being saved.
+"""Ctrl-C, SIGTERM and SIGHUP: raised once, not lost, and late while something is being saved.
 
 Python raises KeyboardInterrupt wherever it happens to be, and drops it where no caller can receive
 it. So a run is a block that notes it as well. In a process that is the command line, and in no
-other, SIGTERM does what Ctrl-C does, and until all libraries are imported either ends it in a line.
+other, all three do the same, and until all libraries are imported each ends it in a line.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ INTERRUPTED, BAD_INPUT = 130, 2
 GRACE = 2.0
 """Further Ctrl-C within this time count as the same one, while the run is tidied up, seconds."""
 
-ENDING = signal.SIGINT, signal.SIGTERM
+ENDING = signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)
+"""Ctrl-C, `kill`, and the end of the terminal, which Windows does not tell."""
 
 _raised = -inf
 """The time at which KeyboardInterrupt was last raised."""

@@ -143,10 +143,13 @@ def _inside(name: str, image: str) -> Path | BytesIO:
 
 
 @contextlib.contextmanager
-def opened_image(name: str, file: Path | BytesIO, kind: str) -> Iterator[Any]:
+def opened_image(
+    name: str, file: Path | BytesIO, kind: str, *, deep: bool = False
+) -> Iterator[Any]:
     """Open an image with 8 bits per channel as an image of Pillow, whose pixels are not read yet.
 
-    file: its path, or what is in it. kind: Pillow's name of its format, such as ``PNG``. Raises
+    file: its path, or what is in it. kind: Pillow's name of its format, such as ``PNG``. deep: 16
+    bits of grey are allowed as well, in the modes ``I;16`` and ``I``. Raises
     FileNotFoundError if the file is missing. Raises InputError, beginning with `name`, for anything
     else wrong with it, also while its pixels are read within the block.
     """
@@ -157,7 +160,7 @@ def opened_image(name: str, file: Path | BytesIO, kind: str) -> Iterator[Any]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about sizes, which are checked here
             with Image.open(file, formats=[kind]) as image:
-                _check(name, *image.size, image.mode)
+                _check(name, *image.size, "L" if deep and image.mode[0] == "I" else image.mode)
                 yield image
     except (InputError, FileNotFoundError):
         raise

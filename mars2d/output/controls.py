@@ -86,6 +86,7 @@ CONTROLS = {
         "M9.3 9.4a2.8 2.8 0 1 1 4 2.6c-.9.4-1.3 1-1.3 2M12 17v.5",
     ),
     "about": Control("About this run", "", "M3 12a9 9 0 1 0 18 0a9 9 0 1 0-18 0M12 11v6M12 7.2v.6"),
+    "leave": Control("Leave", "Ctrl Q", "M13 4H5v16h8M16 8l4 4-4 4M20 12H9.5"),
     "close": Control("Close", "Esc", "M6 6l12 12M18 6L6 18"),
 }
 """By name: the action of the window's keys, where there is one."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.core.quantity import Quantity
 from mars2d.output.formats.columns import POSE_UNITS
-from mars2d.output.layers.forces import mean_forces
+from mars2d.record.contact import net_forces
 from mars2d.record.energy import WORK
 from mars2d.record.interventions import Change, Place
 
@@ -27,6 +27,12 @@ Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 SPEED = "speed"
+
+HEADS = (
+    *POSE_UNITS, SPEED, "command", "effort", "force", "impulse", "energy", "kinetic", "momentum",
+    "distance",
+)  # fmt: skip
+"""The first words of columns that each record has."""
 
 DRIVE_UNIT = "unit of the drive"
 """The unit of commands if drives state none, or different ones."""
@@ -88,34 +94,6 @@ def signals_of_bodies(record: Rows, name: str, bodies: Sequence[int]) -> list[Si
     return _named(record, name, tuple(bodies))
 
 
-def net_forces(
-    contacts: NDArray[np.void],
-    rows: NDArray[np.intp],
-    bodies: Sequence[int],
-    steps: range,
-    sampling_time: float,
-) -> Float:
-    """Return the net mean contact force on bodies in control steps, (steps, bodies) newtons.
-
-    contacts: (c,) of dtype CONTACT. rows: (c,), the row at the end of each contact's control step.
-    steps: the rows at the ends of the control steps.
-    """
-    seen = (rows >= steps.start) & (rows < steps.stop)
-    mine, step = contacts[seen], rows[seen] - steps.start
-    force = mean_forces(mine, sampling_time)
-    count = len(bodies)
-    place = np.full(max(bodies, default=0) + 1, -1)
-    place[list(bodies)] = np.arange(count)
-    net = np.zeros((2, len(steps) * count))
-    for side, sign in (("a", -1.0), ("b", 1.0)):
-        body = mine[side]
-        at = np.flatnonzero((body >= 0) & (body < len(place)))
-        at = at[place[body[at]] >= 0]
-        where = step[at] * count + place[body[at]]
-        net += [np.bincount(where, sign * force[at, i], len(net[0])) for i in (0, 1)]
-    return np.asarray(np.hypot(*net).reshape(len(steps), count))
-
-
 def chosen_robots(record: Rows, robots: Sequence[str | int] | None) -> tuple[int, ...]:
     """Return the indices of robots by name or index, all for None, each once."""
     scenario = record.scenario
@@ -134,8 +112,7 @@ def chosen_robots(record: Rows, robots: Sequence[str | int] | None) -> tuple[int
 
 def known_columns(record: Rows) -> list[str]:
     """Return the names of all columns, without their parts."""
-    names = [*POSE_UNITS, SPEED, "command", "effort", "force", "impulse"]
-    names += ["energy", "kinetic", "momentum", "momentum.each"]
+    names = [name for name in HEADS if name != "distance"] + ["momentum.each"]
     names += [f"distance.{body.name}" for body in record.scenario.bodies]
     names += record.sensors
     if record.scenario.props:
@@ -143,44 +120,57 @@ def known_columns(record: Rows) -> list[str]:
     return names
 
 
-def _named(record: Rows, name: object, robots: tuple[int, ...]) -> list[Signal]:
+WITH_PARTS = ("command", "distance", "momentum")
+"""Columns that may be followed by the name of a part."""
+
+
+def _named(record: Rows, name: object, bodies: tuple[int, ...]) -> list[Signal]:
     if not isinstance(name, str):
         raise wrong("columns", name, "names of columns, such as 'x' or 'effort'")
-    head, *parts = name.strip().split(".")
-    makers: dict[str, Callable[..., list[Signal]]] = {
-        **dict.fromkeys((*POSE_UNITS, SPEED), _motion),
-        "command": _command,
-        "effort": _effort,
-        "force": _force,
-        "impulse": _force,
-        "distance": _distance,
-        "energy": _energy,
-        "kinetic": _kinetic,
-        "momentum": _momentum,
-    }
-    if head in makers:
-        return makers[head](record, name, head, parts, robots)
+    head, _, part = name.strip().partition(".")
     if head == "prop":
-        return _props(record, name, parts)
-    head = head.removeprefix("sensor:")  # as `Record.columns` calls them
-    if head in record.sensors:
-        return _readings(record, name, head, parts, robots)
-    known = nearest(name, known_columns(record), most=30)
-    raise InputError(f"columns: there is no {name!r}{known}")
-
-
-def _no_parts(name: str, head: str, parts: list[str]) -> None:
-    if parts:
+        return [_prop(record, name, part)]
+    key = head.removeprefix("sensor:")  # as `Record.columns` calls them
+    if head not in HEADS and key in record.sensors:
+        return _readings(record, name, key, part.split(".") if part else [], bodies)
+    if head not in HEADS:
+        known = nearest(name, known_columns(record), most=30)
+        raise InputError(f"columns: there is no {name!r}{known}")
+    each = head == "momentum" and part == "each"
+    if part and (head not in WITH_PARTS or (head == "momentum" and not each)):
         raise InputError(f"columns: {name!r}: {head} has no parts; expected {head!r}")
-
-
-def _motion(
-    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
-) -> list[Signal]:
-    _no_parts(name, head, parts)
-    if max(robots, default=0) < len(record.scenario.robots):
-        return [_of_poses(record, head, head, record.pose, robots, 0)]
-    return [_of_poses(record, head, head, _poses(record), robots, 0)]
+    columns = list(bodies)
+    if head in (*POSE_UNITS, SPEED):
+        robots_alone = max(bodies, default=0) < len(record.scenario.robots)
+        pose = record.pose if robots_alone else _poses(record)
+        return [_of_poses(record, head, head, pose, bodies, 0)]
+    if head == "command":
+        return _command(record, name, part, _those_that_drive(record, name, bodies))
+    if head == "effort":
+        robots = _those_that_drive(record, name, bodies)
+        return [Signal("effort", "", record.effort[:, list(robots)], robots, "pre")]
+    if head in ("force", "impulse"):  # in the control step before
+        net = net_forces(record.pair_forces, bodies, range(len(record)))
+        force = np.hypot(net[:, 0], net[:, 1])
+        if head == "force":
+            return [Signal("contact force", "N", force, bodies, "pre")]
+        impulse = force * record.scenario.sampling_time
+        return [Signal("contact impulse", "N s", impulse, bodies, "pre")]
+    if head == "distance":
+        return [_distance(record, name, part, bodies)]
+    if head == "energy":
+        return [_energy(record)]
+    if head == "kinetic":
+        return [Signal("kinetic energy", "J", record.energy.kinetic[:, columns], bodies)]
+    momentum = record.momentum
+    if each:
+        own = momentum.linear[:, :, columns]
+        return [Signal("own momentum", "N s", np.hypot(own[:, 0], own[:, 1]), bodies)]
+    whole, turning = momentum.total, momentum.angular[:, None]
+    return [
+        Signal("momentum", "N s", whole, (), curves=("x", "y")),
+        Signal("angular momentum", "N m s", turning, (), curves=("about the origin",)),
+    ]
 
 
 def _poses(record: Rows) -> Float:
@@ -224,128 +214,57 @@ def _put_elsewhere(record: Rows) -> Iterator[tuple[int, int]]:
             yield from ((each.row, body) for body, _ in each.moved)
 
 
-def _command(
-    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
-) -> list[Signal]:
-    robots = _those_that_drive(record, name, robots)
+def _command(record: Rows, name: str, part: str, robots: tuple[int, ...]) -> list[Signal]:
+    """Return the commands of robots, or a part of them by its index or quantity."""
     found = {record.scenario.robots[i].drive.quantities for i in robots}
     agreed = found.pop() if len(found) == 1 else ()
     kinds = agreed or (Quantity("0", DRIVE_UNIT), Quantity("1", DRIVE_UNIT))
-    wanted = [0, 1]
-    if parts:
-        known = {"0": 0, "1": 1} | {kind.name: k for k, kind in enumerate(kinds)}
-        part = ".".join(parts)
-        if part not in known:
-            raise InputError(f"columns: {name!r}: {head} has no {part!r}{nearest(part, known)}")
-        wanted = [known[part]]
+    known = {"0": 0, "1": 1} | {kind.name: k for k, kind in enumerate(kinds)}
+    if part and part not in known:
+        raise InputError(f"columns: {name!r}: command has no {part!r}{nearest(part, known)}")
     return [
         Signal(
             f"command {kinds[k].name}" if agreed else f"command.{k}",
             kinds[k].unit, record.command[:, k, list(robots)], robots, "post",
         )
-        for k in wanted
+        for k in ([known[part]] if part else [0, 1])
     ]  # fmt: skip
 
 
-def _effort(
-    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
-) -> list[Signal]:
-    _no_parts(name, head, parts)
-    robots = _those_that_drive(record, name, robots)
-    return [Signal("effort", "", record.effort[:, list(robots)], robots, "pre")]
-
-
-def _force(
-    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
-) -> list[Signal]:
-    """Return the net contact force on each body in the control step before, or its impulse."""
-    _no_parts(name, head, parts)
-    dt, rows = record.scenario.sampling_time, record.contact_rows
-    force = net_forces(record.contacts, rows, robots, range(len(record)), dt)
-    values, unit = (force, "N") if head == "force" else (force * dt, "N s")
-    return [Signal(f"contact {head}", unit, values, robots, "pre")]
-
-
-def _distance(
-    record: Rows,
-    name: str,
-    head: str,  # noqa: ARG001
-    parts: list[str],
-    robots: tuple[int, ...],
-) -> list[Signal]:
+def _distance(record: Rows, name: str, other: str, bodies: tuple[int, ...]) -> Signal:
     """Return the distances of bodies to another one: of their poses, not of their outlines."""
-    other = ".".join(parts)
     names = [str(body.name) for body in record.scenario.bodies]
     if other not in names:
         hint = nearest(f"distance.{other}", [f"distance.{each}" for each in names], most=12)
         raise InputError(f"columns: there is no {name!r}{hint}")
     to = names.index(other)
-    bodies = tuple(body for body in robots if body != to)
+    bodies = tuple(body for body in bodies if body != to)
     if not bodies:
         raise InputError(f"columns: {name!r}: expected a body other than {other}")
     place = _poses(record)[:, :2]
     apart = place[:, :, list(bodies)] - place[:, :, [to]]
-    return [Signal(f"distance to {other}", "m", np.hypot(apart[:, 0], apart[:, 1]), bodies)]
+    return Signal(f"distance to {other}", "m", np.hypot(apart[:, 0], apart[:, 1]), bodies)
 
 
-def _energy(
-    record: Rows,
-    name: str,
-    head: str,
-    parts: list[str],
-    robots: tuple[int, ...],  # noqa: ARG001
-) -> list[Signal]:
+def _energy(record: Rows) -> Signal:
     """Return the kinetic energy of all bodies, and the work that has made it."""
-    _no_parts(name, head, parts)
     energy = record.energy
     known = not np.isnan(energy.work[:1]).any()
     values = {"kinetic, of all" if known else "kinetic, by mean velocities": energy.total}
     values |= {f"work of {what}": energy.by(what) for what in WORK}
-    curves = np.stack(list(values.values()), axis=-1)
-    return [Signal("energy", "J", curves, (), curves=tuple(values))]
+    return Signal("energy", "J", np.stack(list(values.values()), axis=-1), (), curves=tuple(values))
 
 
-def _kinetic(
-    record: Rows, name: str, head: str, parts: list[str], robots: tuple[int, ...]
-) -> list[Signal]:
-    _no_parts(name, head, parts)
-    return [Signal("kinetic energy", "J", record.energy.kinetic[:, list(robots)], robots)]
-
-
-def _momentum(
-    record: Rows,
-    name: str,
-    head: str,
-    parts: list[str],
-    robots: tuple[int, ...],
-) -> list[Signal]:
-    """Return the momentum of all bodies: x, y, and the angular one about the origin.
-
-    With the part "each" it is the size of each body's own momentum.
-    """
-    momentum = record.momentum
-    if parts == ["each"]:
-        own = momentum.linear[:, :, list(robots)]
-        return [Signal("own momentum", "N s", np.hypot(own[:, 0], own[:, 1]), robots)]
-    _no_parts(name, head, parts)
-    return [
-        Signal("momentum", "N s", momentum.total, (), curves=("x", "y")),
-        Signal(
-            "angular momentum", "N m s", momentum.angular[:, None], (), curves=("about the origin",)
-        ),
-    ]
-
-
-def _props(record: Rows, name: str, parts: list[str]) -> list[Signal]:
+def _prop(record: Rows, name: str, part: str) -> Signal:
     known = (*POSE_UNITS, SPEED)
     if not record.scenario.props:
         raise InputError(f"columns: {name!r}: the record has no props")
-    if len(parts) != 1 or parts[0] not in known:
-        expected = ", ".join(f"'prop.{part}'" for part in known)
-        hint = likely(".".join(parts), known)
+    if part not in known:
+        expected = ", ".join(f"'prop.{each}'" for each in known)
+        hint = likely(part, known)
         raise InputError(f"columns: there is no {name!r}: expected one of {expected}{hint}")
     which, first = range(len(record.scenario.props)), len(record.scenario.robots)
-    return [_of_poses(record, name, parts[0], record.prop_pose, which, first)]
+    return _of_poses(record, name, part, record.prop_pose, which, first)
 
 
 # -- readings of sensors --------------------------------------------------------------------------

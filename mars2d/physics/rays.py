@@ -1,178 +1,195 @@
-"""Rays in pymunk's space: the engine's answers, and what rounding hides from it."""
+"""Rays: what they meet among bodies and obstacles, for sensors and lines of sight."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from math import inf
+from collections.abc import Sequence
+from functools import lru_cache
+from math import inf, pi
 from typing import Any
 
 import numpy as np
-import pymunk
 from numpy.typing import ArrayLike, NDArray
-from pymunk import batch
-from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.core.arithmetic import cosine_sine, cosines_sines, norm, norms
-from mars2d.core.plane import WITHIN, Point, up_to
-from mars2d.geometry.ray_casting import CORNER
+from mars2d.core.arithmetic import cosines_sines, norms
+from mars2d.core.plane import WITHIN, Outline, Point, edges_of, up_to
+from mars2d.physics.islands import islands
 
 Float = NDArray[np.float64]
+Int = NDArray[np.int64]
 
-POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
+Parts = Sequence[tuple[Sequence[Point], float]]
+"""The parts of a body: convex polygons, counter-clockwise, or one point with a radius > 0."""
 
-_ALL = 0xFFFFFFFF
+Ring = Sequence[Point]
+"""Corners of a convex ring, counter-clockwise, or the ends of a single edge."""
 
-SIGHT = 1 << 31
-"""The category of shapes that only rays meet."""
-
-BODY = _ALL & ~SIGHT
-"""The categories of shapes that bodies and rays meet."""
-
-BAR = 1e-9
-"""Half the length of a bar across the end of a wall, metres."""
-
-GRAZING = 1e-7
-"""A ray at a smaller angle to an edge is checked again, rad: rounding decides where it hits."""
+WIDE = 4.0
+"""Things so many times larger than the middle one are looked at by each ray."""
 
 AT_THE_END = 1e-9
 """A surface as near to the end of a ray does not hide the end, metres."""
 
 
-def end_bars(a: Point, b: Point) -> list[tuple[Point, Point]]:
-    """Return two bars across the ends of a wall, so short that they count as points.
-
-    A wall has no thickness, so the engine lets a ray along it pass. Such a ray meets the bar.
-    """
-    dx, dy = b[0] - a[0], b[1] - a[1]
-    apart = float(norm(dx, dy))
-    ux, uy = BAR * -dy / apart, BAR * dx / apart
-    return [((x - ux, y - uy), (x + ux, y + uy)) for x, y in (a, b)]
-
-
 class Rays:
-    """Casts rays into a space, by the engine's function, without pymunk's object of each answer."""
+    """Casts rays at moving bodies and fixed obstacles.
 
-    def __init__(self, space: pymunk.Space, bodies: Mapping[pymunk.Shape, int]) -> None:
-        """Take the space, and the number of the body that each shape belongs to."""
-        self._public = space
-        self._space: Any = space._space
-        self._body_of = {shape._shape: body for shape, body in bodies.items()}
-        self._filter = ffi.new("cpShapeFilter *", (0, _ALL, _ALL))
-        self._hit = ffi.new("cpSegmentQueryInfo *")
-        corners = [
-            (body, corner)
-            for shape, body in bodies.items()
-            if isinstance(shape, pymunk.Poly)
-            for corner in shape.get_vertices()
-        ]
-        self._corner_body = np.array([body for body, _ in corners], dtype=np.int64)
-        self._corner = np.array([corner for _, corner in corners]).reshape(-1, 2)
-        self._pose_buffer = batch.Buffer()
+    A body is solid: a ray that starts in it has length 0. An obstacle is an outline: a ray that
+    starts in it goes on to its edge. Ends of edges belong to them, so that no ray slips through a
+    corner, and a ray along a wall meets its near end.
+
+    >>> rays = Rays([], [[(1, -1), (1, 1)]])
+    >>> rays.distances(np.zeros((3, 1)), [-0.1, 0, 3], 5.0, [0]).round(3).tolist()
+    [[1.005, 1.0, inf]]
+    """
+
+    def __init__(self, bodies: Sequence[Parts], obstacles: Sequence[Outline]) -> None:
+        """Take the bodies' parts in their own frames, and the obstacles' outlines, metres.
+
+        Body i has the number i, obstacle k the number -1 - k.
+        """
+        rings = [(ring, 0.0, -1 - k) for k, each in enumerate(obstacles) for ring in _rings(each)]
+        parts = [(points, radius, i) for i, body in enumerate(bodies) for points, radius in body]
+        self._fixed, self._moving = _Things(rings, solid=False), _Things(parts, solid=True)
+        self._caster = islands().Caster([self._fixed.taken, self._moving.taken])
+        self._fixed.place(np.zeros((3, 1)))
+
+    def place(self, pose: Float) -> None:
+        """Move the bodies to poses (3, N): x, y [m], theta [rad]."""
+        self._moving.place(pose)
+
+    def distances(
+        self, poses: Float, bearings: ArrayLike, reach: ArrayLike, ignore: ArrayLike
+    ) -> Float:
+        """Return the lengths of rays, (m, k) metres; inf for a ray that hits nothing.
+
+        poses: x, y [m], heading [rad] of the fans (3, m). bearings: those of their rays relative to
+        the heading, rad (k,). reach: the range of all rays, or of each (k,), metres. ignore: the
+        body that each fan does not see (m,), a negative number for none.
+        """
+        return self.sight(poses, bearings, reach, ignore, 0)[0]
+
+    def sight(
+        self,
+        poses: Float,
+        bearings: ArrayLike,
+        reach: ArrayLike,
+        ignore: ArrayLike,
+        nothing: int,
+    ) -> tuple[Float, Int]:
+        """Return the lengths of rays and the bodies that they hit, (m, k) each; see `distances`.
+
+        nothing: the value for a ray that hits nothing. Of equally distant bodies, the one with the
+        lowest number counts.
+        """
+        order, *rays = _table(np.asarray(bearings, dtype=float).tobytes())
+        far, blind = np.asarray(reach, dtype=float), np.array(ignore, dtype=float)
+        lengths, owners = np.full((2, len(blind), len(order)), inf)
+        owners[:] = nothing
+        start = np.array(poses, dtype=float, order="C").reshape(-1)
+        limit = WITHIN * float(far.max(initial=0.0))
+        if lengths.size:
+            found = lengths.reshape(-1), owners.reshape(-1)
+            self._caster.scan(start, rays, limit, blind, np.empty((2, len(order))), found)
+        seen, met = np.empty_like(lengths), np.empty(lengths.shape, dtype=int)
+        seen[:, order], met[:, order] = lengths, owners
+        seen = up_to(seen, far)
+        met[np.isinf(seen)] = nothing
+        return seen, met
 
     def length(self, start: Point, angle: float, reach: float, ignore: int) -> float:
-        """Return the length of a ray, inf where nothing is hit; see Surroundings."""
-        far = WITHIN * reach
-        c, s = cosine_sine(angle)
-        end = start[0] + far * c, start[1] + far * s
-        ways = np.array([c]), np.array([s])
-        (distance,), _ = self._met(start, ways, np.array([far]), [end], ignore)
-        return float(up_to(distance, reach))
+        """Return the length of one ray, metres; inf if it hits nothing."""
+        found = np.full((2, 1), inf)
+        pose, blind = np.array([*start, angle]), np.array([float(ignore)])
+        self._caster.scan(pose, _AHEAD, WITHIN * reach, blind, np.empty((2, 1)), found)
+        length = float(found[0, 0])
+        return min(length, reach) if length <= WITHIN * reach else inf
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:
         """Return whether something stands before points (k, 2); see Surroundings."""
         points = np.asarray(points, dtype=float).reshape(-1, 2)
-        dx, dy = points[:, 0] - start[0], points[:, 1] - start[1]
-        apart = norms(dx, dy)
-        unit = np.where(apart > 0, apart, 1.0)
-        ways = dx / unit, dy / unit
-        distance, met = self._met(start, ways, apart, points.tolist(), ignore)
-        return np.asarray((apart - distance > AT_THE_END) & (np.asarray(met) != bodies))
-
-    def _met(
-        self, start: Point, ways: tuple[Float, Float], far: Float, ends: list[Any], ignore: int
-    ) -> tuple[Float, list[int]]:
-        """Return how far rays go, inf where they meet nothing, and the bodies that they meet, or 0.
-
-        ways: their directions, two (k,). far: their lengths (k,). ends: k of them.
-        """
-        self._filter.group = ignore + 1
-        hit, own = self._hit, self._filter[0]
-        distance, met = np.full(len(ends), inf), [0] * len(ends)
-        for k, end in enumerate(ends):
-            if not lib.cpSpaceSegmentQueryFirst(self._space, start, end, 0.0, own, hit):
-                continue
-            way = float(ways[0][k]), float(ways[1][k])
-            if abs(hit.normal.x * way[0] + hit.normal.y * way[1]) < GRAZING:
-                distance[k], met[k] = self._grazing(start, way, end, ignore)
-            else:
-                distance[k], met[k] = hit.alpha * far[k], self._body_of[hit.shape]
-        if len(self._corner):
-            self._meet_corners(start, ways, far, ignore, met, distance)
-        return distance, met
-
-    def _meet_corners(
-        self,
-        start: Point,
-        ways: tuple[Float, Float],
-        far: Float,
-        ignore: int,
-        met: list[int],
-        distance: Float,
-    ) -> None:
-        """Let rays that are aimed at corners of bodies meet them.
-
-        The engine checks each side of a polygon by itself: by rounding, such a ray may miss both.
-        """
-        buffer = self._pose_buffer
-        buffer.clear()
-        batch.get_space_bodies(self._public, POSE, buffer)
-        pose = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, 3)
-        at_x, at_y, angle = pose[self._corner_body].T
-        turn_c, turn_s = cosines_sines(angle)
-        dx = at_x + turn_c * self._corner[:, 0] - turn_s * self._corner[:, 1] - start[0]
-        dy = at_y + turn_s * self._corner[:, 0] + turn_c * self._corner[:, 1] - start[1]
-        apart = norms(dx, dy)
-        near = np.flatnonzero((apart <= far.max(initial=0.0)) & (self._corner_body != ignore))
-        offset = np.column_stack([dy[near], -dx[near]])
-        beside = offset @ np.array(ways)  # rounding depends on the processor: checked again below
-        reach = CORNER * (1 + apart[near])
-        for row, k in np.argwhere(np.abs(beside) < 2 * reach[:, None]).tolist():
-            x, y = float(dx[near[row]]), float(dy[near[row]])
-            c, s = float(ways[0][k]), float(ways[1][k])
-            along = x * c + y * s
-            aimed = abs(y * c - x * s) < reach[row] and 0 <= along <= far[k]
-            if aimed and along < distance[k]:
-                distance[k], met[k] = along, int(self._corner_body[near[row]])
-
-    def _grazing(self, start: Point, way: Point, end: Point, ignore: int) -> tuple[float, int]:
-        """Return the distance to what a ray along an edge meets, and its body.
-
-        The engine divides two rounding errors if a ray lies in an edge. Such a ray meets the edge's
-        near end. way: its direction.
-        """
-        own = pymunk.ShapeFilter(group=ignore + 1)
-        reach = float(norm(end[0] - start[0], end[1] - start[1]))
-        found = [(inf, 0)]
-        for info in self._public.segment_query(start, (end[0], end[1]), 0.0, own):
-            shape = info.shape
-            assert shape is not None
-            distance = info.alpha * reach
-            if info.alpha > 0 and not isinstance(shape, pymunk.Circle):
-                ways = [(x - start[0], y - start[1]) for x, y in _corners(shape)]
-                along = [
-                    way[0] * x + way[1] * y for x, y in ways if abs(way[0] * y - way[1] * x) < BAR
-                ]
-                if len(along) > 1:
-                    distance = inf if max(along) < 0 else max(min(along), 0.0)
-            found.append((distance, self._body_of[shape._shape]))
-        return min(found)
+        lengths, owners = np.full((2, len(points)), inf)
+        across = np.array(points.T, order="C").reshape(-1)
+        self._caster.reach_points(*start, across, ignore, np.empty((3, 1)), (lengths, owners))
+        apart = norms(points[:, 0] - start[0], points[:, 1] - start[1])
+        return np.asarray((apart - lengths > AT_THE_END) & (owners != bodies))
 
 
-def _corners(shape: pymunk.Shape) -> list[Point]:
-    """Return the ends of a segment, or the corners of a polygon, in the world."""
-    assert isinstance(shape, (pymunk.Segment, pymunk.Poly))
-    local = [shape.a, shape.b] if isinstance(shape, pymunk.Segment) else shape.get_vertices()
-    assert shape.body is not None
-    return [(x, y) for x, y in map(shape.body.local_to_world, local)]
+class _Things:
+    """Parts that move together, or stand still: rings and discs, and where they are now."""
+
+    def __init__(self, parts: Sequence[tuple[Ring, float, int]], *, solid: bool) -> None:
+        """Take parts: corners of a ring, or one point and a radius > 0; and the owner of each."""
+        self.taken: Any = islands().Things(solid)
+        rings = [np.array(points, dtype=float).reshape(-1, 2) for points, _, _ in parts]
+        # A single edge has two ends, but is one edge.
+        edges = np.array([{1: 0, 2: 1}.get(len(ring), len(ring)) for ring in rings], dtype=int)
+        starts = [ring[:many] for ring, many in zip(rings, edges, strict=True)]
+        ends = [np.roll(ring, -1, axis=0)[:many] for ring, many in zip(rings, edges, strict=True)]
+        boxes = [(ring.min(axis=0), ring.max(axis=0)) for ring in rings]
+        middle = [(low + high) / 2 for low, high in boxes]
+        half = [
+            radius or norms(*(high - low)) / 2
+            for (_, radius, _), (low, high) in zip(parts, boxes, strict=True)
+        ]
+        self._local = np.vstack([np.empty((0, 2)), *middle, *starts, *ends]).T.copy()
+        self._radius = np.array(half, dtype=float)
+        self._owner = np.array([owner for _, _, owner in parts], dtype=int)
+        of_edge = np.repeat(self._owner, edges)
+        self._body = np.concatenate([self._owner, of_edge, of_edge])
+        self._first, self._edges = (np.cumsum(edges) - edges).astype(float), edges.astype(float)
+        middling = float(np.median(self._radius)) if len(parts) else 0.0
+        wide = self._radius > WIDE * middling
+        self._wide = int(wide.sum())
+        self._largest = float(self._radius[~wide].max(initial=0.0))
+        self._rank = np.where(wide, -inf, 0.0)
+
+    def place(self, pose: Float) -> None:
+        """Move all to the poses of their owners, (3, N); of the first, if they stand still."""
+        of = np.maximum(self._body, 0)
+        c, s = (each[of] for each in cosines_sines(pose[2]))
+        x = pose[0][of] + c * self._local[0] - s * self._local[1]
+        y = pose[1][of] + s * self._local[0] + c * self._local[1]
+        things, corners = len(self._radius), (len(x) + len(self._radius)) // 2
+        order = np.argsort(x[:things] + self._rank, kind="stable")
+        self.taken.take(
+            self._wide,
+            self._largest,
+            (x[:things][order], y[:things][order], self._radius[order]),
+            self._owner[order].astype(float),
+            (self._first[order], self._edges[order]),
+            (x[things:corners], y[things:corners], x[corners:], y[corners:]),
+        )
+
+
+_AHEAD = np.zeros(1), np.ones(1), np.zeros(1)
+"""The table of a single bearing, 0: its diamond angle, cosine and sine."""
+
+
+@lru_cache(maxsize=16)
+def _table(bearings: bytes) -> tuple[Int, Float, Float, Float]:
+    """Return the order of bearings, and in it their diamond angles, cosines and sines (k,).
+
+    bearings: the bytes of floats.
+    """
+    c, s = cosines_sines(np.frombuffer(bearings))
+    way = s / (np.abs(c) + np.abs(s))
+    angle = np.where(c < 0, 2.0 - way, np.where(way < 0, 4.0 + way, way))
+    order = np.argsort(angle, kind="stable")
+    return order, angle[order], c[order], s[order]
+
+
+def _rings(outline: Outline) -> list[Ring]:
+    """Return a convex outline as one ring, counter-clockwise; any other one as single edges."""
+    if len(outline) > 2:
+        ring = np.array(outline, dtype=float)
+        edge = np.roll(ring, -1, axis=0) - ring
+        after = np.roll(edge, -1, axis=0)
+        turn = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
+        bend = np.arctan2(turn, (edge * after).sum(axis=1))
+        if (turn > 0).all() and bend.sum() < 3 * pi:
+            return [outline]
+        if (turn < 0).all() and bend.sum() > -3 * pi:
+            return [outline[::-1]]
+    return [*edges_of(outline)]

@@ -19,10 +19,14 @@ from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.plane import WITHIN, Outline, Point, edges_of
 from mars2d.physics.islands.chipmunk import frame_of
-from mars2d.physics.rays import BODY, POSE, SIGHT, Rays, end_bars
+from mars2d.physics.rays import Rays
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
+
+_ALL = 0xFFFFFFFF
+
+POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 
 GOLDEN = (5**0.5 - 1) / 2
 """The fractional parts of its multiples are scattered evenly from 0 to 1."""
@@ -36,13 +40,13 @@ class Space:
         self.obstacles = tuple(surface.outline for surface in scenario.surfaces)
         self._rigids, self._robots = scenario.bodies, len(scenario.robots)
         self._state = state
-        self._moved = True
-        self._filter = ffi.new("cpShapeFilter *", (0, BODY, BODY | SIGHT))
+        self._moved = self._rays_moved = True
+        self._filter = ffi.new("cpShapeFilter *", (0, _ALL, _ALL))
         self._info = ffi.new("cpPointQueryInfo *")
 
     def moved(self) -> None:
         """Note that bodies have moved: the next query finds them where they are."""
-        self._moved = True
+        self._moved = self._rays_moved = True
 
     # -- building ---------------------------------------------------------------------------
 
@@ -50,24 +54,16 @@ class Space:
     def _space(self) -> pymunk.Space:
         """The space, with all shapes."""
         space = pymunk.Space()
-        shapes: dict[pymunk.Shape, int] = {}
-        self._bodies = [self._body(space, i, rigid, shapes) for i, rigid in enumerate(self._rigids)]
-        walls = {
-            shape: -1 - k
-            for k, outline in enumerate(self.obstacles)
-            for shape in _walls(space, outline)
-        }
-        space.add(*_scattered(list(walls)))
-        self._rays = Rays(space, shapes | walls)
+        self._bodies = [self._body(space, i, rigid) for i, rigid in enumerate(self._rigids)]
+        walls = [shape for outline in self.obstacles for shape in _walls(space, outline)]
+        space.add(*_scattered(walls))
         self._poses = np.zeros((len(self._bodies) + 1 + len(self.obstacles), 3))
         self._buffer = batch.Buffer()
         self._frames = [np.frombuffer(frame_of(body._body)) for body in self._bodies]
         return space
 
-    def _body(
-        self, space: pymunk.Space, i: int, rigid: Rigid, shapes: dict[pymunk.Shape, int]
-    ) -> pymunk.Body:
-        """Return a body in the space, and add its shapes to those that are known."""
+    def _body(self, space: pymunk.Space, i: int, rigid: Rigid) -> pymunk.Body:
+        """Return a body in the space, with its shapes."""
         body = pymunk.Body(1.0, 1.0)
         space.add(body)
         for vertices, radius in rigid.shape.pieces:
@@ -76,10 +72,9 @@ class Space:
                 shape = pymunk.Circle(body, radius, vertices[0])
             else:
                 shape = pymunk.Poly(body, vertices)
-            # A robot's rays do not see itself.
-            shape.filter = pymunk.ShapeFilter(i + 1 if i < self._robots else 0, categories=BODY)
+            # A robot's sensors do not see itself.
+            shape.filter = pymunk.ShapeFilter(i + 1 if i < self._robots else 0)
             space.add(shape)
-            shapes[shape] = i
         return body
 
     # -- what sensors ask -------------------------------------------------------------------
@@ -106,10 +101,16 @@ class Space:
         for frame, row in zip(self._frames, rows, strict=True):
             frame[:] = row
 
+    @cached_property
+    def _rays(self) -> Rays:
+        return Rays([rigid.shape.pieces for rigid in self._rigids], self.obstacles)
+
     @property
     def rays(self) -> Rays:
-        """What casts rays at all that stands and moves here."""
-        _ = self._seen
+        """What casts rays, with all bodies where they are."""
+        if self._rays_moved:
+            self._rays_moved = False
+            self._rays.place(self._state[:, :3].T)
         return self._rays
 
     def distance(self, point: Point, limit: float, ignore: int) -> float:
@@ -133,18 +134,11 @@ def _walls(space: pymunk.Space, outline: Outline) -> list[pymunk.Shape]:
     """Return the shapes of an obstacle, on a body of its own in the space."""
     body = pymunk.Body(body_type=pymunk.Body.STATIC)
     space.add(body)
-    edges = edges_of(outline)
-    shapes: list[pymunk.Shape] = [pymunk.Segment(body, a, b, 0.0) for a, b in edges]
-    if len(edges) == 1:
-        for a, b in end_bars(*edges[0]):
-            bar = pymunk.Segment(body, a, b, 0.0)
-            bar.filter = pymunk.ShapeFilter(categories=SIGHT, mask=SIGHT)
-            shapes.append(bar)
-    return shapes
+    return [pymunk.Segment(body, a, b, 0.0) for a, b in edges_of(outline)]
 
 
 def _own(robot: int) -> pymunk.ShapeFilter:
-    return pymunk.ShapeFilter(group=robot + 1, categories=BODY)
+    return pymunk.ShapeFilter(group=robot + 1)
 
 
 def _scattered(shapes: list[pymunk.Shape]) -> list[pymunk.Shape]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,19 @@ rows, of ``normal_impulse * normal`` and ``tangential_impulse`` times the normal
 degrees, with the sign minus where the body is a.
 """
 
+FORCE = np.dtype(
+    [
+        ("row", "i8"),  # of the record, at the end of the control step
+        ("a", "i4"),
+        ("b", "i4"),
+        ("time", "f8"),  # s, when they were first in touch in the control step
+        ("until", "f8"),  # s, when they were last
+        ("force", "f8", (2,)),  # N, the mean on b over the control step, by all normals together
+        ("normal_force", "f8"),  # N, the mean of what presses by each normal, added up
+    ]
+)
+"""A row for each control step in which a pair touched, by whatever normals."""
+
 ROUNDING = 1e-9
 """Seconds between touches of a pair that count as none."""
 
@@ -49,6 +62,55 @@ EPISODE = np.dtype(
     ]
 )
 """A row for each time that a pair touched, by whatever normals, until it parted."""
+
+
+def mean_forces(contacts: NDArray[np.void], sampling_time: float) -> Float:
+    """Return the mean force on b over the control step of each contact, (c, 2) newtons."""
+    normal = contacts["normal"]
+    tangent = np.column_stack([-normal[:, 1], normal[:, 0]])
+    impulse = contacts["normal_impulse"][:, None] * normal
+    impulse = impulse + contacts["tangential_impulse"][:, None] * tangent
+    return np.asarray(impulse / sampling_time)
+
+
+def pair_forces(
+    contacts: NDArray[np.void], rows: NDArray[np.intp], sampling_time: float
+) -> NDArray[np.void]:
+    """Return what each pair exerted in each control step, dtype FORCE, by row, a and b.
+
+    contacts: (c,) of dtype CONTACT. rows: (c,), the row at the end of each one's control step.
+    """
+    order = np.lexsort((contacts["b"], contacts["a"], rows))
+    contacts = contacts[order]
+    key = np.column_stack([rows[order], contacts["a"], contacts["b"]])
+    first = np.flatnonzero(np.diff(key, axis=0, prepend=-1).any(axis=1))
+    found = np.zeros(len(first), dtype=FORCE)
+    if len(first):
+        found["row"], found["a"], found["b"] = key[first].T
+        found["time"] = np.minimum.reduceat(contacts["time"], first)
+        found["until"] = np.maximum.reduceat(contacts["time"] + contacts["duration"], first)
+        found["force"] = np.add.reduceat(mean_forces(contacts, sampling_time), first)
+        pressed = np.add.reduceat(contacts["normal_impulse"], first)
+        found["normal_force"] = pressed / sampling_time
+    return found
+
+
+def net_forces(pairs: NDArray[np.void], bodies: Sequence[int], steps: range) -> Float:
+    """Return the net mean contact force on bodies in control steps, (steps, 2, bodies) newtons.
+
+    pairs: of dtype FORCE. bodies: indices >= 0, each once. steps: the rows at the steps' ends.
+    """
+    net = np.zeros((len(steps), len(bodies), 2))
+    place = np.full(max(bodies, default=0) + 1, -1)
+    place[list(bodies)] = np.arange(len(bodies))
+    pairs = pairs[(pairs["row"] >= steps.start) & (pairs["row"] < steps.stop)]
+    for side, sign in (("a", -1.0), ("b", 1.0)):
+        wanted = (pairs[side] >= 0) & (pairs[side] < len(place))
+        wanted[wanted] = place[pairs[side][wanted]] >= 0
+        mine = pairs[wanted]
+        step, column = mine["row"] - steps.start, place[mine[side]]
+        np.add.at(net, (step, column), sign * mine["force"])
+    return net.swapaxes(1, 2)
 
 
 def episodes(contacts: NDArray[np.void]) -> NDArray[np.void]:

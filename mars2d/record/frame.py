@@ -16,6 +16,7 @@ from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.interventions import Leap
 from mars2d.record.message import MESSAGE
 from mars2d.scenario.scenario import Scenario
+from mars2d.sensors.base import Sensor
 
 Float = NDArray[np.float64]
 
@@ -42,7 +43,8 @@ class Frame:
 
     pose: (3, n) now. path: (k, 3, n), the poses at all sampling times before, from the start on.
     readings: for each sensor's name the pairs (robot index, reading). sensed: (3, n), the poses at
-    which the sensors were read, if they differ from `pose`. draw_addons: adds the add-ons' shapes
+    which the sensors were read, if they differ from `pose`. read_row: the row at which they were,
+    if it is not `iteration`. draw_addons: adds the add-ons' shapes
     to a scene; None if they are unknown. prop_pose: (3, p). contacts: of the control step that led
     here; effort: (n,), of the drives in it. contact_log: returns all contacts so far. prop_path:
     (k, 3, p), effort_path: (k, n), and command_path: (k, 2, n), at the times of `path`; they may be
@@ -75,6 +77,18 @@ class Frame:
     exact_velocity: Float = field(default_factory=lambda: np.empty((3, 0)))
     work: Float = field(default_factory=lambda: np.empty(0))
     leaps: Sequence[Leap] = ()
+    read_row: int | None = None
+
+    def measured(self, sensor: Sensor) -> Float:
+        """The poses (3, n) from which the readings of a sensor are to be drawn.
+
+        Those of the measurement where it was earlier; else those of now, unless the sensor `stays`.
+        """
+        read = self.iteration if self.read_row is None else self.read_row
+        row = sensor.measured_at(read, self.scenario.sampling_time)
+        if row < min(self.iteration, len(self.path)):
+            return np.asarray(self.path[row])
+        return self.sensed if sensor.stays and self.sensed is not None else self.pose
 
     @property
     def velocity(self) -> Float:

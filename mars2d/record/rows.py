@@ -16,7 +16,7 @@ from mars2d.core.arrays import sealed
 from mars2d.core.errors import counted
 from mars2d.core.scene import Scene
 from mars2d.record.columns import Texts, blocks
-from mars2d.record.contact import CONTACT, count_meetings, rows_of
+from mars2d.record.contact import CONTACT, count_meetings, pair_forces, rows_of
 from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
@@ -231,6 +231,11 @@ class Rows:
     def contact_rows(self) -> NDArray[np.intp]:
         """The row at the end of each contact's control step, (c,); see `rows_of`."""
         return rows_of(self.contacts, self.time, self.scenario.sampling_time)
+
+    @cached_property
+    def pair_forces(self) -> NDArray[np.void]:
+        """The mean force of each pair in each control step in which it touched, dtype FORCE."""
+        return pair_forces(self.contacts, self.contact_rows, self.scenario.sampling_time)
 
     def _contacts_before(self, row: int) -> NDArray[np.void]:
         """Return the contacts of the control step that led to a row."""

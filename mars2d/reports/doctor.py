@@ -2,46 +2,33 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import platform
+import re
 import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from importlib.metadata import PackageNotFoundError, distributions, requires, version
 
 import numpy as np
 
+from mars2d.core.errors import MissingExtraError
 from mars2d.core.extras import pip_line
+from mars2d.output.raster import ONLY_CE
 
-LIBRARIES = (
-    "pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow",
-)  # fmt: skip
+LIBRARIES = ("pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow")
 
-
-class Extra(NamedTuple):
-    """An extra of the installation: its purpose, the features without it and those it adds."""
-
-    extra: str
-    name: str
-    always: str
-    more: str
-    packages: tuple[str, ...]
-
-
-EXTRAS = (
-    Extra("video", "films", ".gif", ".mp4", ("av",)),
-    Extra("data", "records", ".npz, .mat, .csv", ".nc, pandas, xarray", ("pandas", "xarray")),
-    Extra(
-        "maps",
-        "maps",
-        "GeoJSON, WKT, images",
-        "DXF, SVG, grids of ROS",
-        ("ezdxf", "svgelements", "pyyaml"),
-    ),
-    Extra("log", "logs", "", ".mcap", ("mcap", "foxglove-schemas-protobuf")),
-    Extra("cluster", "workers", "all cores of this machine", "Dask clusters", ("distributed",)),
-)
+PURPOSES = {
+    "cluster": "sweeps and tournaments on Dask clusters",
+    "completion": "the Tab key in bash, zsh, tcsh, fish and PowerShell",
+    "data": "tables of pandas, arrays of xarray",
+    "live": "Foxglove shows a run that goes on",
+    "log": "logs, .mcap",
+    "maps": "maps of DXF, SVG, and grids of ROS",
+    "rl": "environments for learners, laws that were learned",
+    "video": "films as .mp4",
+}
+"""What the extras of the installation are for."""
 
 
 @dataclass(frozen=True)
@@ -60,10 +47,9 @@ def examine() -> Iterator[Finding]:
     yield Finding("mars2d", __version__)
     yield Finding("python", f"{platform.python_version()}, {sys.executable}")
     yield Finding("system", f"{platform.system()} {platform.release()}, {platform.machine()}")
-    for name in LIBRARIES:
-        yield _library(name)
+    yield from map(_library, LIBRARIES)
     yield _display()
-    yield from map(_extra, EXTRAS)
+    yield from _extras()
     yield _engine()
     yield from _plugins()
     yield _physics()
@@ -71,38 +57,55 @@ def examine() -> Iterator[Finding]:
 
 def _library(name: str) -> Finding:
     try:
-        return Finding(name, importlib.metadata.version(name))
-    except importlib.metadata.PackageNotFoundError:
-        if sys.platform == "emscripten":
-            return _missing_in_browser(name)
-        return Finding(name, "is missing: pip install --force-reinstall mars2d", ok=False)
-
-
-def _missing_in_browser(name: str) -> Finding:
+        found = version(name)
+        if name == "pygame-ce" and any(distributions(name="pygame")):
+            found += f", and pygame {version('pygame')} in the same folder: {ONLY_CE}"
+            return Finding(name, found, ok=None)
+        return Finding(name, found)
+    except PackageNotFoundError:
+        if sys.platform != "emscripten":
+            return Finding(name, "is missing: pip install --force-reinstall mars2d", ok=False)
     if name == "pygame-ce":
         return Finding(name, "none: windows and films need it, replays and SVG don't", ok=None)
     return Finding(name, f'is missing: await micropip.install("{name}")', ok=False)
 
 
 def _display() -> Finding:
-    from mars2d.window.display import display_available
+    from mars2d.window.screen.display import display_available
 
-    if display_available():
-        return Finding("display", "yes: windows open")
+    try:
+        if display_available():
+            return Finding("display", "yes: windows open")
+    except MissingExtraError as error:
+        return Finding("display", str(error), ok=False)
     return Finding("display", "none: runs are without a window, pictures and films work", ok=None)
 
 
-def _extra(extra: Extra) -> Finding:
-    """Return the features of an extra's packages, or the command that installs them."""
-    found = []
-    for package in extra.packages:
+def _extras() -> Iterator[Finding]:
+    """Yield the extras that "all" brings, as the installed package declares them."""
+    try:
+        declared = "\n".join(requires("mars2d") or ())
+    except PackageNotFoundError:
+        yield Finding("extras", "not known: mars2d is not installed: pip install .", ok=None)
+        return
+    packages: dict[str, list[str]] = {}
+    for package, extra in re.findall(r"""^([\w.-]+).*extra == ['"](\w+)""", declared, flags=re.M):
+        packages.setdefault(extra, []).append(package)
+    every = {*packages.pop("all")}
+    for extra, its in sorted(packages.items()):
+        if every.issuperset(its):  # the others are for developers
+            yield _extra(extra, its)
+
+
+def _extra(name: str, packages: list[str]) -> Finding:
+    """Return the purpose of an extra and its libraries, or the command that installs them."""
+    found, purpose = [], PURPOSES.get(name, ", ".join(packages))
+    for package in packages:
         try:
-            found.append(f"{package} {importlib.metadata.version(package)}")
-        except importlib.metadata.PackageNotFoundError:
-            line = f"for {extra.more}: {pip_line(extra.extra)}"
-            return Finding(extra.name, "; ".join(filter(None, [extra.always, line])), ok=None)
-    offered = ", ".join(filter(None, [extra.always, extra.more]))
-    return Finding(extra.name, f"{offered} ({', '.join(found)})")
+            found.append(f"{package} {version(package)}")
+        except PackageNotFoundError:
+            return Finding(name, f"for {purpose}: {pip_line(name)}", ok=None)
+    return Finding(name, f"{purpose} ({', '.join(found)})")
 
 
 def _engine() -> Finding:

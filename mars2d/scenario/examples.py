@@ -1,14 +1,23 @@
-"""The shipped examples: each course is a folder of `examples/`."""
+"""The shipped examples: each course is a folder of `examples/`.
+
+An example is a file of its course's folder. A game is a folder there: the file ``game.py`` with its
+laws, its solution and its pictures.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-COURSES = ("experiments", "contact", "games", "pursuit", "sensing", "teams", "control")
+COURSES = ("first", "paper", "contact", "pursuit", "sensing", "teams")
 """The folders of the courses, in the order in which people meet them."""
 
-GAMES = ("games", "pursuit")
-"""The courses whose examples people play."""
+GAME = "game.py"
+"""The file of a game, which is called as its folder is."""
+
+
+def experiment_name(file: Path) -> str:
+    """Return the name of an experiment by its file."""
+    return file.absolute().parent.name if file.name == GAME else file.stem
 
 
 def examples_folder() -> Path:
@@ -18,23 +27,24 @@ def examples_folder() -> Path:
     return inside if inside.is_dir() else package.parent / "examples"
 
 
+def courses() -> dict[str, dict[str, Path]]:
+    """Return the shipped examples by course: each name with its file."""
+    found = {}
+    for course in COURSES:
+        folder = examples_folder() / course
+        files = sorted([*folder.glob("*.py"), *folder.glob(f"*/{GAME}")], key=experiment_name)
+        found[course.capitalize()] = {experiment_name(file): file for file in files}
+    return found
+
+
 def examples() -> dict[str, Path]:
     """Return the shipped examples, course by course: name to file."""
-    folders = [examples_folder() / course for course in COURSES]
-    return {file.stem: file for folder in folders for file in sorted(folder.glob("*.py"))}
-
-
-def courses() -> dict[str, list[str]]:
-    """Return the names of the examples by course."""
-    found: dict[str, list[str]] = {}
-    for name, path in examples().items():
-        found.setdefault(path.parent.name.capitalize(), []).append(name)
-    return found
+    return {name: file for course in courses().values() for name, file in course.items()}
 
 
 def games() -> list[str]:
     """Return the names of the examples that people play."""
-    return [name for name, path in examples().items() if path.parent.name in GAMES]
+    return [name for name, path in examples().items() if path.name == GAME]
 
 
 def title_of(name: str) -> tuple[str, str]:
@@ -42,3 +52,11 @@ def title_of(name: str) -> tuple[str, str]:
     first = examples()[name].read_text(encoding="utf-8").partition("\n")[0].strip('" ')
     title = name.replace("_", " ").replace("voronoi", "Voronoi")
     return title[0].upper() + title[1:], first
+
+
+def thumbnail_of(name: str, looks: str) -> Path:
+    """Return the file of an example's small picture; looks: "light" or "dark"."""
+    file = examples()[name]
+    if file.name == GAME:
+        return file.with_name(f"{looks}.png")
+    return file.parent / "thumbnails" / f"{name}_{looks}.png"

@@ -21,7 +21,7 @@ from mars2d.core.streams import check_seed
 from mars2d.core.usercode import called, quiet
 from mars2d.scenario import parameters, toml_file
 from mars2d.scenario.code_file import law_in, line_in, module_in
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import GAME, examples, experiment_name
 from mars2d.scenario.options import map_in, override, popped_map, reading_options, with_map
 from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.scenario.policy import SUFFIX
@@ -33,11 +33,11 @@ from mars2d.scenario.scenario import Scenario
 class Source:
     """What a file says besides its scenario and its law.
 
-    name: of the file, or of a module without one; "" for a Scenario. path: of the file, or None.
-    summary: the first line of its docstring. checks: the function of the record that compares a run
-    with theory, or None. function: that makes the scenario, or None. functions: its public ones by
-    name. scopes: what a window plots at first: names of columns, and functions of the record that
-    return a number for each row. written: when it and the files that it read were written, ns.
+    name: of the file, a game's with its folder, or of a module; "" for a Scenario. path: of the
+    file, or None. summary: the first line of its docstring. checks: the function of the record that
+    compares a run with theory, or None. function: that makes the scenario, or None. functions: its
+    public ones by name. scopes: what a window plots at first: names of columns, and functions of
+    the record, a number for each row. written: when it and the files that it read were written, ns.
     """
 
     name: str = ""
@@ -260,6 +260,7 @@ def _opened(
             return Experiment(drawn, control or law, Source(path.name, path.absolute()))
         module = module_in(path)
     file = Path(getattr(module, "__file__", None) or module.__name__)
+    name = f"{experiment_name(file)}/{GAME}" if file.name == GAME else file.name
     try:
         scenario, function = _scenario_of(module, options, seed)
         own, check = getattr(module, "control", None), getattr(module, "checks", None)
@@ -269,7 +270,7 @@ def _opened(
             checks.function("checks", check, "the record")
         scopes = _scopes_of(module)
     except Mars2dError as error:
-        error.where = error.where or file.name
+        error.where = error.where or name
         raise
     functions = {
         name: value for name, value in vars(module).items()
@@ -277,7 +278,7 @@ def _opened(
     }  # fmt: skip
     summary = (module.__doc__ or "").strip().partition("\n")[0]
     path = None if path is None else path.absolute()
-    said = Source(file.name, path, summary, check, function, functions, scopes)
+    said = Source(name, path, summary, check, function, functions, scopes)
     return Experiment(scenario, own if control is None else control, said)
 
 

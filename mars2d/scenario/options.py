@@ -178,8 +178,8 @@ def with_map(scenario: Scenario, chart: Map, options: Mapping[str, Any]) -> Scen
 
 
 def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:
-    if scenario.workspace is None:
-        return None
+    if scenario.workspace is None or not chart.obstacles():
+        return scenario.workspace
     xmin, xmax, ymin, ymax = bounds_of([p for o in chart.obstacles() for p in o])
     left, right, low, high = bounds_of(scenario.workspace)
     within = left <= xmin and xmax <= right and low <= ymin and ymax <= high
@@ -193,6 +193,8 @@ def _room(scenario: Scenario, chart: Map, workspace: Outline | None) -> str:
     from mars2d.addons.maps import nearest_room
 
     outlines = list(chart.obstacles())
+    if not outlines:
+        return ""
     within = rectangle(*bounds_of([p for o in outlines for p in o]))
     names = [
         f"{kind}.{k}" for kind in ("robots", "props") for k in range(len(vars(scenario)[kind]))

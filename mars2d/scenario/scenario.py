@@ -7,7 +7,7 @@ import numbers
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import floor, pi
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,8 +78,6 @@ class Scenario(Description):
     inside an obstacle, inside each other or outside the workspace, polygons that cross themselves,
     numbers out of range.
     """
-
-    _repr_svg_: ClassVar[Callable[[Scenario], str]]  # a notebook's picture of it; see `mars2d`
 
     title: str = text(default="[Simulation]", doc="the title")
     robots: Sequence[Robot] = entry(
@@ -244,6 +242,12 @@ class Scenario(Description):
         found._start_at_random(self._room, seed)
         object.__setattr__(found, "random_starts", ())
         return found
+
+    def _repr_svg_(self) -> str:
+        """Return the picture that a notebook shows; it lies above, among the public names."""
+        import mars2d
+
+        return str(mars2d.scenario_svg(self))
 
     def with_laws(self, laws: Sequence[Callable[[Any], Any] | None]) -> Self:
         """Return the scenario with these laws of its robots; nothing else is checked again."""

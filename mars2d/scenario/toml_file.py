@@ -36,7 +36,7 @@ MAX_BYTES = 5_000_000
 """The size of the largest file."""
 
 SCHEMA_FILE = "mars2d.schema.json"
-"""The file beside a scenario in which editors look for its JSON Schema; see `mars2d schema`."""
+"""The file beside a scenario in which editors look for its schema: `mars2d doctor --schema`."""
 
 NONE = "none"
 """The text that stands for None."""

@@ -240,7 +240,8 @@ class Sensor(Stateful):
     stays: ClassVar[bool] = False
     """Whether its drawing shows where things are, such as the points that a laser has hit.
 
-    A film that shows a robot between control steps then draws it at the pose of the measurement.
+    Between control steps it is then drawn at the pose of the measurement, not of the robot now. A
+    late or slow reading is so in any case.
     """
 
     name: str | None = text(default=None, optional=True, doc="the name of the reading")
@@ -371,11 +372,7 @@ class Sensor(Stateful):
 
     @property
     def fan(self) -> Fan | None:
-        """The beams that it reads distances along and that `draw` draws; None for other sensors.
-
-        Then a page can hold a byte a beam in place of the shapes. A class that overrides `draw`
-        overrides this as well, or is taken to draw something else.
-        """
+        """The beams that it reads distances along; None for other sensors."""
         return None
 
     # -- when it measures --------------------------------------------------------------------
@@ -391,6 +388,14 @@ class Sensor(Stateful):
     def age(self, sampling_time: float) -> int:
         """Return how many control steps a measurement needs to arrive."""
         return steps_until(self.latency, sampling_time)
+
+    def measured_at(self, row: int, sampling_time: float) -> int:
+        """Return the row at which the reading that is shown at a row was measured; 0 if none was.
+
+        sampling_time: seconds.
+        """
+        period = self.period(sampling_time)
+        return max(0, row - self.age(sampling_time)) // period * period
 
     def check_timing(self, name: str, sampling_time: float) -> None:
         """Raise InputError if it would measure between control steps, or too rarely, or too late.

@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, counted
 from mars2d.output.figures.figure import (
     check_axes,
-    line_style,
     new_figure,
     save_drawing,
 )
 from mars2d.output.figures.labels import shortened
+from mars2d.output.figures.legend import Entry
 from mars2d.output.figures.panels import (
-    Entry,
     caption,
     finish,
     letters_in,
@@ -228,7 +227,7 @@ def _means(
         order = np.argsort(places[joined])
         ax.plot(
             places[joined][order], mean[joined][order], color=entry.color,
-            linestyle=line_style(entry.dash), linewidth=entry.width, alpha=0.6, zorder=2.8,
+            linestyle=entry.dash, linewidth=entry.width, alpha=0.6, zorder=2.8,
         )  # fmt: skip
     for place, value, each, values in zip(places, mean, found, runs, strict=True):
         hollow = estimate.some and each.count < len(values)

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
-from queue import Empty, SimpleQueue
-from threading import Thread
 from typing import Any, TypeVar
 
-from mars2d.core.errors import LawError, Mars2dError
+from mars2d.core.deadline import Deadline
+from mars2d.core.errors import Late, LawError, Mars2dError
 from mars2d.core.usercode import name_of
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.scenario import Scenario
-from mars2d.study.code import code_of
 from mars2d.study.kept import recorded
 from mars2d.study.measures import Measure, measure_named, measured
 from mars2d.study.table import Result
@@ -23,9 +20,8 @@ from mars2d.world.loop import open_world
 
 T = TypeVar("T")
 
-
-class TooLong(LawError):  # noqa: N818 - like the other errors of laws
-    """A run took longer than its time limit."""
+CODE_DIGITS = 8
+"""How many digits of a hash tell the code of runs apart."""
 
 
 @dataclass(frozen=True)
@@ -52,36 +48,31 @@ class Job:
 
 
 def run_job(job: Job) -> Result:
-    """Do one run and measure it; errors are reported in the result's `error`."""
-    progress = _Progress()
-    try:
-        _within(job.time_limit, lambda: progress.make(job))
-    except Mars2dError as error:
-        progress.errors.append(str(error))
-    found = {name_in(measure): None for measure in job.measures} | progress.measures
-    said = "; ".join(" ".join(text.split()) for text in progress.errors)
-    return Result(job.row, job.options, job.seed, found, said, progress.digest, progress.code)
+    """Do one run and take all measures; errors are reported in the result's `error`.
 
+    What a run that is broken off has measured by then remains.
+    """
+    found: dict[str, float | str | None] = {name_in(measure): None for measure in job.measures}
+    errors, code, digest = list[Mars2dError](), "", ""
 
-class _Progress:
-    """The results of a run so far, which remain if it is broken off."""
-
-    def __init__(self) -> None:
-        self.code = self.digest = ""
-        self.measures: dict[str, float | str | None] = {}
-        self.errors: list[str] = []
-
-    def make(self, job: Job) -> None:
-        """Do a run and take all measures, even if some of them raise."""
+    def make() -> None:
+        nonlocal code, digest
         experiment = opened(job)
-        self.code = code_of(experiment, job.code)
-        record = recorded(experiment, job.records)
-        self.digest = record.digest
+        code = code_of(experiment, job.code)
+        record = recorded(experiment, code, job.records)
+        digest = record.digest
         for name, measure in measures_of(job.measures, experiment).items():
             try:
-                self.measures[name] = measured(name, measure, record)
+                found[name] = measured(name, measure, record)
             except Mars2dError as error:
-                self.errors.append(str(error))
+                errors.append(error)
+
+    try:
+        _within(job.time_limit, make)
+    except Mars2dError as error:
+        errors.append(error)
+    said = "; ".join(" ".join(str(error).split()) for error in errors)
+    return Result(job.row, job.options, job.seed, found, said, digest, code)
 
 
 def opened(job: Job) -> Experiment:
@@ -101,6 +92,23 @@ def probed(job: Job) -> Experiment:
         return experiment
 
     return _within(job.time_limit, probe)
+
+
+def code_of(experiment: Experiment, otherwise: str = "") -> str:
+    """Return the first digits of a hash of MARS2D's version and of all files of an experiment.
+
+    Files count by name and content, wherever they lie. otherwise: returned if there are no files.
+    """
+    import mars2d
+
+    if not experiment.source.written:
+        return otherwise
+    sha = hashlib.sha256(mars2d.__version__.encode())
+    for file in sorted(experiment.source.written, key=lambda path: (path.name, str(path))):
+        content = file.read_bytes() if file.is_file() else b""
+        sha.update(f"\n{file.name} ".encode(errors="backslashreplace"))
+        sha.update(hashlib.sha256(content).digest())
+    return sha.hexdigest()[:CODE_DIGITS]
 
 
 def measures_of(
@@ -124,39 +132,16 @@ def name_in(measure: str | Measure) -> str:
 
 
 def _within(seconds: float | None, work: Callable[[], T]) -> T:
-    """Return the result of `work`; raise TooLong, which names the line, if it takes longer.
+    """Return the result of `work`; raise LawError, which names the line, if it takes longer.
 
-    The work is done in a thread. A thread that waits for the operating system can't be broken off:
-    it is left behind, and ends when it wakes up.
+    A call that waits for the operating system, or in C, is not broken off.
     """
     if seconds is None:
         return work()
-    from mars2d.core.deadline import Deadline
-    from mars2d.core.errors import Late
-
-    outcome: SimpleQueue[Callable[[], T]] = SimpleQueue()
-    limit = Deadline(seconds, lambda where: outcome.put(partial(_raise, late(where))))
-
-    def late(where: str) -> TooLong:
-        said = f"took longer than {seconds:g} s"
-        return TooLong(f"{said}, in {where}" if where else said)
-
-    def watched() -> None:
-        try:
-            with limit:
-                value = work()
-        except Late:
-            outcome.put(partial(_raise, late(limit.where)))
-        except BaseException as error:
-            outcome.put(partial(_raise, error))
-        else:
-            outcome.put(lambda: value)
-
-    Thread(target=watched, daemon=True).start()
-    while True:
-        with suppress(Empty):
-            return outcome.get(timeout=0.5)()  # on Windows, Ctrl-C arrives only between waits
-
-
-def _raise(error: BaseException) -> Any:
-    raise error
+    limit = Deadline(seconds)
+    try:
+        with limit:
+            return work()
+    except Late:
+        where = f", in {limit.where}" if limit.where else ""
+        raise LawError(f"took longer than {seconds:g} s{where}") from None

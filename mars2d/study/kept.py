@@ -10,7 +10,6 @@ from typing import Any
 
 from mars2d.core.errors import InputError
 from mars2d.scenario.experiment import Experiment
-from mars2d.study.code import code_of_run
 from mars2d.study.table import cells_of
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record, load
@@ -24,23 +23,23 @@ def records_beside(table: Path) -> Path:
     return table.with_name(f"{table.stem}_records")
 
 
-def kept_as(code: str, options: Mapping[str, Any], seed: int, folder: str) -> Path:
+def kept_as(code: str, options: Mapping[str, Any], seed: int, folder: str | Path) -> Path:
     """Return the file that keeps the record of a run: its name is a hash of all that decides it.
 
-    code: that of the run, as `code_of_run` returns it.
+    code: that of the run, see `mars2d.study.job.code_of`.
     """
     decides = (code, sorted(zip(options, cells_of(options), strict=True)), seed)
     return Path(folder, hashlib.sha256(repr(decides).encode()).hexdigest()[:NAME_DIGITS] + ".npz")
 
 
-def recorded(experiment: Experiment, folder: str = "") -> Record:
+def recorded(experiment: Experiment, code: str, folder: str) -> Record:
     """Return the record of a run: the one that is kept in the folder, or that of a run made now.
 
     folder: where the record is kept from then on; if empty, it is not.
     """
     if not folder:
         return simulate(experiment).record
-    file = kept_as(code_of_run(experiment), experiment.options, experiment.seed or 0, folder)
+    file = kept_as(code, experiment.options, experiment.seed or 0, folder)
     if file.is_file():
         try:
             return dataclasses.replace(load(file), scenario=experiment.scenario)

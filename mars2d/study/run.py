@@ -1,27 +1,30 @@
-"""Run a study: do its jobs, and write each row as soon as its run is done."""
+"""Sweeps: an experiment is run at each point of a grid of settings, with the same seeds."""
 
 from __future__ import annotations
 
 import dataclasses
-import time
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import closing
 from pathlib import Path
-from typing import cast
+from types import ModuleType
+from typing import Any, cast
 
+from mars2d.core.checks import items_of
+from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, Mars2dError, shown
 from mars2d.core.files import writing
 from mars2d.core.interrupt import interrupts
-from mars2d.core.progress import Progress
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.job import Job, run_job
 from mars2d.study.kept import records_beside
-from mars2d.study.known import known_rows, table_of
-from mars2d.study.prepare import Study
+from mars2d.study.measures import Measure
+from mars2d.study.plan import Plan, seeds_of, settings_of
+from mars2d.study.progress import progress
+from mars2d.study.results import Results
+from mars2d.study.study import Study, prepared
 from mars2d.study.table import Result, Table, cells_of
-from mars2d.study.work import each_done, worker_count
-from mars2d.study.workers import Failure
+from mars2d.study.work import Failure, each_done, leave_if_imported_again, worker_count
 
 TRIALS = 5
 """How many runs, evenly spaced over the study, are made first; if all fail, no others are made."""
@@ -43,6 +46,83 @@ class StudyInterrupted(KeyboardInterrupt):
         self.table = table
 
 
+def sweep(
+    experiment: str | Path | ModuleType | Scenario,
+    settings: Mapping[str, Any] | None = None,
+    seeds: int | Iterable[int] = 1,
+    measures: str | Measure | Iterable[str | Measure] = (),
+    *,
+    control: Callable[[Any], Any] | None = None,
+    stop_time: float | None = None,
+    units: Mapping[str, str] | None = None,
+    out: str | Path | None = None,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    time_limit: float | None = None,
+    retry: bool = False,
+    keep: bool = False,
+    show_progress: bool = True,
+) -> Table:
+    """Run an experiment at each point of a grid, with each seed, and return the table of results.
+
+    experiment: a file, the name of a shipped example, a module that has a file, or a Scenario.
+    settings: options by their dotted names, or parameters of a scenario function. A list, range or
+    array holds several values, anything else is one value; a point has one value of each setting.
+    seeds: how many, from 0 on, or a list. All points have the same ones, so that they can be
+    compared seed by seed. measures: names of built-in measures or of functions in the experiment's
+    file, or functions of the record; by default the end time, the collisions and, in a game, the
+    capture time. control: the law of the team, in place of the experiment's. stop_time: seconds, as
+    another setting. units: those of settings and measures, by name, where they are not known: of
+    fields of a scenario and of built-in measures they are.
+
+    out: a .csv file to which each row is added when its run is done. Runs whose rows it holds are
+    not repeated, except, with `retry`, those with an error. executor: any of concurrent.futures, or
+    a Client of Dask; by default processes are started, `workers` of them, one a core. With
+    processes, call this under ``if __name__ == "__main__":``. time_limit: seconds that a run may
+    take; a call in C is only broken off in processes. keep: whether the runs' records are kept in a
+    folder beside `out`: then a later sweep with `keep` and other measures takes these from the
+    records, without a run. show_progress: whether a terminal or a notebook shows a bar.
+
+    A run that fails is a row with its `error`. The first five runs, evenly spaced over the study,
+    are trials: if all of them fail, no others are made. The rows depend neither on the workers nor
+    on the order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
+
+    Raises InputError, before the first run, for anything that can't be run, and if the file holds
+    another study; `StudyFailedError` if all trials fail, or a measure in the first one;
+    `StudyInterrupted` after Ctrl-C. Both have the rows as their `table`.
+    """
+    leave_if_imported_again()
+    if not isinstance(out, (str, Path, type(None))):
+        raise wrong("out", out, "the name of a file, such as 'results.csv'")
+    if stop_time is not None and isinstance(settings, (Mapping, type(None))):
+        if settings and "stop_time" in settings:
+            raise InputError("stop_time is given twice, once among the settings")
+        settings = {**(settings or {}), "stop_time": stop_time}
+    plan = Plan(settings_of(settings), seeds_of(seeds))
+    listed = _listed(measures)
+    study = prepared(experiment, plan, listed, control=control, time_limit=time_limit, units=units)
+    return run_study(
+        study,
+        None if out is None else Path(out),
+        executor=executor,
+        workers=workers,
+        retry=retry,
+        keep=keep,
+        show_progress=show_progress,
+    )
+
+
+def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Measure, ...]:
+    if isinstance(measures, str) or callable(measures):
+        return (measures,)
+    expected = "names of measures, or functions of a record"
+    listed = tuple(items_of("measures", measures, expected))
+    for measure in listed:
+        if not isinstance(measure, str) and not callable(measure):
+            raise wrong("measures", measure, expected)
+    return listed
+
+
 def run_study(
     study: Study,
     out: Path | None = None,
@@ -55,10 +135,8 @@ def run_study(
 ) -> Table:
     """Do the runs of a study that its file `out` does not hold, and return all rows in order.
 
-    executor, workers, retry, keep, show_progress: see `mars2d.sweep`. Raises InputError for a file
-    of another study, and if a file of the experiment changes meanwhile; StudyFailedError as soon as
-    the first `TRIALS` runs have all failed, or a measure in the first; StudyInterrupted after
-    Ctrl-C.
+    The other arguments, and what is raised, are those of `sweep`; InputError also if a file of the
+    experiment changes meanwhile.
     """
     if executor is None:
         worker_count(workers)
@@ -66,26 +144,24 @@ def run_study(
         raise InputError(f"{out}: expected a name that ends in .csv")
     if keep:
         study = _keeping(study, out)
-    with known_rows(study, out, retry) as (known, file):
-        run = _Run(study, known)
-        run.refuse_hopeless()
+    with Results(study, out, retry=retry) as results:
+        trials = _trials(study)
+        _refuse_hopeless(study, results, trials)
         try:
-            todo = run.results(executor, workers, show_progress)
-            with interrupts() as check, closing(todo) as results:
-                for result in results:
-                    if file is not None:
-                        file.add(result)
-                    run.refuse_hopeless()
+            made = _missing(study, results, trials, executor, workers, show_progress)
+            with interrupts() as check, closing(made) as rows:
+                for row in rows:
+                    _refuse_changed(study, row)
+                    results.add(row)
+                    _refuse_hopeless(study, results, trials)
                     check()
         except KeyboardInterrupt:
-            table = run.table()
+            table = results.table()
             where = "were made" if out is None else f"are in {out}; the same command goes on"
             said = f"{len(table)} of {len(study.plan)} runs {where}"
             raise StudyInterrupted(said, table) from None
-        table = run.table()
-        if file is not None:
-            file.put_in_order(table)
-    return table
+        results.put_in_order()
+        return results.table()
 
 
 def _keeping(study: Study, out: Path | None) -> Study:
@@ -103,81 +179,38 @@ def _keeping(study: Study, out: Path | None) -> Study:
     return dataclasses.replace(study, blank=dataclasses.replace(study.blank, records=str(folder)))
 
 
-class _Run:
-    """A study that is running, and the rows that it has so far."""
+def _missing(
+    study: Study,
+    results: Results,
+    trials: tuple[int, ...],
+    executor: Executor | None,
+    workers: int | None,
+    show_progress: bool,
+) -> Generator[Result, None, None]:
+    """Do the runs that have no row, the trials first; yield each row as it comes."""
+    todo = [job for job in _jobs(study) if job.row not in results.rows]
+    todo.sort(key=lambda job: job.row not in trials)
+    failed = sum(bool(result.error) for result in results.rows.values())
+    done_by = each_done(run_job, todo, executor, workers, study.blank.time_limit)
+    with (
+        progress(len(study.plan), len(results.rows), show=show_progress) as bar,
+        closing(cast("Generator[tuple[int, Result | Failure]]", done_by)) as done,
+    ):
+        for index, made in done:
+            job, nothing = todo[index], dict.fromkeys(study.measures)
+            failed += bool(made.error)
+            if failed:
+                bar.set_postfix_str(f"{failed} failed", refresh=False)
+            bar.update()
+            if isinstance(made, Failure):
+                yield Result(job.row, job.options, job.seed, nothing, made.error)
+            else:
+                yield made
 
-    def __init__(self, study: Study, known: dict[int, Result]) -> None:
-        self._study, self._rows = study, known
-        self._trials = _trials(study)
 
-    def table(self) -> Table:
-        """Return the rows in order."""
-        return table_of(self._study, self._rows)
-
-    def refuse_hopeless(self) -> None:
-        """Raise StudyFailedError if all trials have failed, or a measure in the first of them."""
-        rows = self._rows
-        first = rows.get(self._trials[0])
-        if first is None:
-            return
-        if first.error and first.digest:
-            raise self._failed("the first run can't be measured", first)
-        if rows.keys() >= {*self._trials} and all(result.error for result in rows.values()):
-            raise self._failed(f"{len(rows)} of {len(rows)} runs failed", first)
-
-    def _failed(self, what: str, result: Result) -> StudyFailedError:
-        left = len(self._study.plan) - len(self._rows)
-        others = f", so the other {left} are not made" if left else ""
-        point = ", ".join(f"{name} = {shown(value)}" for name, value in result.options.items())
-        where = ", ".join(filter(None, [f"row {result.row}", point, f"seed {result.seed}"]))
-        return StudyFailedError(f"{what}{others}; {where}: {result.error}", self.table())
-
-    def results(
-        self, executor: Executor | None, workers: int | None, show_progress: bool
-    ) -> Generator[Result, None, None]:
-        """Do the runs that are missing; yield each result as it comes."""
-        todo = [job for job in self._jobs() if job.row not in self._rows]
-        todo.sort(key=lambda job: job.row not in self._trials)
-        if not todo:
-            return
-        failed = sum(bool(result.error) for result in self._rows.values())
-        total, done_before = len(self._study.plan), len(self._rows)
-        progress = CountingBar(total, done_before, failed) if show_progress else None
-        try:
-            limit = self._study.blank.time_limit
-            made_by = each_done(run_job, todo, executor, workers, limit)
-            with closing(cast("Generator[tuple[int, Result | Failure]]", made_by)) as done:
-                for index, made in done:
-                    result = _result(todo[index], made, self._study)
-                    self._refuse_changed(result)
-                    self._rows[result.row] = result
-                    if progress is not None:
-                        progress.add(failed=bool(result.error))
-                    yield result
-        finally:
-            if progress is not None:
-                progress.close()
-
-    def _jobs(self) -> Iterator[Job]:
-        for row, (options, seed) in enumerate(self._study.plan.runs(), 1):
-            yield dataclasses.replace(self._study.blank, row=row, options=options, seed=seed)
-
-    def _refuse_changed(self, result: Result) -> None:
-        """Raise InputError for a row that was made after a file of the experiment had changed."""
-        study = self._study
-        file = study.watched.changed()
-        if file is not None:
-            raise InputError(
-                f"{file} has changed while the study was running: put it back and go on, or begin "
-                "another study, with another --out"
-            )
-        if result.code:
-            code = study.codes.setdefault(cells_of(result.options), result.code)
-            if code != result.code:
-                raise InputError(
-                    f"row {result.row}: the experiment's files differ between the machines that "
-                    "ran the rows of its point"
-                )
+def _jobs(study: Study) -> Iterator[Job]:
+    for row, (options, seed) in enumerate(study.plan.runs(), 1):
+        yield dataclasses.replace(study.blank, row=row, options=options, seed=seed)
 
 
 def _trials(study: Study) -> tuple[int, ...]:
@@ -190,49 +223,35 @@ def _trials(study: Study) -> tuple[int, ...]:
     return tuple(dict.fromkeys([1 + first * len(plan.seeds), *spaced]))
 
 
-def _result(job: Job, made: Result | Failure, study: Study) -> Result:
-    if isinstance(made, Result):
-        return made
-    nothing = dict.fromkeys(study.measures)
-    return Result(job.row, job.options, job.seed, nothing, " ".join(made.error.split()))
+def _refuse_hopeless(study: Study, results: Results, trials: tuple[int, ...]) -> None:
+    """Raise StudyFailedError if all trials have failed, or a measure in the first of them."""
+    rows = results.rows
+    first = rows.get(trials[0])
+    if first is None:
+        return
+    if first.error and first.digest:
+        what = "the first run can't be measured"
+    elif rows.keys() >= {*trials} and all(result.error for result in rows.values()):
+        what = f"{len(rows)} of {len(rows)} runs failed"
+    else:
+        return
+    left = len(study.plan) - len(rows)
+    others = f", so the other {left} are not made" if left else ""
+    point = [f"{name} = {shown(value)}" for name, value in first.options.items()]
+    where = ", ".join([f"row {first.row}", *point, f"seed {first.seed}"])
+    raise StudyFailedError(f"{what}{others}; {where}: {first.error}", results.table())
 
 
-class CountingBar:
-    """A progress bar that counts runs and failures, and estimates the time that is left."""
-
-    def __init__(self, total: int, done: int = 0, failed: int = 0) -> None:
-        """Take the number of all runs, and of those that are done and failed already."""
-        self._bar = Progress(total)
-        self._total, self._before, self._done, self._failed = total, done, done, failed
-        self._start = time.monotonic()
-
-    def add(self, *, failed: bool = False) -> None:
-        """Count one more run."""
-        self._done += 1
-        self._failed += failed
-        pace = (time.monotonic() - self._start) / (self._done - self._before)
-        failures = f", {self._failed} failed" if self._failed else ""
-        left = duration(pace * (self._total - self._done))
-        self._bar.update(self._done, f"{self._done}/{self._total}{failures}, {left} left")
-
-    def close(self) -> None:
-        """Remove the bar from the terminal."""
-        self._bar.close()
-
-
-def duration(seconds: float) -> str:
-    """Return a duration as text, in at most two units.
-
-    >>> [duration(seconds) for seconds in (8, 150, 9000, 200000)]
-    ['8 s', '2 min 30 s', '2 h 30 min', '2 d 7 h']
-    """
-    whole = round(seconds)
-    for unit, size, smaller, part in (
-        ("d", 86400, "h", 3600),
-        ("h", 3600, "min", 60),
-        ("min", 60, "s", 1),
-    ):
-        if whole >= size:
-            rest = whole % size // part
-            return f"{whole // size} {unit} {rest} {smaller}" if rest else f"{whole // size} {unit}"
-    return f"{whole} s"
+def _refuse_changed(study: Study, row: Result) -> None:
+    """Raise InputError for a row that was made after a file of the experiment had changed."""
+    for file, written in study.written.items():
+        if not file.is_file() or file.stat().st_mtime_ns != written:
+            raise InputError(
+                f"{file} has changed while the study was running: put it back and go on, or begin "
+                "another study, with another --out"
+            )
+    if row.code and study.codes.setdefault(cells_of(row.options), row.code) != row.code:
+        raise InputError(
+            f"row {row.row}: the experiment's files differ between the machines that ran the rows "
+            "of its point"
+        )

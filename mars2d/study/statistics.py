@@ -6,6 +6,7 @@ that are nan or infinite are taken as missing and left out; `count` is the numbe
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from math import ceil, hypot, inf, isfinite, nan, sqrt
 
@@ -49,12 +50,16 @@ def interval(values: ArrayLike, confidence: float = 0.95) -> Interval:
     >>> found.mean, round(found.low, 3), round(found.high, 3)
     (5.0, 2.516, 7.484)
     """
-    confidence = confident(confidence)
-    found = _finite(values)
-    if len(found) < 2:
-        return Interval(float(found[0]) if len(found) else nan, nan, nan, len(found))
-    mean, error = _mean(found), _deviation(found) / sqrt(len(found))
-    return _around(mean, error, len(found) - 1, confidence, len(found))
+    from scipy.stats import t
+
+    confidence, found = confident(confidence), _finite(values)
+    count, mean = len(found), _mean(found)
+    if count < 2:
+        return Interval(mean, nan, nan, count)
+    if np.ptp(found) == 0:
+        return Interval(mean, mean, mean, count)
+    low, high = t.interval(confidence, count - 1, mean, found.std(ddof=1) / sqrt(count))
+    return Interval(mean, float(low), float(high), count)
 
 
 def proportion(successes: float, count: int, confidence: float = 0.95) -> Interval:
@@ -73,9 +78,8 @@ def proportion(successes: float, count: int, confidence: float = 0.95) -> Interv
         raise wrong("proportion(successes)", successes, f"a number from 0 to {count}, the count")
     if not count:
         return Interval(nan, 0.0, 1.0, 0)
-    share = successes / count
-    middle = (share + z**2 / (2 * count)) / (1 + z**2 / count)
-    half = _wilson_half(share, count, z)
+    share = successes / count  # of halves, too, as draws are: scipy's takes whole ones alone
+    middle, half = (share + z**2 / (2 * count)) / (1 + z**2 / count), _wilson_half(share, count, z)
     low = max(middle - half, 0.0) if successes else 0.0
     high = min(middle + half, 1.0) if successes < count else 1.0
     return Interval(share, low, high, int(count))
@@ -101,22 +105,19 @@ def unpaired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
     For runs that do not form pairs. The count is that of all values.
     Source: B. L. Welch, Biometrika 34 (1947), degrees of freedom by Satterthwaite (1946).
     """
+    from scipy.stats import ttest_ind
+
     confidence = confident(confidence)
     first, second = _finite(a), _finite(b)
-    count = len(first) + len(second)
-    if not (len(first) and len(second)):
-        return Interval(nan, nan, nan, count)
-    mean = _mean(first) - _mean(second)
+    count, mean = len(first) + len(second), _mean(first) - _mean(second)
     if len(first) < 2 or len(second) < 2:
         return Interval(mean, nan, nan, count)
-    errors = [_deviation(values) ** 2 / len(values) for values in (first, second)]
-    error = sqrt(sum(errors))
-    if error == 0:
+    if np.ptp(first) == np.ptp(second) == 0:
         return Interval(mean, mean, mean, count)
-    shares = [
-        (e / error**2) ** 2 / (len(v) - 1) for e, v in zip(errors, (first, second), strict=True)
-    ]
-    return _around(mean, error, 1 / sum(shares), confidence, count)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of values that are nearly the same
+        low, high = ttest_ind(first, second, equal_var=False).confidence_interval(confidence)
+    return Interval(mean, float(low), float(high), count)
 
 
 def paired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
@@ -177,7 +178,8 @@ def seeds_needed(values: ArrayLike, half_width: float, confidence: float = 0.95)
     found = _finite(values)
     if len(found) < 2:
         return None
-    deviation = _deviation(found)
+    with np.errstate(over="ignore"):
+        deviation = float(found.std(ddof=1)) if np.ptp(found) else 0.0
     least = (_normal(confidence) * deviation / wanted) ** 2  # t is larger than the normal quantile
     if not isfinite(least) or least > NORMAL_FROM:
         return ceil(least) if isfinite(least) else None
@@ -205,11 +207,6 @@ def seeds_for_share(share: float, half_width: float, confidence: float = 0.95) -
 
 
 # -- helpers ---------------------------------------------------------------------------------------
-
-
-def _around(mean: float, error: float, freedom: float, confidence: float, count: int) -> Interval:
-    half = _student(confidence, freedom) * error if error else 0.0
-    return Interval(mean, mean - half, mean + half, count)
 
 
 def _student(confidence: float, freedom: float) -> float:
@@ -243,15 +240,11 @@ def _pairs(a: ArrayLike, b: ArrayLike) -> tuple[Float, Float]:
 
 
 def _mean(values: Float) -> float:
-    """Return the mean, which for equal values is that value to the last bit."""
+    """Return the mean, which for equal values is that value to the last bit; nan for no values."""
+    if not len(values):
+        return nan
     with np.errstate(over="ignore"):
         return float(values[0]) if np.ptp(values) == 0 else float(values.mean())
-
-
-def _deviation(values: Float) -> float:
-    """Return the sample standard deviation."""
-    with np.errstate(over="ignore"):
-        return 0.0 if np.ptp(values) == 0 else float(values.std(ddof=1))
 
 
 def confident(value: object) -> float:

@@ -1,49 +1,59 @@
-"""Work: apply one function to many tasks, on all cores, in threads or on a cluster."""
+"""Work: apply one function to many tasks, in processes, in threads or on a cluster."""
 
 from __future__ import annotations
 
+import faulthandler
+import multiprocessing
 import os
 import pickle
+import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import (
     BrokenExecutor,
     CancelledError,
     Executor,
     Future,
     ProcessPoolExecutor,
+    ThreadPoolExecutor,
 )
+from contextlib import nullcontext
+from pathlib import Path
 from queue import Empty, SimpleQueue
-from typing import Any, TypeVar
-from uuid import uuid4
+from typing import Any, NamedTuple, TypeVar
 
-from mars2d.core.errors import InputError, counted, shown
-from mars2d.study.cluster import DesertedError
-from mars2d.study.workers import (
-    Failure,
-    attempt,
-    attempt_packed,
-    done_by_processes,
-    leave_if_imported_again,
-    packed,
-    reason,
-    unpacked,
-)
+import cloudpickle
+
+from mars2d.core.errors import InputError, shown
+from mars2d.core.hints import described
+from mars2d.study import ONE_THREAD
 
 T = TypeVar("T")
 R = TypeVar("R")
 
-IN_FLIGHT = 1000
-"""How many tasks a foreign executor holds at once, at most."""
-
-LOOK = 0.5
-"""The time between two looks at the progress, seconds."""
-
-LOST = "the executor takes no more tasks, or has lost them"
-INSTEAD = "without one, processes are started, and replaced where they end"
-
 MAX_WORKERS = 60 if sys.platform == "win32" else 1000
 """Windows can't wait for more than about 60 processes at once."""
+
+IN_FLIGHT = 1000
+"""How many tasks an executor that was given holds at once, at most."""
+
+BREAKING_OFF = 6.0
+"""How long a task may take to end by itself at its limit, before its process is ended, seconds."""
+
+LOOK = 0.5
+"""The time between two looks for results, seconds; Ctrl-C waits for it, on Windows."""
+
+
+class Failure(NamedTuple):
+    """The result of a task that failed: the reason, in one line."""
+
+    error: str
+
+
+class _Lost(Failure):
+    """The result of a task whose process has ended, perhaps because of another task."""
 
 
 def each_done(
@@ -55,172 +65,244 @@ def each_done(
 ) -> Iterator[tuple[int, R | Failure]]:
     """Yield (index of a task, its result) as results arrive, exactly one for each task.
 
-    The result of a task that raises is a `Failure`. executor: any executor of concurrent.futures;
-    it is left open. None starts `workers` processes, which end with the iterator. If one of these
-    dies during a task, another takes its place and the task is tried once more, at the end and
-    alone; if that one dies too, the result is a Failure. workers: how many, from 1; by default one
-    a core. limit: seconds after which a task ends by itself if it can, or else its process is
-    ended some seconds later, and its result is a Failure.
+    The result of a task that raises is a `Failure`. executor: any executor of concurrent.futures,
+    or a Client of Dask; it is left open. None starts `workers` processes, which end with the
+    iterator; by default one a core. Where a process dies, the tasks that are lost are done again at
+    the end, each alone; if that process dies too, the result is a Failure. limit: seconds after
+    which a task ends by itself if it can, or else its process is ended some seconds later.
 
-    Raises InputError for an impossible number of workers, for a function or task that can't be sent
-    to another process, and if a script calls this without ``if __name__ == "__main__":``.
+    Raises InputError for an impossible number of workers, if an executor takes no more tasks, and
+    if a script calls this without ``if __name__ == "__main__":``.
     """
     leave_if_imported_again()
     count = worker_count(workers)
-    if executor is None:
-        return done_by_processes(function, tasks, count, limit)
-    if not isinstance(executor, Executor):
-        expected = "expected an Executor of concurrent.futures"
+    if executor is not None and hasattr(executor, "get_executor"):  # Dask's Client
+        executor = executor.get_executor(pure=False)
+    if not isinstance(executor, (Executor, type(None))):
+        expected = "expected an Executor of concurrent.futures, or a Client of Dask"
         raise InputError(f"executor={shown(executor)}: {expected}")
-    return _done_by(executor, function, tasks)
+    return _each_done(function, tasks, executor, count, limit)
 
 
 def worker_count(workers: int | None) -> int:
     """Return the number of workers: `workers`, or one for each core if it is None."""
     if workers is None:
-        return min(cores(), MAX_WORKERS)
+        usable = hasattr(os, "sched_getaffinity")
+        return min(len(os.sched_getaffinity(0)) if usable else os.cpu_count() or 1, MAX_WORKERS)
     if isinstance(workers, bool) or not isinstance(workers, int) or not 0 < workers <= MAX_WORKERS:
         expected = f"expected a whole number from 1 to {MAX_WORKERS}"
         raise InputError(f"workers={shown(workers)}: {expected}")
     return workers
 
 
-def cores() -> int:
-    """Return how many cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+def leave_if_imported_again() -> None:
+    """End this process if it is a worker that is importing the script that started it.
 
-
-def _done_by(
-    executor: Executor, function: Callable[[T], R], tasks: Sequence[T]
-) -> Iterator[tuple[int, R | Failure]]:
-    """Do as `each_done` with a foreign executor.
-
-    A worker that dies takes finished results with it that it had not sent yet, so an innocent task
-    may be blamed. Tasks that are blamed are therefore done again, alone, after all others.
+    A new process imports the main script. If the script starts workers on import, they would start
+    workers without end. `Processes` recognizes the exit, and explains the mistake.
     """
-    left, blamed = len(tasks), dict[int, str]()
-    try:
-        for index, outcome in _sent(executor, function, tasks, range(left), IN_FLIGHT):
-            if isinstance(outcome, _Ended):
-                blamed[index] = outcome
-            else:
-                left -= 1
-                yield index, outcome
-        for index, outcome in _sent(executor, function, tasks, [*blamed], 1):
-            left -= 1
-            del blamed[index]
-            yield index, Failure(outcome) if isinstance(outcome, _Ended) else outcome
-    except DesertedError as deserted:
-        for key, times in deserted.ended.items():
-            blamed.setdefault(_index_in(key), _in_turn(times))
-        for index, ended in blamed.items():
-            yield index, Failure(f"{ended}; no worker is left")
-        if len(blamed) < left:
-            raise
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise SystemExit(1)
 
 
-class _Ended(str):
-    """The message about a task whose process has died."""
+def reason(error: BaseException) -> str:
+    """Return an exception's type and message in one line."""
+    return " ".join(described(error).split())
 
 
-def _sent(
-    executor: Executor,
+# -- in the process that has the tasks -------------------------------------------------------------
+
+
+def _each_done(
     function: Callable[[T], R],
     tasks: Sequence[T],
-    which: Iterable[int],
-    in_flight: int,
-) -> Iterator[tuple[int, R | Failure | _Ended]]:
-    """Send tasks to an executor, `in_flight` at once, and yield the outcome of each."""
-    send, read = _ways(executor, function)
-    study = uuid4().hex
-    running: dict[Future[Any], int] = {}
-    done: SimpleQueue[Future[Any]] = SimpleQueue()
-    indices = iter(which)
+    given: Executor | None,
+    count: int,
+    limit: float | None,
+) -> Iterator[tuple[int, R | Failure]]:
+    """Do as `each_done`: first all tasks, then those that were lost, each in a fresh process."""
+    todo, lost = deque(range(len(tasks))), list[int]()
+    while todo:
+        most = min(count, len(todo)) if given is None else IN_FLIGHT
+        with Processes(most) if given is None else nullcontext(given) as pool:
+            for index, result in _done(function, tasks, pool, todo, most, limit):
+                if isinstance(result, _Lost):
+                    lost.append(index)
+                else:
+                    yield index, result
+    for index in lost:
+        with Processes(1) if given is None else nullcontext(given) as pool:
+            yield from _done(function, tasks, pool, deque([index]), 1, limit)
+
+
+def _done(
+    function: Callable[[T], R],
+    tasks: Sequence[T],
+    pool: Executor,
+    todo: deque[int],
+    most: int,
+    limit: float | None,
+) -> Iterator[tuple[int, R | Failure]]:
+    """Take tasks from `todo`, `most` at once, until none is left or a process has ended."""
+    own = isinstance(pool, Processes)
+    end = limit + BREAKING_OFF if own and limit is not None else None
+    late = "" if limit is None else f", perhaps in code in C at the time limit of {limit:g} s"
+    running, done = dict[Future[Any], int](), SimpleQueue[Future[Any]]()
     try:
-        while True:
-            while len(running) < in_flight and (index := next(indices, None)) is not None:
-                task = tasks[index]
-                try:
-                    future = send(task, f"{study}-{index}")
-                except RuntimeError as error:  # it is shut down, or broken
-                    raise InputError(f"{LOST} ({reason(error)}): {INSTEAD}") from error
-                running[future] = index
-                future.add_done_callback(done.put)
-            if not running:
-                return
-            future = _next(done, getattr(executor, "waiting", None))
-            yield running.pop(future), _outcome(future, read)
+        while todo or running:
+            try:
+                while todo and len(running) < most:
+                    future = _submitted(pool, function, tasks[todo[0]], end)
+                    running[future] = todo.popleft()
+                    future.add_done_callback(done.put)
+            except RuntimeError as error:
+                if not own:
+                    raise _gone(error) from error
+                if not running:
+                    return
+            future = _next(done)
+            try:
+                result = _unpacked(future.result())
+            except (BrokenExecutor, CancelledError) as error:
+                if not own:
+                    raise _gone(error) from error
+                result = _Lost(f"the process that ran it ended, twice{late}")
+            except Exception as error:
+                result = Failure(reason(error))
+                if type(error).__name__ == "KilledWorker":  # Dask's, after several workers
+                    result = _Lost("the process that ran it ended, on several workers in turn")
+            yield running.pop(future), result
     finally:
         for future in running:
             future.cancel()
 
 
-def _next(done: SimpleQueue[Future[Any]], waiting: Callable[[float], None] | None) -> Future[Any]:
-    """Return the next task that is done. waiting: called with the seconds that nothing came."""
+def _submitted(
+    pool: Executor, function: Callable[[T], R], task: T, end: float | None
+) -> Future[Any]:
+    """Submit a task. It travels as bytes, so what can't be read harms no process; not in threads.
+
+    end: seconds after which its process is ended, or None.
+    """
+    if isinstance(pool, ThreadPoolExecutor):
+        return pool.submit(_attempt, function, task)
+    try:
+        packed = cloudpickle.dumps((function, task))
+    except Exception as error:
+        unsent = Future[Any]()
+        unsent.set_result(Failure(f"can't be sent to another process: {reason(error)}"))
+        return unsent
+    return pool.submit(_attempt_packed, packed, end)
+
+
+def _next(done: SimpleQueue[Future[Any]]) -> Future[Any]:
     while True:
         try:
-            return done.get(timeout=LOOK)  # Ctrl-C waits for it, on Windows
+            return done.get(timeout=LOOK)
         except Empty:
-            if waiting is not None:
-                waiting(LOOK)
+            continue
 
 
-def _ways(
-    executor: Executor, function: Callable[[T], R]
-) -> tuple[Callable[[T, str], Future[Any]], Callable[[Any], Any]]:
-    """Return a function that submits a task to an executor, and one that reads its result.
+def _unpacked(returned: Any) -> Any:
+    return pickle.loads(returned.content) if isinstance(returned, _Packed) else returned
 
-    The first one takes the task and its key, by which a cluster knows it.
 
-    Tasks and results travel as bytes if the executor is known to use other processes; see
-    `mars2d.study.workers`.
+def _gone(error: BaseException) -> InputError:
+    return InputError(
+        f"the executor takes no more tasks, or has lost them ({reason(error)}): without one, "
+        "processes are started, and replaced where they end"
+    )
+
+
+class Processes(ProcessPoolExecutor):
+    """Processes that are ended at the end of the block, whatever they do, and with their parent.
+
+    They ignore Ctrl-C, which is their parent's business, from their first moment.
     """
-    dumps = _dumps(executor)
-    if dumps is None:
-        return lambda task, _: executor.submit(attempt, function, task), lambda value: value
-    known = packed(function, dumps)
 
-    def send(task: T, key: str) -> Future[Any]:
-        named = {"key": key} if _is_dasks(executor) else {}
-        return executor.submit(attempt_packed, known, packed(task, dumps), **named)
+    def __init__(self, count: int) -> None:
+        super().__init__(count, multiprocessing.get_context("spawn"), _begin)
 
-    return send, unpacked
+    def __enter__(self) -> Processes:
+        """Return the pool when its first process has begun. Raises InputError if it can't."""
+        try:
+            self.submit(os.getpid).result()
+        except BrokenExecutor:
+            raise InputError(
+                "a worker process ended before it had begun: each imports the script that "
+                "runs the study, which must be a file that can be imported: put what runs many "
+                'runs under `if __name__ == "__main__":`'
+            ) from None
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for process in [*(self._processes or {}).values()]:  # public as kill_workers from 3.14 on
+            process.kill()
+        self.shutdown(cancel_futures=True)
+
+    def submit(self, function: Callable[..., R], /, *arguments: Any) -> Future[R]:  # type: ignore[override]
+        """Submit a call, for which a process may be started: one that inherits what is set here.
+
+        By default, numpy's linear algebra uses all cores in each worker, which makes them compete:
+        at 100 unknowns it is several times slower. Ctrl-C meanwhile is not lost, but late.
+        """
+        masks = hasattr(signal, "pthread_sigmask")
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]) if masks else ()
+        ours = {name: value for name, value in ONE_THREAD.items() if name not in os.environ}
+        os.environ.update(ours)
+        try:
+            return super().submit(function, *arguments)
+        finally:
+            for name in ours:
+                del os.environ[name]
+            if masks:
+                signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _index_in(key: str) -> int:
-    return int(key.rpartition("-")[2])
+# -- in a worker -----------------------------------------------------------------------------------
 
 
-def _dumps(executor: Executor) -> Callable[[Any], bytes] | None:
-    """Return the pickler for an executor's processes; None for threads and unknown executors."""
-    if isinstance(executor, ProcessPoolExecutor):
-        return pickle.dumps
-    if _is_dasks(executor):
-        import cloudpickle  # comes with Dask; also packs functions that are in no module
+class _Packed(NamedTuple):
+    """A result as bytes, on its way back."""
 
-        return cloudpickle.dumps  # type: ignore[no-any-return]
-    return None
+    content: bytes
 
 
-def _is_dasks(executor: Executor) -> bool:
-    return type(executor).__module__.startswith("distributed.")
-
-
-def _outcome(future: Future[Any], read: Callable[[Any], Any]) -> Any:
-    """Return the outcome of a task. Raises InputError if the executor can do no more."""
+def _attempt(function: Callable[[T], R], task: T) -> R | Failure:
     try:
-        value = future.result()
-    except (BrokenExecutor, CancelledError) as error:
-        raise InputError(f"{LOST} ({reason(error)}): {INSTEAD}") from error
-    except Exception as error:
-        if type(error).__name__ == "KilledWorker":  # Dask's, which need not be installed
-            return _Ended(_in_turn(getattr(error, "allowed_failures", 0) + 1))
+        return function(task)
+    except (Exception, SystemExit) as error:
         return Failure(reason(error))
-    return read(value)
 
 
-def _in_turn(times: int) -> str:
-    ended = "the process that ran it ended"
-    return ended if times == 1 else f"{ended}, on {counted(times, 'worker')} in turn"
+def _attempt_packed(packed: bytes, end: float | None) -> _Packed | Failure:
+    """Attempt a function and a task; after `end` seconds this process is ended, even within C."""
+    with Path(os.devnull).open("w") as nothing:
+        if end is not None:
+            faulthandler.dump_traceback_later(end, exit=True, file=nothing)
+        try:
+            return _attempt(_call_packed, packed)
+        finally:
+            faulthandler.cancel_dump_traceback_later()
+            sys.stdout.flush()
+
+
+def _call_packed(packed: bytes) -> _Packed:
+    function, task = pickle.loads(packed)
+    return _Packed(cloudpickle.dumps(function(task)))
+
+
+def _begin() -> None:
+    """Begin a worker: it ignores Ctrl-C, and ends with its parent even in the middle of a task."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

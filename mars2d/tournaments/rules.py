@@ -9,7 +9,7 @@ from pathlib import Path
 
 from mars2d.addons.contest import Contest
 from mars2d.core.errors import counted
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -94,13 +94,13 @@ class Rules:
     def of(cls, experiment: Experiment, contest: Contest) -> Rules:
         """Return the rules of an experiment with a contest."""
         scenario, path = experiment.scenario, experiment.source.path
-        game = scenario.title if path is None else path.name
-        if path is not None and examples().get(path.stem) == path:
-            game = path.stem
+        game = experiment.source.name or scenario.title
+        if path is not None and path in examples().values():
+            game = experiment_name(path)
         teams = zip(contest.roles, contest.teams(scenario), strict=True)
         return cls(
             game=game,
-            title=scenario.title or Path(game).stem,
+            title=scenario.title or experiment_name(Path(game)),
             story=_docstring(path),
             roles=tuple(Role.of(name, team, contest, scenario) for (name, _), team in teams),
             counts=contest.counts,

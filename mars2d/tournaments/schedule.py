@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError, likely, nearest, shown
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.policy import SUFFIX as POLICY
 from mars2d.scenario.roles import contest_of
@@ -110,7 +110,7 @@ def schedule(
         )
     )
     return Schedule(
-        title=opened.scenario.title or Path(named).stem,
+        title=opened.scenario.title or experiment_name(Path(named)),
         experiment=named,
         roles=names,
         settings=tuple(plan.settings),
@@ -142,7 +142,7 @@ def trial_matches(
 
 
 def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
-    """Refuse laws in a folder that is named for another role, as `corner_evaders` is."""
+    """Refuse laws in a folder that is named for another role, as `evaders` is."""
     for file in files:
         words = {word.removesuffix("s") for word in re.split(r"[^a-z]+", file.parent.name.lower())}
         meant = [each for each in roles if each.lower().removesuffix("s") in words]
@@ -179,7 +179,7 @@ def law_files(named: str | Path, beside: Path | None = None) -> tuple[Path, ...]
 
     named: a file, a folder (all its laws except those that begin with _), a pattern, or
     several of these, separated by commas. beside: a folder that is searched for relative names
-    before the current one. Raises InputError, with the nearest name, if there is no such file.
+    after the current one. Raises InputError, with the nearest name, if there is no such file.
     """
     parts = [part.strip() for part in str(named).split(",") if part.strip()]
     if not parts:
@@ -189,7 +189,7 @@ def law_files(named: str | Path, beside: Path | None = None) -> tuple[Path, ...]
 
 
 def _files(part: str, beside: Path | None) -> list[Path]:
-    folders = [Path.cwd()] if beside is None else [beside, Path.cwd()]
+    folders = [Path.cwd()] if beside is None else [Path.cwd(), beside]
     for folder in folders:
         path = folder / part
         if path.is_dir():

@@ -11,9 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.interrupt import interrupts
-from mars2d.core.progress import Progress
-from mars2d.study.work import each_done, worker_count
-from mars2d.study.workers import Failure, leave_if_imported_again
+from mars2d.study.progress import progress
+from mars2d.study.work import Failure, each_done, leave_if_imported_again, worker_count
 from mars2d.tournaments.folder import Folder
 from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits
 from mars2d.tournaments.league import Tournament
@@ -109,7 +108,7 @@ def play_schedule(
     function = partial(play, limits=limits, replays=replays)
     with nullcontext() if out is None else Folder(out, planned, limits, replays) as folder:
         done = [] if folder is None else [*folder.before]
-        bar = Progress(len(planned.matches), "matches") if show_progress else None
+        bar = progress(len(planned.matches), len(done), unit="match", show=show_progress)
         interrupted = False
         try:
             with interrupts() as check:
@@ -119,16 +118,14 @@ def play_schedule(
                         done.append(played)
                         if folder is not None:
                             folder.keep(played)
-                        if bar is not None:
-                            bar.update(len(done))
+                        bar.update()
                         check()
                         if _stops(played, done):
                             break  # its matches that are left are not to be played
         except KeyboardInterrupt:
             interrupted = True
         finally:
-            if bar is not None:
-                bar.close()
+            bar.close()
     result = Tournament.of(planned, done)
     if out is not None:
         save_all(result, out)

@@ -15,14 +15,15 @@ from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_h
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.picture import summary
 from mars2d.output.raster.stage import MEMORY
-from mars2d.window import keys
-from mars2d.window.display import Preferences
 from mars2d.window.driftplot import DriftPlot
-from mars2d.window.notes import Ending
-from mars2d.window.player_window import PlayerWindow
-from mars2d.window.toolbar import Toolbar
+from mars2d.window.run import keys
+from mars2d.window.run.ending import Ending
+from mars2d.window.run.player_window import PlayerWindow
+from mars2d.window.run.toolbar import Toolbar
+from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.trio import Trio
-from mars2d.window.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.widgets.keys import Key
 
 Pixel = tuple[int, int]
 
@@ -49,7 +50,9 @@ class CompareWindow(PlayerWindow):
         """Prepare; the window opens with `run`."""
         name = trio.scenario.title
         title, stem = f"{name}, compared", f"{name} compared"
-        super().__init__(trio, speed, size, preferences, title=title, stem=stem)
+        super().__init__(
+            trio, speed, size, preferences, title=title, stem=stem, marked=trio.contact
+        )
         self.trio, self.plot = trio, DriftPlot()
         self.arenas = [Arena(mode, self.looks.painter, MEMORY // len(MODES)) for mode in MODES]
         self._ending = Ending(self.player)
@@ -106,7 +109,8 @@ class CompareWindow(PlayerWindow):
                     painter.theme.edge, (arena.plot.left, whole.plot.top, round(ui), first.bottom)
                 )
         step = trio.scenario.sampling_time
-        self.plot.draw(surface, self._plot_place, painter, trio.drifts, step, frame.time)
+        times = step, frame.time, step * trio.newest
+        self.plot.draw(surface, self._plot_place, painter, trio.drifts, *times)
         text, kind = self.player.status()
         draw_header(surface, whole, painter, frame, Status(text, kind))
         pointer = self._pointer
@@ -117,7 +121,7 @@ class CompareWindow(PlayerWindow):
             self.notes.draw(surface, whole.plot, painter, time.monotonic())
         self.help.draw(surface, whole, painter, self._help())
 
-    def _help(self) -> list[tuple[str, list[keys.Key]]]:
+    def _help(self) -> list[tuple[str, list[Key]]]:
         """Return the keys that do something here, in their groups."""
         return [
             (group, [key for key in each if key.action in self._actions or not key.names])

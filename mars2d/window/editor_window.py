@@ -6,8 +6,8 @@ import pygame
 
 from mars2d.core.errors import Mars2dError
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.display import PICTURES_A_SECOND, started_display
 from mars2d.window.editor.editor import Editor
+from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
 from mars2d.window.show import show_experiment
 
 IDLE_WAIT = 100

@@ -7,14 +7,15 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.layout import interface_scale
-from mars2d.scenario.examples import courses, examples_folder, games, title_of
-from mars2d.window.buttons import Buttons
-from mars2d.window.cards import Card, Page, Shelf
-from mars2d.window.display import PICTURES_A_SECOND, started_display
-from mars2d.window.looks import Looks
-from mars2d.window.memory import Memory
-from mars2d.window.notes import Notes
-from mars2d.window.rest import Rest
+from mars2d.scenario.examples import courses, games, thumbnail_of, title_of
+from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
+from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.memory import Memory
+from mars2d.window.screen.rest import Rest
+from mars2d.window.widgets.buttons import Buttons
+from mars2d.window.widgets.cards import Card, Page, Shelf
+from mars2d.window.widgets.notes import Notes
+from mars2d.window.widgets.text_field import TextField
 
 HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
@@ -35,7 +36,7 @@ class Home:
         self._notes, self._rest = Notes(), Rest()
         self.looks = Looks(memory.preferences(), self._notes.say)
         self.painter, self.size = self.looks.painter, memory.size
-        self.page, self.words = Page(), ""
+        self.page, self.search = Page(), TextField()
         self.choice: tuple[str, ...] | None = None
         switches = ["dark", "text"]
         self._buttons = Buttons([switches], self.looks.actions, lambda _: False, keys=False)
@@ -66,7 +67,7 @@ class Home:
     @property
     def shelves(self) -> list[Shelf]:
         """The shelves, with the cards in which the words that were typed occur."""
-        found = (Shelf(each.title, [card for card in each.cards if card.has(self.words)])
+        found = (Shelf(each.title, [card for card in each.cards if card.has(self.search.text)])
                  for each in self._all_shelves())  # fmt: skip
         return [shelf for shelf in found if shelf.cards]
 
@@ -81,11 +82,8 @@ class Home:
         return [Shelf("Your own", [new, *own]), Shelf("Play", play), *of_courses]
 
     def _example_card(self, name: str, verb: str = "demo") -> Card:
-        return Card(*title_of(name), (verb, name), self._thumbnail(name))
-
-    def _thumbnail(self, name: str) -> Path:
         looks = "dark" if self.painter.theme.dark else "light"
-        return examples_folder() / "thumbnails" / f"{name}_{looks}.png"
+        return Card(*title_of(name), (verb, name), thumbnail_of(name, looks))
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -122,13 +120,13 @@ class Home:
         left = round(170 * ui)
         plate = pygame.Rect(0, 0, min(round(340 * ui), right - left), round(34 * ui))
         plate.midright = right, header.centery
-        edge = theme.selected if self.words else theme.key_edge
+        edge = theme.selected if self.search.text else theme.key_edge
         self.painter.panel(surface, plate, theme.plate, 6 * ui, edge)
-        none = "" if self.page.places else "  nothing like that"
-        text, color = (f"{self.words}|{none}", theme.ink) if self.words else (HINT, theme.muted)
-        pad = round(12 * ui)
-        words = fonts.render(fonts.shorten(text, 15 * ui, plate.width - 2 * pad), 15 * ui, color)
-        surface.blit(words, words.get_rect(midleft=(plate.left + pad, plate.centery)))
+        inner = plate.inflate(-round(24 * ui), 0)
+        if not self.page.places:
+            image = fonts.render("nothing like that", 13 * ui, theme.muted)
+            inner.width -= surface.blit(image, image.get_rect(midright=inner.midright)).width
+        self.search.draw(surface, inner, self.painter, 15 * ui, hint=HINT)
 
     def _draw_line(self, surface: pygame.Surface, footer: pygame.Rect, pad: int) -> None:
         """Say more about the chosen card, and the command that opens it."""
@@ -159,8 +157,8 @@ class Home:
             pass
         elif event.type == pygame.DROPFILE:
             self.open_file(Path(event.file))
-        elif event.type == pygame.TEXTINPUT:
-            self._type(event.text)
+        elif self._search(event):
+            pass
         elif event.type == pygame.KEYDOWN:
             self._press(event)
         elif event.type == pygame.MOUSEWHEEL:
@@ -184,11 +182,15 @@ class Home:
             self.page.chosen = card
             self._choose()
 
-    def _type(self, text: str) -> None:
-        """Add to the words to search for."""
-        if text.strip() or self.words:
-            self.words += text
+    def _search(self, event: pygame.Event) -> bool:
+        """Give an event to the field of search; return whether it was for it."""
+        before = self.search.text
+        taken = self.search.handle(event)
+        if not self.search.text.strip():
+            self.search.clear()
+        if self.search.text != before:
             self.page.chosen = 0
+        return taken
 
     def _press(self, event: pygame.Event) -> None:
         steps = {
@@ -208,15 +210,12 @@ class Home:
             self.page.turn(pages[event.key])
         elif event.key in (pygame.K_RETURN, pygame.K_KP_ENTER):
             self._choose()
-        elif event.key == pygame.K_BACKSPACE:
-            self.words = self.words[:-1]
         elif event.key == pygame.K_F11:
             self.looks.actions["screen"]()
         elif control and event.key in (pygame.K_q, pygame.K_w):
             self._open = False
         elif event.key == pygame.K_ESCAPE:
-            self._open = bool(self.words)
-            self.words = ""
+            self.search.clear()
 
     def _choose(self) -> None:
         """Close with the chosen card."""

@@ -13,8 +13,8 @@ from mars2d.scenario.controllers import ByHand
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.roles import MOST_PEOPLE
-from mars2d.window.display import Preferences
-from mars2d.window.source import Playback
+from mars2d.window.run.source import Playback
+from mars2d.window.screen.display import Preferences
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline
@@ -22,9 +22,9 @@ from mars2d.world.world import Watcher
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
-    from mars2d.window.memory import Memory
-    from mars2d.window.viewpoint import Viewpoint
-    from mars2d.window.window import Window
+    from mars2d.window.run.window import Window
+    from mars2d.window.screen.memory import Memory
+    from mars2d.window.screen.viewpoint import Viewpoint
 
 
 def show_experiment(
@@ -49,9 +49,9 @@ def show_experiment(
     game. Raises InputError without a display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
-    from mars2d.window.memory import Memory
-    from mars2d.window.play import game_of
-    from mars2d.window.window import Window
+    from mars2d.window.run.play import game_of
+    from mars2d.window.run.window import Window
+    from mars2d.window.screen.memory import Memory
 
     source: Timeline | None = None
     kept = interrupts(kept=lambda: None if source is None else source.record)
@@ -90,8 +90,8 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
     if not len(record):
         raise InputError("this record has no rows: the run ended before its first step")
     require_pygame("a window")
-    from mars2d.window.memory import Memory
-    from mars2d.window.window import Window
+    from mars2d.window.run.window import Window
+    from mars2d.window.screen.memory import Memory
 
     memory = Memory()
     window = Window(Playback(record), speed, memory.size, preferences or memory.preferences())
@@ -120,7 +120,7 @@ def show_comparison(
     """
     require_pygame("a window")
     from mars2d.window.compare_window import CompareWindow
-    from mars2d.window.memory import Memory
+    from mars2d.window.screen.memory import Memory
     from mars2d.window.trio import Trio
 
     memory, trio = Memory(), Trio(opened)

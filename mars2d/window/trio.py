@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import Mars2dError
 from mars2d.output.figures.comparison import MODES
-from mars2d.record.columns import Column
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame, between
 from mars2d.scenario.experiment import Experiment
@@ -129,7 +128,7 @@ class Trio:
     @property
     def collisions(self) -> dict[str, int]:
         """How many times two bodies had begun to touch up to the present row, by physics."""
-        return dict(zip(MODES, self._collisions.row(self.row).tolist(), strict=True))
+        return {mode: counts[min(self.row, len(counts) - 1)] for mode, counts in self._met.items()}
 
     @property
     def drifts(self) -> dict[str, Float]:
@@ -137,29 +136,25 @@ class Trio:
 
         By the physics "stop" and "ideal", at the rows that both runs have.
         """
-        return {mode: self._drifts[mode].upto(self._measured[mode]) for mode in MODES[1:]}
+        return {mode: np.array(rows).reshape(-1, 2) for mode, rows in self._drifts.items()}
 
     def _measure_anew(self) -> None:
-        self._drifts = {mode: Column((2,), np.float64, 256) for mode in MODES[1:]}
-        self._measured = dict.fromkeys(MODES[1:], 0)
-        self._collisions = Column((len(MODES),), np.int64, 256)
+        self._met: dict[str, list[int]] = {mode: [] for mode in MODES}
+        self._drifts: dict[str, list[tuple[float, float]]] = {mode: [] for mode in MODES[1:]}
         self._measure()
 
     def _measure(self) -> None:
         """Count the collisions, and measure how far the runs are apart, at a row that is new."""
-        began = [
-            int(met(each.frame.contacts).sum()) if each.newest == self.row else 0
-            for each in self.timelines.values()
-        ]
-        before = self._collisions.row(self.row - 1) if self.row else 0
-        self._collisions.write(self.row, before + np.array(began))
+        for mode, timeline in self.timelines.items():
+            counts, began = self._met[mode], int(met(timeline.frame.contacts).sum())
+            if timeline.newest == self.row:
+                counts.append(sum(counts[-1:]) + began)
         here = _places(self.contact.frame)
-        for mode in MODES[1:]:
+        for mode, rows in self._drifts.items():
             both = min(self.contact.newest, self.timelines[mode].newest)
-            if self._measured[mode] == self.row <= both:
+            if len(rows) == self.row <= both:
                 apart = np.hypot(*(_places(self.timelines[mode].frame) - here))
-                self._drifts[mode].write(self.row, (apart.max(), apart.mean()))
-                self._measured[mode] += 1
+                rows.append((float(apart.max()), float(apart.mean())))
 
 
 def _places(frame: Frame) -> Float:

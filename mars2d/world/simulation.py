@@ -67,7 +67,7 @@ class Simulation(State):
         self.endless = False
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
-        self._observed = -1  # the iteration that add-ons and sensors were last called for
+        self.observed = -1  # the iteration that add-ons and sensors were last called for
         self.operator = Operator(self)
         n = len(scenario.robots)
         drives = {str(robot.name): robot.drive for robot in scenario.robots}
@@ -199,7 +199,7 @@ class Simulation(State):
 
     def observe(self) -> None:
         """Call the add-ons and read the sensors, see `WorldView.observe`."""
-        if self._observed != self.iteration and not self.over:
+        if self.observed != self.iteration and not self.over:
             self._alone(self._observe)
             if self.over:  # an add-on has stopped it
                 self._close()
@@ -278,8 +278,8 @@ class Simulation(State):
         return asked
 
     def _observe(self) -> None:
-        if self._observed != self.iteration:
-            self._observed = self.iteration
+        if self.observed != self.iteration:
+            self.observed = self.iteration
             if self._channel is not None:
                 self._channel.deliver()
             self.sensing.hide()

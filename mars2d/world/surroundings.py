@@ -14,7 +14,6 @@ from mars2d.bodies.colors import OBSTACLE, prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.core.usercode import called
-from mars2d.geometry.ray_casting import Fans
 from mars2d.sensors.base import NOTHING
 from mars2d.world.state import Addons, State
 
@@ -35,8 +34,7 @@ class Around:
     def renew(self) -> None:
         """Drop all caches, after bodies, obstacles or add-ons were changed."""
         self._space = self._world.engine.space
-        self._placed: Float | None = None  # the poses at which the fans' bodies are
-        for name in ("_fans", "_colors", "_addons"):
+        for name in ("_colors", "_addons"):
             vars(self).pop(name, None)
 
     @property
@@ -96,30 +94,14 @@ class Around:
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
         """Return the lengths (m, k) of rays from poses (3, m) at bearings (k,), metres."""
         _check_fans(poses, bearings, length)
-        return self._fans_now.distances(poses, bearings, length, ignore)
+        return self._space.rays.distances(poses, bearings, length, ignore)
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
         """Return the lengths of rays as `scans`, and the body that each hits, (m, k)."""
         _check_fans(poses, bearings, length)
-        return self._fans_now.sight(poses, bearings, length, ignore, NOTHING)
-
-    @cached_property
-    def _fans(self) -> Fans:
-        scenario = self._world.scenario
-        return Fans(
-            [body.shape.pieces for body in scenario.bodies],
-            [surface.outline for surface in scenario.surfaces],
-        )
-
-    @property
-    def _fans_now(self) -> Fans:
-        """The fans, with all bodies where they are now."""
-        if self._placed is not self._world.pose:
-            self._placed = self._world.pose
-            self._fans.place(np.hstack([self._placed, self._world.prop_pose]))
-        return self._fans
+        return self._space.rays.sight(poses, bearings, length, ignore, NOTHING)
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int

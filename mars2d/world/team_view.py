@@ -157,6 +157,7 @@ class WorldView(Uncopied):
             exact_velocity=np.hstack([now.velocity, now.prop_velocity]),
             work=now.work,
             leaps=leaps_of(now.operator.log),
+            read_row=now.observed,
         )
 
     # -- what may be done ----------------------------------------------------------------------

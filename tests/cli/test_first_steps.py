@@ -7,9 +7,7 @@ import pytest
 
 import mars2d
 from mars2d.cli import command_line as cli
-from mars2d.scenario.examples import examples
-from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import contest_of
+from mars2d.scenario.examples import examples, games
 from tests.cases import each_case
 
 
@@ -40,7 +38,7 @@ def test_a_name_that_python_can_not_import_is_refused(here, capsys, name):
 @each_case("name", examples())
 def test_an_example_is_copied_with_all_that_it_needs(here, name):
     assert cli.main(["copy", name, "mine"]) == 0
-    copied = here / "mine" / f"{name}.py"
+    copied = here / "mine" / (f"{name}/game.py" if name in games() else f"{name}.py")
     assert copied.read_bytes() == examples()[name].read_bytes()
     record = mars2d.run(copied, stop_time=0.2, show=False)
     assert record.pose.tolist() == mars2d.run(name, stop_time=0.2, show=False).pose.tolist()
@@ -48,11 +46,13 @@ def test_an_example_is_copied_with_all_that_it_needs(here, name):
 
 def test_a_copy_replaces_nothing_and_a_wrong_name_is_answered(here, capsys):
     assert cli.main(["copy", "corner_game"]) == 0
-    assert contest_of(open_experiment("corner_game.py").scenario, here / "corner_game.py")
-    (here / "corner_game.py").unlink()
+    assert "run it: mars2d run corner_game/game.py" in capsys.readouterr().out
+    copied = {path.name for path in (here / "corner_game").iterdir()}
+    assert copied == {"game.py", "pursuers", "evaders", "learned.onnx"}
+    (here / "corner_game" / "game.py").write_text("mine")
     assert cli.main(["copy", "corner_game"]) == cli.BAD_INPUT
-    assert "corner_evaders: is there already" in capsys.readouterr().err
-    assert not (here / "corner_game.py").exists()
+    assert "corner_game: is there already" in capsys.readouterr().err
+    assert (here / "corner_game" / "game.py").read_text() == "mine"
     assert cli.main(["copy", "corner_gam"]) == cli.BAD_INPUT
     assert "did you mean 'corner_game'?" in capsys.readouterr().err
 
@@ -71,7 +71,7 @@ def test_bash_completes_commands_options_examples_and_files(here, capsys, words,
     pytest.importorskip("shtab")
     (here / "walk.py").touch()
     (here / "walk.txt").touch()
-    assert cli.main(["completion", "bash"]) == 0
+    assert cli.main(["doctor", "--completion", "bash"]) == 0
     (here / "complete.sh").write_text(capsys.readouterr().out)
     line = " ".join(words)
     script = (

@@ -30,7 +30,7 @@ def control(world):
 @pytest.mark.skipif(sys.platform != "linux", reason="libraries are looked for in /proc")
 def test_ctrl_c_while_the_libraries_are_imported_is_one_line() -> None:
     process = subprocess.Popen(
-        [sys.executable, "-m", "mars2d", "--version"],
+        [sys.executable, "-m", "mars2d", "list"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
     maps = Path(f"/proc/{process.pid}/maps")

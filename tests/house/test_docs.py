@@ -46,9 +46,10 @@ from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.registry import FAMILIES, members
 from mars2d.study import work
-from mars2d.window import keys
+from mars2d.window.run import keys
 from mars2d.world.views import PropView, RobotView
 from tests.cases import each_case
+from tests.worlds import solution
 
 ROOT = Path(__file__).parents[2]
 SENSORS = sorted((ROOT / "docs" / "sensors").glob("*.md"))
@@ -170,7 +171,7 @@ class Reader:
             return "".join(self.command(part, expected) for part in parts)
         words = shlex.split(line)
         assert words[0] == "mars2d", f"{self.document.name}: what is {line!r}?"
-        arguments = cli.parser().parse_args(words[1:])
+        arguments = cli.parse(words[1:])
         made = getattr(arguments, "video", None) or getattr(arguments, "html", None)
         needs_window = words[1:2] == ["replay"] and not made
         needs_window |= getattr(arguments, "speed", None) == 0
@@ -324,10 +325,8 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
     assert films(page) == [f"{name}.gif"]
     commands = [block.text for block in blocks(page) if block.language == "console"]
     assert any(f"mars2d run {name} " in command for command in commands)
-    answer = ROOT / "examples" / "solutions" / f"{name}.py"
-    assert f"(../../examples/solutions/{name}.py)" in page.read_text(encoding="utf-8")
-    experiment = open_experiment(answer)
-    assert experiment.source.checks is not None
+    assert f"(../../{solution(name).relative_to(ROOT)})" in page.read_text(encoding="utf-8")
+    assert open_experiment(solution(name)).source.checks is not None
 
 
 @each_case("page", PURSUIT_PAGES)
@@ -340,8 +339,8 @@ def test_a_pursuit_page_has_a_formula_bodies_exercises_and_their_answer(page):
     assert {f"{name}_bodies.png", f"{name}_physics.png"} & {*pictures(page)}
     assert "**The referee counts" in text
     assert re.search(r"\b(1[6-9]|20)\d\d\b|geometry is our own", text), "whose formula?"
-    assert f"(../../examples/solutions/{name}.py)" in text
-    assert open_experiment(ROOT / "examples" / "solutions" / f"{name}.py").source.checks is not None
+    assert f"(../../{solution(name).relative_to(ROOT)})" in text
+    assert open_experiment(solution(name)).source.checks is not None
     assert f"({page.name})" in (page.parent / "index.md").read_text(encoding="utf-8")
 
 
@@ -358,7 +357,7 @@ LONG = {"circular_motion", "coverage_square", "cyclic_pursuit", "pursuit_voronoi
     ],
 )
 def test_the_model_answer_of_an_experiment_checks_itself(page):
-    answer = open_experiment(ROOT / "examples" / "solutions" / f"{page.stem}.py")
+    answer = open_experiment(solution(page.stem))
     predictions = answer.predictions(mars2d.run(answer.scenario, control=answer.control))
     assert predictions
     assert [p for p in predictions if not p.ok] == []
@@ -400,8 +399,7 @@ def module(path: Path) -> ModuleType:
 
 def verbs() -> dict[str, Any]:
     """The sub-commands and their parsers."""
-    parser = cli.parser()
-    return dict(parser._subparsers._group_actions[0].choices)
+    return {verb: cli.parser_of(verb) for verb in cli.VERBS}
 
 
 def test_each_command_has_a_section_and_each_section_a_command():

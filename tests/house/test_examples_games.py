@@ -17,7 +17,7 @@ PURSUERS, EVADERS = ("straight", "ahead", "inside"), ("away", "corners", "round"
 
 def bout(red, blue, seed=0):
     """Let two players wrestle and return who wins, or "a draw"."""
-    laws = {"red": f"sumo_players/{red}.py", "blue": f"sumo_players/{blue}.py"}
+    laws = {"red": f"players/{red}.py", "blue": f"players/{blue}.py"}
     return mars2d.run("sumo", seed=seed, options=laws).over_message.partition(" wins")[0]
 
 
@@ -30,7 +30,7 @@ def bout(red, blue, seed=0):
         ("tug_of_war", {}),
         ("tug_of_war", {"blue": 6.3, "tow": 3.0}),
         ("sumo", {}),
-        ("sumo", {"blue": "sumo_players/flanker.py"}),
+        ("sumo", {"blue": "players/flanker.py"}),
         ("crowd", {}),
     ],
 )
@@ -77,7 +77,7 @@ def test_luck_plays_a_part_and_a_seed_repeats_it():
 
 def hunt(pursuer, evader, mu, seed=0, **options):
     """Let two laws predicted corner_game; return the outcome and the record."""
-    laws = {"pursuer": f"corner_pursuers/{pursuer}.py", "evader": f"corner_evaders/{evader}.py"}
+    laws = {"pursuer": f"pursuers/{pursuer}.py", "evader": f"evaders/{evader}.py"}
     record = mars2d.run("corner_game", seed=seed, options={**laws, "mu": mu, **options})
     return record.scenario.addons[0].outcome(record), record
 

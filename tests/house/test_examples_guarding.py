@@ -13,23 +13,23 @@ pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 LAWS = {
     "guard_the_line": {
-        "guard": ("line_guards", "lowest", "straight", "shadow"),
-        "attacker": ("line_attackers", "lowest", "straight", "aside"),
+        "guard": ("guards", "lowest", "straight", "shadow"),
+        "attacker": ("attackers", "lowest", "straight", "aside"),
     },
     "capture_the_flag": {
-        "guard": ("flag_guards", "match", "nearest", "home"),
-        "attacker": ("flag_attackers", "region", "straight", "wings"),
+        "guard": ("guards", "match", "nearest", "home"),
+        "attacker": ("attackers", "region", "straight", "wings"),
     },
     "round_a_pillar": {
-        "pursuer": ("pillar_pursuers", "shortest", "straight", "to_and_fro"),
-        "evader": ("pillar_evaders", "opposite", "round", "away"),
+        "pursuer": ("pursuers", "shortest", "straight", "to_and_fro"),
+        "evader": ("evaders", "opposite", "round", "away"),
     },
     "hide_and_seek": {
         "seeker": ("seekers", "circle", "to_and_fro", "wide"),
         "hider": ("hiders", "opposite", "still", "late"),
     },
     "escort": {
-        "hunter": ("escort_hunters", "round", "straight", "feint"),
+        "hunter": ("hunters", "round", "straight", "feint"),
         "escort": ("escorts", "between", "ram", "halfway"),
     },
     "selfish_herd": {

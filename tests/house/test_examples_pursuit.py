@@ -23,7 +23,7 @@ def played(name, **options):
 @pytest.mark.parametrize("law", ["straight", "bearing"])
 @pytest.mark.parametrize("evader", ["across", "away"])
 def test_a_chase_takes_as_long_as_its_closed_form_says(ratio, law, evader):
-    laws = {"pursuer": f"chase_pursuers/{law}.py", "evader": f"chase_evaders/{evader}.py"}
+    laws = {"pursuer": f"pursuers/{law}.py", "evader": f"evaders/{evader}.py"}
     room = [(-40, -40), (40, -40), (40, 40), (-40, 40)]
     _, outcome, predictions = played("straight_chase", ratio=ratio, workspace=room, **laws)
     assert outcome.winner == "pursuer"
@@ -32,8 +32,8 @@ def test_a_chase_takes_as_long_as_its_closed_form_says(ratio, law, evader):
 
 
 def test_a_chase_that_is_no_textbooks_predicts_nothing():
-    assert not played("straight_chase", pursuer="chase_pursuers/halfway.py")[2]
-    assert not played("straight_chase", evader="chase_evaders/zigzag.py")[2]
+    assert not played("straight_chase", pursuer="pursuers/halfway.py")[2]
+    assert not played("straight_chase", evader="evaders/zigzag.py")[2]
     assert not played("straight_chase", crates=True)[2]
 
 
@@ -72,7 +72,7 @@ def test_tyres_and_feet_that_hold_little_lose_the_pedestrian_its_jump():
      ("follow", 0.9, "evader"), ("follow", 1.5, "pursuer")],
 )  # fmt: skip
 def test_two_cars_need_bend_and_a_law_that_uses_it(law, radius, winner):
-    _, outcome, predictions = played("two_cars", radius=radius, pursuer=f"car_pursuers/{law}.py")
+    _, outcome, predictions = played("two_cars", radius=radius, pursuer=f"pursuers/{law}.py")
     assert outcome.winner == winner
     assert all(p.ok for p in predictions)
 

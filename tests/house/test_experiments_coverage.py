@@ -9,13 +9,12 @@ import pytest
 
 import mars2d
 from mars2d.geometry.voronoi import Tessellation
-from mars2d.scenario.examples import examples, examples_folder
+from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment, open_module
-from tests.worlds import predicted
+from tests.worlds import predicted, solution
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
-SOLUTIONS = examples_folder() / "solutions"
 
 SQUARE = ((0.0, 0.0), (5.0, 0.0), (5.0, 5.0), (0.0, 5.0))
 
@@ -93,7 +92,7 @@ def test_the_formula_of_the_ring_is_that_of_its_cells():
 
 
 def test_the_model_answers_formula_without_a_middle_is_that_of_its_cells():
-    answer = open_module(SOLUTIONS / "coverage_circle.py")
+    answer = open_module(solution("coverage_circle"))
     disc = 2.5 * np.column_stack([np.cos(a := np.arange(2000) * pi / 1000), np.sin(a)])
     for n in (3, 6, 8):
         away, cost = answer.hollow(n)
@@ -107,7 +106,7 @@ def test_the_model_answers_formula_without_a_middle_is_that_of_its_cells():
     ("options", "inside"), [({"n": 6, "middle": True}, 1), ({"n": 8}, 1), ({"n": 5}, 0)]
 )
 def test_which_arrangements_last_is_as_the_model_answer_says(options, inside):
-    path = SOLUTIONS / "coverage_circle.py"
+    path = solution("coverage_circle")
     experiment = open_experiment(path, options)
     record = mars2d.run(experiment.scenario, stop_time=60)
     assert (np.hypot(*record.pose[-1, :2]) < 2.5 / 3).sum() == inside

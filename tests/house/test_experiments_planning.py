@@ -9,14 +9,13 @@ import shapely
 from scipy.optimize import brentq, minimize
 
 from mars2d.addons import Map
-from mars2d.scenario.examples import examples, examples_folder
+from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment, open_module
-from tests.worlds import predicted
+from tests.worlds import predicted, solution
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 FLOOR = examples()["path_planning"].with_name("maps") / "department.dxf"
-SOLUTIONS = examples_folder() / "solutions"
 
 
 @pytest.fixture(scope="module")
@@ -102,13 +101,13 @@ def test_the_numbers_of_the_model_answer_on_walls_and_doors(planned):
 
 
 def test_the_model_answer_brings_the_third_by_a_plan_that_is_hardly_longer():
-    record, predictions = predicted(SOLUTIONS / "path_planning.py")
+    record, predictions = predicted(solution("path_planning"))
     assert [p for p in predictions.values() if not p.ok] == []
     ways = record.scenario.addons[1]
     assert ways.of(record.frame(-1)) == tuple(map(len, ways.routes))
     rise = predictions["rise of the potential"]
     backwards = dataclasses.replace(record, pose=record.pose[::-1].copy())
-    seen = open_experiment(SOLUTIONS / "path_planning.py").predictions(backwards)
+    seen = open_experiment(solution("path_planning")).predictions(backwards)
     assert next(p for p in seen if p.name == rise.name).ok is False
 
 
@@ -148,12 +147,12 @@ def test_errors_of_distance_fade_by_the_gain(followed):
 def test_the_examples_followers_need_each_message_and_those_of_the_model_answer_do_not():
     _, example = predicted("leader_following", **{"addons.0.loss": 0.5})
     assert not any(p.ok for p in example.values())
-    _, answer = predicted(SOLUTIONS / "leader_following.py", loss=0.8)
+    _, answer = predicted(solution("leader_following"), loss=0.8)
     assert all(p.ok for p in answer.values())
 
 
 def test_who_takes_the_leader_to_stand_still_lags_behind():
-    _, answer = predicted(SOLUTIONS / "leader_following.py")
+    _, answer = predicted(solution("leader_following"))
     lag = answer["robot3: distance"]
     assert lag.ok
     assert lag.predicted == pytest.approx(1.646, abs=1e-3)

@@ -7,8 +7,8 @@ import pytest
 
 import mars2d
 from mars2d.geometry.voronoi import Tessellation
-from mars2d.scenario.examples import examples_folder
 from mars2d.scenario.experiment import open_experiment
+from tests.worlds import solution
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
@@ -142,7 +142,7 @@ def test_the_dog_brings_all_sheep_in(start):
 
 @pytest.mark.parametrize("name", ["pursuit_corners", "pursuit_voronoi", "herding"])
 def test_the_model_answers_do_what_they_say(name):
-    _, outcome, predictions = played(f"{examples_folder()}/solutions/{name}.py")
+    _, outcome, predictions = played(solution(name))
     assert all(p.ok for p in predictions)
     if outcome:
         before = played(name)[1]

@@ -136,7 +136,7 @@ TEAMS = [
 COMMANDS = [
     ("walk.py", "write mars2d run walk.py"),
     ("runn walk.py", "did you mean 'run'?"),
-    ("nothing", "invalid choice: 'nothing' (see mars2d --help)"),
+    ("nothing", "there is no command 'nothing'; known: "),
     ("run wolk.py", "did you mean 'walk.py'?"),
     ("run nothing", "mars2d list shows the examples"),
     ("run walk.py --headles", "did you mean '--headless'?"),

@@ -21,10 +21,12 @@ from mars2d.addons import Map
 from mars2d.bodies.colors import NEUTRAL
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box, Puck
+from mars2d.core.plane import rectangle
 from mars2d.core.scene import Scene
 from mars2d.output.figures.artists import paint
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_figure
-from mars2d.output.layers.forces import FORCE
+from mars2d.output.figures.handler import ToScale
+from mars2d.output.layers.forces import FORCE, force_scale
 from mars2d.output.layers.table import Layers
 from mars2d.sensors import Proximity
 from tests.cases import each_case
@@ -405,8 +407,32 @@ def test_forces_are_drawn_when_the_animation_says_so():
     assert not filled(pushed().plot(), Polygon, FORCE)
     ax = pushed(forces=True).plot()
     arrows = {tuple(np.round(p.get_xy()[:7].ravel(), 6)) for p in filled(ax, Polygon, FORCE)}
-    assert len(arrows) == 3, "two of the pair, one of the legend"
-    texts = [text.get_text() for text in ax.texts]
-    assert texts[0] == "5.0 N"
-    assert texts[1].endswith(" N")
+    assert len(arrows) == 2, "of the pair"
+    assert ax.texts[0].get_text() == "5.0 N"
+    assert ax.get_legend().get_texts()[-1].get_text().endswith(" N")
+
+
+@each_case("size", [(16, 2), (2, 16), (4, 4)])
+@each_case("style", ["screen", "print", "projector"])
+def test_the_legend_lies_beside_the_drawing_and_its_arrow_is_to_scale(size, style):
+    wide, tall = size
+    robots = [Robot(pose=(x, 0, theta)) for x, theta in ((-0.2, 0), (0.2, np.pi))]
+    workspace = rectangle(-wide / 2, wide / 2, -tall / 2, tall / 2)
+    scenario = Scenario(
+        robots=robots, workspace=workspace, stop_time=1, animation=Animation(forces=True)
+    )
+    record = mars2d.run(scenario, control=lambda world: [[0.2, 0.2], [0.0, 0.0]])
+    ax = record.plot(style=style)
+    ax.figure.set_size_inches(9, 5)  # by the user, later
     ax.figure.canvas.draw()
+    legend = ax.get_legend()
+    said = [text.get_text() for text in legend.get_texts()]
+    (newtons,) = [float(text.removesuffix(" N")) for text in said if text.endswith(" N")]
+    arrow = next(each for each in legend.get_patches() if isinstance(each, ToScale))
+    ends = arrow.get_transform().transform(arrow.get_xy())[:, 0]
+    metres = newtons * force_scale(scenario).newton
+    pixels = np.ptp(ax.transData.transform([(0, 0), (metres, 0)])[:, 0])
+    assert np.ptp(ends) == pytest.approx(pixels, rel=0.02)
+    frame, words = ax.get_window_extent(), legend.get_window_extent()
+    assert words.x0 >= frame.x1
+    assert words.y0 >= 0

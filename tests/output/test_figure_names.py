@@ -54,7 +54,7 @@ def test_names_keep_off_the_forces():
     forces = [t for t in ax.texts if t.get_text().endswith(" N")]
     boxes = [t for t in ax.texts if t.get_text().startswith("box of")]
     assert [t.get_text() for t in boxes] == [f"box of {m} kg" for m in ("0.5", "1", "1.04", "2")]
-    assert len(forces) == 5
+    assert len(forces) == 4
     for one in forces:
         for other in boxes:
             assert not one.get_window_extent().overlaps(other.get_window_extent())

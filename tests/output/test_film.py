@@ -14,7 +14,6 @@ from mars2d.core.extras import pip_line
 from mars2d.output.films.film import (
     cut_of,
     film_record,
-    film_rows,
     save_film,
     save_pictures,
 )
@@ -122,19 +121,6 @@ def test_a_film_that_fails_leaves_the_old_one_alone(tmp_path, suffix):
         save_film(torn(), target, size=SIZE)
     assert target.read_bytes() == b"the old film"
     assert list(tmp_path.iterdir()) == [target]
-
-
-@each_case("speed", [0.5, 1, 10])
-@each_case("sampling_time", [0.01, 0.1, 1.0])
-def test_a_film_lasts_its_time_over_its_speed(speed, sampling_time):
-    times = np.arange(101) * sampling_time
-    rows = film_rows(times, speed, fps=25)
-    assert len(rows) / 25 == pytest.approx(times[-1] / speed, abs=0.04)
-    assert rows[0] == 0 or len(rows) == 1
-    assert rows[-1] == 100
-    assert (np.diff(rows) >= 0).all()
-    shown = np.linspace(0, times[-1], len(rows)) if len(rows) > 1 else times[-1:]
-    assert (np.abs(times[rows] - shown) < sampling_time * (1 + 1e-9)).all()
 
 
 # -- films of records -----------------------------------------------------------------------------

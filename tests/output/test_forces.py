@@ -16,7 +16,6 @@ from mars2d.output.layers.forces import (
     force_scale,
     forces,
     in_newtons,
-    mean_forces,
     round_force,
 )
 from mars2d.record.contact import CONTACT
@@ -58,12 +57,6 @@ def test_a_pair_has_two_opposite_arrows_from_the_point_of_contact_in_newtons():
     # 0.4 N s along x and 0.3 N s along y in 0.1 s are 4 N and 3 N.
     np.testing.assert_allclose(on_b / force_scale(scenario).newton, (4.0, 3.0))
     assert [text.text for text in of(Text, forces(frame))] == ["5.0 N"]
-
-
-def test_the_tangential_part_is_along_the_normal_turned_by_90_degrees():
-    contacts = np.zeros(1, dtype=CONTACT)
-    contacts["normal"], contacts["tangential_impulse"] = (0.0, 1.0), 0.2
-    np.testing.assert_allclose(mean_forces(contacts, 0.5), [(-0.4, 0.0)])
 
 
 def test_an_obstacle_has_no_arrow_and_pushes_the_robot_away():

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 import zlib
 from dataclasses import replace
 
@@ -15,6 +16,7 @@ from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.scene import Scene
 from mars2d.output.pages.replay import page
+from mars2d.output.raster.theme import DARK, on_dark
 from mars2d.record.rows import COLUMNS
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.sensors.base import Sensor
@@ -95,34 +97,59 @@ def test_positions_are_within_micrometres_and_headings_within_a_hundredth_of_a_d
     assert np.degrees(np.abs(columns["headings"] - poses[:, 2]).max()) < 0.01
 
 
-def test_distances_are_within_half_a_level(crowded, crowded_page):
+def test_what_a_scanner_draws_is_in_the_page_to_a_millimetre(crowded, crowded_page):
     content, columns = held(crowded_page)
-    every = content["columns"]["fans"]["every"]
-    read = crowded.sensors["range_finder"][::every].reshape(len(columns["fans"]), -1)
-    near = np.isfinite(read)
-    assert (columns["fans"][~near] == 255).all()
-    assert np.abs(columns["fans"][near] / 254 * 5.0 - read[near]).max() <= 0.5 * 5.0 / 254 + 1e-9
+    drawn, scanner = content["drawn"]["sensors"], crowded.scenario.robots[0].sensors[0]
+    scene = Scene()
+    scanner.draw(scene, np.zeros(3), crowded.sensors["range_finder"][0, 0], "#0072b2")
+    points = scene.shapes[0].points.ravel()
+    assert drawn["drawings"][0]["body"] == 0
+    assert columns["sensors:numbers"][: len(points)] * drawn["step"] == pytest.approx(
+        points, abs=1e-3
+    )
 
 
-@pytest.mark.slow
-def test_a_long_run_is_thinned_to_20_000_rows_with_its_first_and_last():
-    short = mars2d.run(Scenario(robots=1, stop_time=0.1), control=lambda w: np.zeros((2, 1)))
-    rows = 70_001
+# -- long runs ------------------------------------------------------------------------------------
+
+
+def circling(rows, turn):
+    """Return a record of robots on circles of 0.6 m that stand still in the second half.
+
+    turn: rad a row, of each robot.
+    """
+    short = mars2d.run(Scenario(robots=len(turn), workspace=ROOM, stop_time=0.1), control=circles)
     time = np.arange(rows) * 0.1
-    pose = np.zeros((rows, 3, 1))
-    pose[:, 0, 0] = np.sin(time / 40)
-    record = replace(
-        short, time=time, pose=pose, command=np.zeros((rows, 2, 1)), command_time=time,
-        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, 1)), **NOT_GIVEN,
+    angle = np.minimum(np.arange(rows), rows // 2)[:, None] * turn
+    pose = np.stack([0.6 * np.cos(angle), 0.6 * np.sin(angle), angle + np.pi / 2], axis=1)
+    return replace(
+        short, time=time, pose=pose, command=np.zeros((rows, 2, len(turn))), command_time=time,
+        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, len(turn))), **NOT_GIVEN,
     )  # fmt: skip
-    text = page(record)
-    assert len(text.encode()) < 2_000_000
-    content, columns = held(text)
-    x = columns["places"][:, 0, 0] + content["columns"]["places"]["low"][0]
-    assert content["stride"] == 4
-    assert len(x) == 17_501
-    assert x[[0, 1, -1]] == pytest.approx(pose[[0, 4, -1], 0, 0], abs=1e-5)
-    assert any("every 4th row of 70001" in note for note in content["notes"])
+
+
+def test_the_lines_of_a_long_run_are_those_of_its_path_and_there_is_none_across_a_bend(monkeypatch):
+    monkeypatch.setattr("mars2d.output.pages.replay.content.POSES", 15_000)
+    record = circling(20_001, np.array([0.03, 0.5]))
+    content, columns = held(page(record))
+    rows = columns["rows"].astype(int)
+    assert rows[[0, -1]].tolist() == [0, 20_000]
+    assert (rows < 10_000).mean() > 0.7  # where they move
+    places = columns["places"] + np.array(content["columns"]["places"]["low"])[:, None]
+    middle = np.hypot(*((places[1:] + places[:-1]) / 2).swapaxes(0, 1))
+    gaps = np.zeros(middle.shape, dtype=bool)
+    gaps[columns["leaps:row"] - 1, columns["leaps:body"]] = True
+    assert (middle[~gaps] > 0.6 * np.cos(np.pi / 4)).all()  # a chord of less than 90 degrees
+    assert gaps[:, 1].sum() > 100
+    assert not gaps[:, 0].any()
+    assert any(f"{len(rows)} of 20001 rows are in this file" in note for note in content["notes"])
+    assert any(note.startswith("paths have gaps") for note in content["notes"])
+
+
+def test_a_page_has_the_dark_shade_of_each_of_its_colours(crowded_page):
+    content, _ = held(crowded_page)
+    used = {part[:7] for part in re.findall(r"#[0-9a-f]{6}", json.dumps(content["bodies"]))}
+    assert used
+    assert all(content["dark"][color] == on_dark(color, DARK.paper) for color in used)
 
 
 def test_a_replay_of_the_same_record_is_the_same_text(crowded, crowded_page):
@@ -188,15 +215,7 @@ def test_a_sensor_of_ones_own_is_drawn_in_the_frame_in_which_it_draws():
     assert mark["body"] is None
     assert mark["scenes"] == 21
     drawn = columns["sensors:numbers"][:4] * content["drawn"]["sensors"]["step"]
-    assert drawn == pytest.approx([0, 0, 1, 0], abs=1e-4)
-
-
-def test_beams_that_are_left_out_are_named():
-    robots = [Robot(sensors=[RangeFinder(beams=500), RangeFinder(name="front", beams=300)])]
-    record = mars2d.run(Scenario(robots=robots, stop_time=0.5), control=circles)
-    content, _ = held(page(record))
-    assert [fan["beams"] for fan in content["fans"]] == [250, 300]
-    assert content["notes"] == ["beams of range_finder: one in 2"]
+    assert drawn == pytest.approx([0, 0, 1, 0], abs=1e-3)
 
 
 def test_a_sensor_whose_code_is_not_in_a_file_is_named(tmp_path):

@@ -171,6 +171,9 @@ def test_one_rule_shortens_all_long_arrows_and_the_legend_says_from_where_on():
         bound = legend.ruler.in_words(legend.ruler.longest / legend.ruler.unit)
         assert legend.signs[0].meaning == f"over {bound}"
         assert has_cut(legend.signs[0].scene)
+        for point in (1e-4, 0.01, 1.0, 100.0):
+            assert legend.ruler.sign(point).length <= legend.ruler.longest, "it is not cut itself"
+        assert 0 < max(metres for metres, _ in legend.ruler.lengths) <= legend.ruler.longest
     assert force_scale(fast.scenario).longest == scale.longest
 
 

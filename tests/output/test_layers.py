@@ -250,4 +250,3 @@ def test_each_layer_of_the_scene_is_seen_in_window_figure_svg_and_replay(record,
         if layer.name != "trails":  # the page draws paths of its poses
             assert len(columns[f"{layer.name}:rows"]) > 0, layer.name
     assert [layer["name"] for layer in content["layers"]] == [layer.name for layer in LAYERS]
-    assert [fan["name"] for fan in content["fans"]] == ["range_finder", "sonar_ring"]

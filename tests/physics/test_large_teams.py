@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scenes import team
+from worlds import deepest, world_of
 
 from mars2d import Holonomic, Robot, Scenario, World
-from mars2d.reports.bench.scenes import team
-from mars2d.reports.bench.worlds import deepest, world_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.cases import each_case
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import atan2, cos, inf, pi, sin, sqrt
 
 import numpy as np
-import pymunk
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -13,8 +12,6 @@ from hypothesis import strategies as st
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
-from mars2d.core.arithmetic import cosines_sines
-from mars2d.core.plane import WITHIN, up_to
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.sensors import RangeFinder
 from mars2d.sensors.base import NOTHING
@@ -434,33 +431,3 @@ def test_a_robot_does_not_hide_its_own_centre():
     centres = np.array([(2.0, 0.0), (4.0, 0.0)])
     assert world.surroundings.hidden((0, 0), centres, [1, 2], 0).tolist() == [False, True]
     assert world.surroundings.hidden((0, 0), centres, NOTHING, 0).tolist() == [True, True]
-
-
-def test_single_rays_are_bit_for_bit_those_of_pymunk_s_method():
-    rng = np.random.default_rng(5)
-    robots = [
-        Robot(pose=(2 * k - 4, rng.uniform(-1, 1), k), shape=some_shape(rng, kind))
-        for k, kind in enumerate(BODIES)
-    ]
-    outlines = [
-        some_obstacle(rng, kind, center)
-        for kind in OBSTACLES
-        for center in rng.uniform(2, 6, (10, 2))
-    ]
-    world = world_of(outlines, robots)
-    space = world.simulation.engine.space._seen
-    for robot in range(5):
-        x, y, _ = rng.uniform(-5, 5, 3)
-        angles, reach = rng.uniform(-4, 4, 400), rng.uniform(1, 9)
-        c, s = cosines_sines(angles)
-        far = WITHIN * reach
-        ends_x, ends_y = x + far * c, y + far * s
-        own = pymunk.ShapeFilter(group=robot + 1)
-        hits = [
-            space.segment_query_first((x, y), end, 0.0, own)
-            for end in zip(ends_x.tolist(), ends_y.tolist(), strict=True)
-        ]
-        public = [inf if hit is None else hit.alpha * far for hit in hits]
-        ours = [world.surroundings.ray((x, y), angle, reach, robot) for angle in angles.tolist()]
-        assert ours == [float(up_to(length, reach)) for length in public]
-        assert np.isfinite(public).any()

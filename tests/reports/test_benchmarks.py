@@ -1,6 +1,7 @@
 """The benchmarks run, and write the figures that they promise."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -19,12 +20,17 @@ def run(name, *arguments, cwd):
     return json.loads((cwd / "out.json").read_text())
 
 
-def test_the_control_loop_is_compared_with_bare_pymunk(tmp_path):
-    result = run("control_loop.py", "--sizes", "4", "--rounds", "1", cwd=tmp_path)
-    [team] = result["teams"]
-    assert team["n"] == 4
-    assert team["time_ratio"] > 0
-    assert result["random_walk"]["ticks"] == 1000
+def test_scenes_are_timed_in_turns_with_a_bare_loop_and_compared_with_an_earlier_run(tmp_path):
+    rows = run("suite.py", "S1", "--rounds", "2", cwd=tmp_path)
+    assert list(rows) == ["S1 default", "S1 loose"]
+    for row in rows.values():
+        assert row["real_time"] == pytest.approx(1 / row["step_s"])
+        assert len(row["yardsticks"]) == 2
+    faster = {name: row | {"yardsticks": [2e9] * 2} for name, row in rows.items()}
+    (tmp_path / "old.json").write_text(json.dumps(faster))
+    command = [sys.executable, str(FOLDER / "suite.py"), "S1", "--rounds=2", "--compare=old.json"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert len(re.findall(r" x \(\d{6,}\.\d\d to \d{6,}", done.stdout)) == 2
 
 
 def test_the_start_is_timed(tmp_path):

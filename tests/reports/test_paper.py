@@ -17,10 +17,9 @@ from PIL import Image
 import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli.verbs import paper as verb
-from mars2d.reports.paper.figure import Figure, Run
-from mars2d.reports.paper.figures import FIGURES
-from mars2d.reports.paper.make import _setting
-from mars2d.reports.paper.page import MARK, typeset
+from mars2d.reports.paper.figures import FIGURES, Chart, Figure, Run
+from mars2d.reports.paper.make import names, setting_of
+from mars2d.reports.paper.page import MARK
 from mars2d.scenario.experiment import open_module
 from tests.cases import each_case
 from tests.processes import mars
@@ -50,10 +49,10 @@ def control(world):
 """
 
 
-def figure(*runs, number=2, studies=None, title="A figure"):
+def figure(*runs, number=2, charts=()):
     return Figure(
-        number=number, title=title, section="4", paper="Reports <this>.", theory="x_i < 2.",
-        law=("v = -k rho",), source="Somebody & others", runs=runs, studies=studies or {},
+        number=number, title="A figure", section="4", paper="Reports <this>.", theory="x &lt; 2.",
+        law=("v = k r",), source="Somebody & others", runs=runs, charts=charts,
     )  # fmt: skip
 
 
@@ -219,11 +218,11 @@ def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
         assert made["pictures"][0]["checks"], made["figure"]
         for picture in made["pictures"]:
             if picture["command"]:
-                parsed = cli.parser().parse_args(shlex.split(picture["command"])[1:])
+                parsed = cli.parse(shlex.split(picture["command"])[1:])
                 assert parsed.figure == Path(f"{picture['picture']}.pdf")
                 assert parsed.headless
     files = {path.name for path in folder.iterdir()}
-    assert files == {name for f in FIGURES for name in f.files} | {"index.html", "numbers.json"}
+    assert files == {name for f in FIGURES for name in names(f)} | {"index.html", "numbers.json"}
 
 
 def stated_in_the_documents():
@@ -240,7 +239,7 @@ def test_figures_are_those_of_the_paper_and_each_experiment_states_its_setting()
     assert len(stems) == len(set(stems))
     for each in FIGURES:
         for run in each.runs:
-            assert re.match("(C|c)entralised|(D|d)istributed", _setting(run.experiment))
+            assert re.match("(C|c)entralised|(D|d)istributed", setting_of(run.experiment))
             assert open_module(run.experiment).checks
         assert all(text.endswith(".") for text in (each.paper, each.theory))
 
@@ -317,16 +316,15 @@ def test_a_figure_that_can_not_be_made_is_named_and_the_others_are_made(
     paper, tmp_path, monkeypatch
 ):
     broken = Run(written(tmp_path, "broken.py", BREAKS), "Broken", "Nothing.")
-    study = {"never": lambda records: pytest.fail("there is no record to study")}
-    walk = Run("random_walk", "Walk", "Short.", options={"stop_time": 5})
-    every = (figure(broken, studies=study), figure(walk, number=3))
+    never = Chart("cost", "Never", "Nothing.", "There is no record to study.")
+    walk = Run("random_walk", "Walk", "Short.", settings=["stop_time=5"])
+    every = (figure(broken, charts=[never]), figure(walk, number=3))
     monkeypatch.setattr(verb, "FIGURES", every)
-    monkeypatch.setattr("mars2d.reports.paper.make.worker_count", lambda _: 1)
     code, out, err = paper("out")
     assert code == 1
     assert "not all was made: see figure 2 above" in err
     assert "ValueError: no law today" in out
-    assert "never: not made, since it needs a run that failed" in out
+    assert "cost: not made, since it needs a run that failed" in out
     found = Page(Path("out/index.html").read_text(encoding="utf-8"))
     assert "no law today" in found.words()
     assert [image["src"] for image in found.all("img")] == ["fig3_random_walk.png"]
@@ -338,23 +336,6 @@ def test_times_after_the_end_of_a_run_show_its_end():
     assert run.times_until(500.0) == [0, 50, 70, 98]
     words = run.command("stem", 0, 97.1)
     assert words.endswith("--figure stem.pdf --at 0,50,70,97.1")
-    moved = Run("path_planning", "P", "S.", options={"detour": (22, 9.8)})
-    assert cli.parser().parse_args(shlex.split(moved.command("stem", 3, 1.0))[1:]).seed == 3
+    moved = Run("path_planning", "P", "S.", settings=["detour=(22, 9.8)"])
+    assert cli.parse(shlex.split(moved.command("stem", 3, 1.0))[1:]).seed == 3
     assert "--set 'detour=(22, 9.8)'" in moved.command("stem", 3, 1.0)
-
-
-# -- formulas, and the browser ----------------------------------------------------------------
-
-
-@each_case(
-    "text, html",
-    [
-        ("x_i^2", "x<sub>i</sub><sup>2</sup>"),
-        ("v_{max} < rho_0", "v<sub>max</sub> &lt; &rho;<sub>0</sub>"),
-        ("a - b, (-c), 2^{-1/2}", "a &minus; b, (&minus;c), 2<sup>&minus;1/2</sup>"),
-        ("well-known phi, sumo, (a) . (b). So", "well-known &phi;, sumo, (a) &middot; (b). So"),
-        ('<b> & "c"', '&lt;b&gt; &amp; "c"'),
-    ],
-)
-def test_formulas_are_set_with_greek_letters_subscripts_and_a_minus(text, html):
-    assert typeset(text) == html

@@ -176,7 +176,7 @@ def test_an_episode_is_the_run_that_mars2d_makes_of_the_same_commands_and_replay
         pass
     record = environment.record
     run = mars2d.run(
-        "corner_game", stop_time=4, seed=7, options={"evader": "corner_evaders/corners.py"},
+        "corner_game", stop_time=4, seed=7, options={"evader": "evaders/corners.py"},
     )  # fmt: skip
     assert np.array_equal(record.pose[0], run.pose[0])  # the same start
     assert rerun(record) is None

@@ -76,7 +76,7 @@ def test_a_world_with_a_policy_forks(policy):
 def test_the_trained_pursuer_catches_and_forfeits_nothing_in_the_default_game(capsys):
     from mars2d.scenario.examples import examples
 
-    file = examples()["corner_game"].parent / "learning" / "pursuit.onnx"
+    file = examples()["corner_game"].with_name("learned.onnx")
     command = ["check", str(file), "--for", "corner_game", "--role", "pursuer"]
     assert main([*command, "--set", "stop_time=3"]) == 0
     assert "forfeited none" in capsys.readouterr().out
@@ -86,7 +86,7 @@ def test_the_trained_pursuer_catches_and_forfeits_nothing_in_the_default_game(ca
 
 
 def test_the_trained_wrestler_wins_bouts_of_the_example():
-    options = {"red": "learning/sumo.onnx"}
+    options = {"red": "learned.onnx"}
     ends = [mars2d.run("sumo", seed=seed, options=options).over_message for seed in range(4)]
     assert any("red wins" in end for end in ends)
 
@@ -156,10 +156,10 @@ def test_a_robot_that_does_not_fit_is_said_to_in_what(words, tmp_path):
 
 @pytest.mark.slow
 def test_the_training_script_writes_a_law_and_its_curve(tmp_path):
-    from mars2d.scenario.examples import examples
+    from mars2d.scenario.examples import examples_folder
 
     pytest.importorskip("stable_baselines3")
-    script = examples()["corner_game"].parent / "learning" / "train.py"
+    script = examples_folder() / "learning" / "train.py"
     law = tmp_path / "law.onnx"
     command = [sys.executable, str(script), "mars2d/Push-v0", "--steps", "8192", "--out", str(law)]
     subprocess.run(command, check=True, timeout=300)

@@ -130,9 +130,9 @@ def test_saved_files_lead_editors_to_it(tmp_path):
 
 
 def test_the_command_prints_it_or_writes_it(tmp_path, capsys):
-    assert main(["schema"]) == 0
+    assert main(["doctor", "--schema"]) == 0
     printed = capsys.readouterr().out
     assert json.loads(printed) == SCHEMA
-    assert main(["schema", str(tmp_path / "a.json")]) == 0
+    assert main(["doctor", "--schema", str(tmp_path / "a.json")]) == 0
     assert capsys.readouterr().out == ""
     assert (tmp_path / "a.json").read_text() == printed

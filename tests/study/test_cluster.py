@@ -19,8 +19,7 @@ from mars2d.core.extras import pip_line
 from mars2d.scenario.examples import examples
 from mars2d.study import cluster as clusters
 from mars2d.study.cluster import cluster
-from mars2d.study.work import each_done
-from mars2d.study.workers import Failure
+from mars2d.study.work import Failure, each_done
 
 pytest.importorskip("distributed")
 
@@ -101,7 +100,7 @@ def test_sweeps_and_tournaments_come_to_the_same_as_here(executor):
     with ThreadPoolExecutor(1) as here:
         again = mars2d.sweep("random_walk", seeds=2, stop_time=5, executor=here)
     assert there == again
-    players = sorted((examples()["sumo"].parent / "sumo_players").glob("*.py"))[:2]
+    players = sorted((examples()["sumo"].parent / "players").glob("*.py"))[:2]
     matches = mars2d.tournament(
         "sumo", players=players, seeds=1, stop_time=2, executor=executor, replays=False
     ).matches

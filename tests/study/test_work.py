@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import pickle
 import sys
+import threading
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
@@ -134,8 +135,8 @@ def test_each_task_comes_once_whatever_becomes_of_it(do):
     assert found[3] == Failure("ValueError: no nine")
     assert found[4] == Failure("SystemExit: 3")
     assert found[5] == found[6] == Failure("the process that ran it ended, twice")
-    assert "can't be sent back: TypeError: cannot pickle 'generator' object" in found[8].error
-    assert found[9].error.startswith("what it returned can't be read: ValueError")
+    assert found[8] == Failure("TypeError: cannot pickle 'generator' object")
+    assert found[9].error.startswith("ValueError: invalid literal for int()")
 
 
 def test_tasks_are_made_as_they_are_needed_and_workers_end_with_the_iterator(do):
@@ -156,12 +157,11 @@ def test_workers_that_are_busy_are_ended_promptly(do, tmp_path):
     assert not running(pid)
 
 
-def test_a_function_that_workers_do_not_find_is_an_error_and_no_row_of_failures(do, monkeypatch):
-    module = sys.modules[do.__module__]
-    monkeypatch.setattr(module, "new", lambda x: x, raising=False)
-    module.new.__qualname__, module.new.__module__ = "new", module.__name__
-    with pytest.raises(InputError, match=r"a worker process does not find the function .*'new'"):
-        list(each_done(module.new, [1, 2], workers=1))
+def test_functions_of_no_module_and_tasks_that_no_process_can_have():
+    gain, tasks = 2, [3, threading.Lock()]
+    done = dict(each_done(lambda x: gain * x, tasks, workers=1))
+    assert done[0] == 6
+    assert done[1].error.startswith("can't be sent to another process: TypeError: cannot pickle")
 
 
 def test_without_a_number_there_is_a_worker_a_core():

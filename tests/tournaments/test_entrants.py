@@ -33,12 +33,14 @@ def test_files_between_commas_are_taken_once_each(laws):
     assert law_files("hunters/_help.py") == (laws / "hunters/_help.py",)  # as it is named
 
 
-def test_laws_beside_the_experiment_come_first_then_those_in_the_current_folder(laws, tmp_path):
-    elsewhere = tmp_path / "shipped"
-    elsewhere.mkdir()
-    (elsewhere / "c.py").touch()
-    assert law_files("c.py", elsewhere) == (elsewhere / "c.py",)
-    assert law_files("hunters/a.py", elsewhere) == (laws / "hunters/a.py",)
+def test_laws_in_the_current_folder_come_first_then_those_beside_the_game(laws, tmp_path):
+    game = tmp_path / "game"
+    (game / "hunters").mkdir(parents=True)
+    for name in ("c.py", "d.py", "hunters/a.py", "hunters/z.py"):
+        (game / name).touch()
+    assert law_files("c.py,d.py", game) == (laws / "c.py", game / "d.py")
+    assert law_files("hunters", game) == (laws / "hunters/a.py", laws / "hunters/b.py")
+    assert law_files("hunters/z.py", game) == (game / "hunters/z.py",)
 
 
 @each_case(

@@ -419,7 +419,7 @@ def test_players_play_both_roles_in_each_round_and_an_experiment_that_fails_cost
             "evaders: holds crash.py, which is not of a tournament; nothing was changed",
         ),
         (
-            ["sumo", "--players", "sumo_players", "--out", "out"],
+            ["sumo", "--players", "players", "--out", "out"],
             "out: is of a tournament of chase.py; name another folder by --out",
         ),
         (["chase.py", *ALL, "--out", "chase.py"], "chase.py: this is a file; expected a folder"),

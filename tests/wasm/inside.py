@@ -18,7 +18,7 @@ await load("numpy pymunk")  # noqa: F704, F821, PLE1142 - by run.mjs
 import mars2d  # noqa: E402
 from mars2d.reports.doctor import examine  # noqa: E402
 from mars2d.scenario.examples import examples  # noqa: E402
-from tests.house.make_golden import SETTINGS, Golden  # noqa: E402
+from tests.house.goldens import SETTINGS, Golden  # noqa: E402
 
 record = mars2d.run("head_on")
 with tempfile.TemporaryDirectory() as folder:

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from mars2d.scenario.examples import examples
-from tests.house.test_examples import DIGESTS
+from tests.house.goldens import Golden
 
 pytestmark = pytest.mark.nightly
 
@@ -55,7 +55,7 @@ def said() -> list[dict[str, Any]]:
 def test_the_core_works_with_numpy_and_pymunk_alone(said):
     core = said[0]
     assert core["kind"] == "core"
-    assert core["digest"] == DIGESTS["head_on"]
+    assert core["digest"] == Golden.read("head_on").digest
     assert set(core["kept"].values()) == {core["digest"]}
     assert core["page"]
     assert core["svg"] == "<svg"
@@ -81,5 +81,5 @@ def test_the_examples_follow_their_golden_paths(said):
 
 def test_some_digests_are_those_of_linux(said):
     told = {each["name"]: each["digest"] for each in said[1:] if "digest" in each}
-    alike = {name for name, digest in told.items() if digest == DIGESTS[name]}
+    alike = {name for name, digest in told.items() if digest == Golden.read(name).digest}
     assert alike >= SAME_DIGEST

@@ -1,5 +1,6 @@
 """What the tests of the window share: windows and editors, an X server, experiments."""
 
+import pygame
 import pytest
 
 from tests.processes import x_server
@@ -13,3 +14,9 @@ def screen():
     """Start an X server on a free display and return its name."""
     with x_server() as (name, _):
         yield name
+
+
+@pytest.fixture
+def keyboard():
+    """Start pygame's display, without which keys have no names."""
+    pygame.display.init()

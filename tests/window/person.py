@@ -10,8 +10,10 @@ import pygame
 import pytest
 from PIL import Image
 
-from mars2d.window import compare_window, controls, viewpoint, window
+from mars2d.window import compare_window
 from mars2d.window.editor_window import EditorWindow
+from mars2d.window.run import controls, window
+from mars2d.window.screen import viewpoint
 from tests.processes import HIDDEN
 from tests.window import states
 
@@ -253,8 +255,7 @@ class Person:
     def fill(self, text):
         """Type over the field of the open prompt, and press Enter."""
         self.until(lambda s: s["prompt"] is not None)
-        for _ in self.state["typed"]:
-            self.press("BackSpace")
+        self.press("ctrl+a")
         self.type(text)
         self.press("Return")
         self.until(lambda s: s["prompt"] is None or s["error"])
@@ -291,7 +292,8 @@ class Person:
             pygame.key.set_mods(pygame.key.get_mods() | MODIFIERS[key])
         told = self._told(key)
         self._held[key] = told, self.display.clock + REPEAT_DELAY
-        self._send(pygame.KEYDOWN, **told)
+        self._type_event(told)
+        self.picture()
 
     def _keyup(self, key):
         self._held.pop(key)
@@ -315,7 +317,13 @@ class Person:
         for key, (told, when) in [*self._held.items()][-1:]:
             if self.display.clock > when and key not in MODIFIERS:
                 self._held[key] = told, when + REPEAT_INTERVAL
-                self._events.append(pygame.Event(pygame.KEYDOWN, **told))
+                self._type_event(told)
+
+    def _type_event(self, told):
+        """Press a key; its text comes in an event of its own, as from a desktop."""
+        self._events.append(pygame.Event(pygame.KEYDOWN, **told))
+        if told["unicode"].isprintable() and told["unicode"] and not told["mod"] & pygame.KMOD_CTRL:
+            self._events.append(pygame.Event(pygame.TEXTINPUT, text=told["unicode"]))
 
     # -- eyes -------------------------------------------------------------------------------------
 

@@ -11,14 +11,14 @@ from mars2d.scenario.controllers import Controller
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.compare_window import CompareWindow
-from mars2d.window.display import Preferences
 from mars2d.window.editor import Editor
 from mars2d.window.editor_window import EditorWindow
-from mars2d.window.looks import Looks
-from mars2d.window.memory import Memory
-from mars2d.window.source import Playback
+from mars2d.window.run.source import Playback
+from mars2d.window.run.window import Window
+from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.memory import Memory
 from mars2d.window.trio import Trio
-from mars2d.window.window import Window
 from mars2d.world.record import load
 from mars2d.world.timeline import Timeline
 from tests.window.circling import Circling, circling_scenario
@@ -136,6 +136,7 @@ def of_run(window):
         "line": None if banner is None or banner.excerpt is None else banner.excerpt.line,
         "buttons": {name: place.center for name, place in window.toolbar.places.items()},
         "menu": {title: at.center for title, at in window.toolbar.menu.places.items()},
+        "chosen": window.toolbar.menu.chosen,
         "closes": {name: place.center for name, place in window.dock.closes.items()},
         "scopes": {trace.name: [*trace.bodies] for trace in window.scopes.traces},
         "areas": {name: [*area] for name, area in window.scopes.areas.items()},
@@ -158,7 +159,7 @@ def sliders_of(panel):
         "places": {name: [*lines[name]] for name in panel.places},
         "resets": {name: place.center for name, place in panel.resets.items()},
         "focus": panel.focus,
-        "typed": panel.typed,
+        "typed": panel.typed.text,
         "said": panel._words()[0],
     }
 
@@ -180,7 +181,7 @@ def game_of(window):
         "seats": [seat.robot for seat in game.seats],
         "result": None if game.result is None else game.result.words,
         "news": None if game.result is None else game.result.news,
-        "choices": {number: at.center for number, at in window._before.places.items()},
+        "choices": {title: at.center for title, at in window._before.menu.places.items()},
         "tally": game.tally(game.seats[0].role).in_words if game.seats else "",
         "panel": [*window.dock.plates.get("score", ())],
     }
@@ -244,7 +245,8 @@ def of_editor(editor):
         "fault": editor.judge.verdict.text,
         "culprits": sorted(editor.judge.verdict.culprits),
         "prompt": None if editor.dialogs.prompt is None else editor.dialogs.prompt.label,
-        "typed": None if editor.dialogs.prompt is None else editor.dialogs.prompt.text,
+        "typed": typed_in(editor.dialogs.prompt),
+        "answers": answers_of(editor.dialogs.prompt),
         "error": None if editor.dialogs.prompt is None else editor.dialogs.prompt.error,
         "help": editor.help.is_open,
         "laws": [law_of(robot) for robot in draft.robots],
@@ -258,6 +260,7 @@ def of_editor(editor):
         "rows": [[row.title, row.value] for row in editor.properties.rows()],
         "signs": {title: place.center for title, place in editor.panel.signs.items()},
         "menu": {title: place.center for title, place in editor.menu.places.items()},
+        "chosen": editor.menu.chosen,
         "snaps": desk.snaps,
         "step": desk.step,
         "changed": desk.history.changed,
@@ -266,6 +269,14 @@ def of_editor(editor):
         "scale": round(desk.camera.scale, 3),
         "origin": [round(desk.camera.x, 2), round(desk.camera.y, 2)],
     }
+
+
+def typed_in(prompt):
+    return None if prompt is None or prompt.field is None else prompt.field.text
+
+
+def answers_of(prompt):
+    return {} if prompt is None else {each: place.center for each, place in prompt.places.items()}
 
 
 def law_of(robot):

@@ -9,8 +9,8 @@ from mars2d.output.excerpt import Excerpt
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
-from mars2d.window import keys
-from mars2d.window.help import draw_help
+from mars2d.window.run import keys
+from mars2d.window.widgets.help import draw_help
 from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.window.written import Written, painter

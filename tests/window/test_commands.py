@@ -12,7 +12,7 @@ import pytest
 
 from mars2d.cli import command_line as cli
 from mars2d.scenario import load_scenario
-from mars2d.window.display import display_available
+from mars2d.window.screen.display import display_available
 from mars2d.world.record import load
 from tests.processes import HIDDEN, PATIENCE, bare_environment, wait_until
 
@@ -97,7 +97,7 @@ def test_run_lets_a_person_drive_and_keeps_what_was_run_and_replay_shows_it(
     wait_until((tmp_path / "room_1.png").exists, seen.process)
     seen.press("space")
     seen.do("keydown", "Up", "sleep", 1, "keyup", "Up")
-    seen.press("Escape", "Escape", "Escape")
+    seen.press("ctrl+q")
     code, told = seen.end()
     assert code == 0, told
     assert "A room" in told
@@ -108,7 +108,7 @@ def test_run_lets_a_person_drive_and_keeps_what_was_run_and_replay_shows_it(
     replayed.wait_for("A room - MARS2D")
     replayed.press("End", "p")
     wait_until((tmp_path / "a_room_1.png").exists, replayed.process)
-    replayed.press("Home", "Escape")
+    replayed.press("Home", "ctrl+q")
     assert replayed.end()[0] == 0
 
 
@@ -137,11 +137,11 @@ def test_a_window_at_rest_takes_hardly_any_time_and_ctrl_c_keeps_the_record(
     assert not load(tmp_path / "out.npz").finished
 
 
-def test_a_law_that_does_not_return_leaves_the_window_to_escape(command, walks, tmp_path):
+def test_a_law_that_does_not_return_leaves_the_window_to_ctrl_q(command, walks, tmp_path):
     (tmp_path / "hang").touch()
     seen = command(tmp_path, *walks, MARS2D_PATIENCE="0")
     wait_until((tmp_path / "hangs").exists, seen.process)
-    wait_until(lambda: (seen.press("Escape"), seen.process.poll() is not None)[1])
+    wait_until(lambda: (seen.press("ctrl+q"), seen.process.poll() is not None)[1])
     code, told = seen.end()
     assert code != 0
     assert "go did not return before the window was closed" in told
@@ -164,7 +164,7 @@ def test_edit_draws_a_new_file(command, tmp_path):
     seen.do("key", "r", "mousemove", 600, 350, "click", 1, "sleep", 0.2)
     seen.press("ctrl+s", "Return")
     wait_until((tmp_path / "room.toml").exists)
-    seen.press("Escape", "Escape", "Escape")
+    seen.press("ctrl+q")
     code, told = seen.end()
     assert code == 0, told
     assert len(load_scenario(tmp_path / "room.toml").robots) == 1
@@ -174,7 +174,7 @@ def test_the_run_button_of_an_editor_opens_the_window(command, tmp_path):
     assert cli.main(["new", str(tmp_path / "my_walk")]) == 0
     seen = command(tmp_path, "my_walk.py")
     seen.wait_for("My walk - MARS2D")
-    seen.press("Escape")
+    seen.press("ctrl+q")
     assert seen.end()[0] == 0
 
 
@@ -194,9 +194,9 @@ def test_from_the_home_to_an_own_file_and_back(command, tmp_path):
     home.wait_for("MARS2D")
     home.press("Right", "Return")
     home.wait_for("Mine - MARS2D")
-    home.press("d", "Escape")
+    home.press("d", "ctrl+q")
     home.wait_for("MARS2D")
-    home.press("Escape")
+    home.press("ctrl+q")
     assert home.end()[0] == 0
     kept = json.loads((folder / "windows.json").read_text())
     assert kept["dark"]

@@ -2,8 +2,8 @@
 
 import pytest
 
-from mars2d.window import desktop
-from mars2d.window.desktop import desktop_scale, opening_size
+from mars2d.window.screen import desktop
+from mars2d.window.screen.desktop import desktop_scale, opening_size
 from tests.cases import each_case
 
 

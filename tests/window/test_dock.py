@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import pygame
 
 from mars2d import Robot, Scenario, World
-from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
-from mars2d.window.dock import Dock, Panel
-from mars2d.window.viewpoint import Viewpoint
+from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.dock import Dock, Panel
 from tests.cases import each_case
 from tests.window.written import painter
 
@@ -52,7 +54,9 @@ class Seen:
         self.draw(spot)
 
     def draw(self, spot=None):
-        room = self.dock.arrange(self.layout, self.frame)
+        *_, low, high = self.frame.scenario.bounds
+        fit = partial(fitted, self.frame.scenario, self.layout.size)
+        room = self.dock.arrange(self.layout, self.frame, fit, high - low)
         self.view.arrange(self.layout, self.frame.scenario, room)
         self.dock.draw(self.surface, self.frame, spot)
         xmin, xmax, ymin, ymax = self.frame.scenario.bounds

@@ -5,13 +5,11 @@ import pytest
 
 from mars2d import Car, Holonomic, InputError, Robot, Scenario, Unicycle
 from mars2d.addons import Game
-from mars2d.cli import arguments as shared
 from mars2d.cli.command_line import BAD_INPUT, main
-from mars2d.cli.verbs import play, run
 from mars2d.scenario.roles import robots_named
-from mars2d.window import driver as driver_module
 from mars2d.window import show
-from mars2d.window.driver import ARROWS, LETTERS, Driver
+from mars2d.window.run import driver as driver_module
+from mars2d.window.run.driver import ARROWS, LETTERS, Driver
 from mars2d.world.teleop import Stick, command_of, ramped
 from tests.cases import each_case
 
@@ -268,8 +266,7 @@ def shown(monkeypatch):
         raise InputError("that is all")
 
     monkeypatch.setattr(show, "show_experiment", show_experiment)
-    for module in (shared, run, play):
-        monkeypatch.setattr(module, "has_display", lambda: True)
+    monkeypatch.setattr("mars2d.window.screen.display.display_available", lambda: True)
     return found
 
 
@@ -312,6 +309,6 @@ def test_play_seats_people_in_their_order(shown, roles, humans):
     ],
 )
 def test_where_nobody_can_drive_this_is_said_at_once(monkeypatch, capsys, arguments, words):
-    monkeypatch.setattr(shared, "has_display", lambda: False)
+    monkeypatch.setattr("mars2d.window.screen.display.display_available", lambda: False)
     assert main(["run", "pursuit_corners", *arguments]) == BAD_INPUT
     assert words in capsys.readouterr().err

@@ -436,10 +436,13 @@ def test_leaving_asks_when_something_would_be_lost(open_editor, tmp_path):
     hands.press("Escape")
     hands.until(lambda s: s["selection"] == [])
     hands.press("Escape")
+    hands.until(lambda s: s["notice"] == "Ctrl Q closes the editor")
+    hands.press("ctrl+q")
     hands.until(lambda s: s["prompt"] == "Not saved yet.")
     hands.press("Escape")
     hands.until(lambda s: s["prompt"] is None)
-    hands.press("Escape", "Return")
+    hands.press("ctrl+q")
+    hands.do("mousemove", *hands.state["answers"]["save"], "click", 1)
     hands.until(lambda s: s.get("left"))
     assert load_scenario(tmp_path / "given.toml").robots[0].pose == (2, 0, 0)
 
@@ -449,11 +452,11 @@ def test_backspace_discards_and_without_a_change_nobody_asks(open_editor, tmp_pa
     hands.tool("r", "robot")
     hands.click(2, 2)
     hands.until(lambda s: len(s["robots"]) == 2)
-    hands.press("Escape", "Escape", "BackSpace")
+    hands.press("ctrl+q", "BackSpace")
     hands.until(lambda s: s.get("left"))
     assert len(load_scenario(tmp_path / "given.toml").robots) == 1
     hands = open_editor(tmp_path / "given.toml")
-    hands.press("Escape")
+    hands.press("ctrl+q")
     hands.until(lambda s: s.get("left"))
 
 

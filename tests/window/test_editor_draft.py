@@ -16,16 +16,20 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor, keys
-from mars2d.window.editor.chrome import Prompt
+from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk, History
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
 from mars2d.window.editor.handles import spanned
 from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.verdict import judge
-from mars2d.window.looks import Looks
-from mars2d.window.viewpoint import Viewpoint
+from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.text_field import TextField
 from tests.cases import each_case
+from tests.window.strokes import pressed
+
+pytestmark = pytest.mark.usefixtures("keyboard")
 
 SQUARE = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))
 BOW = ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
@@ -210,15 +214,15 @@ def test_a_prompt_shows_what_is_wrong_and_stays():
         taken.append(text)
         Document(None).named(text)
 
-    prompt = Prompt("Save as", "", {"return": take}, text="a", field=True)
-    prompt.press("b", "b")
-    prompt.press("backspace", "\b")
-    prompt.press("backspace", "\b")
-    prompt.press("return", "\r")
+    answer = Answer("return", "Enter", "save", take)
+    prompt = Prompt("Save as", answer, field=TextField("a", opened_by_key=True))
+    prompt.handle(pygame.Event(pygame.TEXTINPUT, text="="))  # of the key that opened it
+    for event in (*pressed("b"), *pressed("backspace"), *pressed("backspace"), *pressed("return")):
+        prompt.handle(event)
     assert prompt.open
     assert prompt.error == "expected a name, such as room.toml"
-    prompt.press("q", "q")
-    prompt.press("enter", "\r")
+    for event in (*pressed("q"), *pressed("enter")):
+        prompt.handle(event)
     assert (prompt.open, taken) == (False, ["", "q"])
 
 

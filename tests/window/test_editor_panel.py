@@ -232,6 +232,32 @@ def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):
         hands.until(lambda s: len(s["selection"]) == 1)
 
 
+def test_arrows_in_a_menu_choose_and_leave_the_robot_behind_it_where_it_is(open_editor):
+    hands = chosen(open_editor, team((0, 0)))
+    hands.row("Drive")
+    hands.until(lambda s: s["menu"])
+    first = hands.state["chosen"]
+    hands.press("Down", "Right", "Left")
+    hands.until(lambda s: s["menu"] and s["chosen"] != first)
+    hands.press("h", "Return")
+    hands.until(lambda s: s["drives"][0].startswith("Holonomic"))
+    assert hands.state["robots"][0][:2] == [0, 0]
+
+
+def test_a_number_is_mended_at_the_caret_and_an_unchanged_one_stays_exact(open_editor):
+    hands = chosen(open_editor, team((0, 0)))
+    hands.row("Mass")
+    hands.fill("0.12345678901234567")
+    for _ in range(2):
+        hands.row("Mass")
+        hands.press("Return")
+        assert hands.until(lambda s: s["prompt"] is None)["members"][0][0] == 0.12345678901234567
+    hands.row("Mass")
+    hands.press("Home", "1", "Delete", "2", "Return")
+    hands.until(lambda s: s["prompt"] is None)
+    assert hands.state["members"][0][0] == 12.12345678901234567
+
+
 def test_the_wheel_scrolls_the_panel_where_it_is_too_long(open_editor):
     robot = Robot(diameter=0.6, sensors=[mars2d.sensors.Imu(name=f"imu{k}") for k in range(20)])
     hands = chosen(open_editor, Scenario(robots=[robot]))

@@ -8,8 +8,8 @@ from mars2d.scenario.controllers import ByHand, FollowWaypoints, Wander
 from mars2d.scenario.experiment import Experiment, Source
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.viewpoint import Viewpoint
-from mars2d.window.window import Window
+from mars2d.window.run.window import Window
+from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 

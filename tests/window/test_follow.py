@@ -9,7 +9,7 @@ import pytest
 from mars2d import Robot, Scenario
 from mars2d.output.raster.camera import Camera
 from mars2d.record.frame import Frame
-from mars2d.window.viewpoint import Follow
+from mars2d.window.screen.viewpoint import Follow
 
 PLOT = pygame.Rect(0, 52, 1280, 580)
 START = Camera(60.0, 100.0, 400.0)

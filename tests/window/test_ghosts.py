@@ -7,10 +7,10 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.controls import Controls, Marks
-from mars2d.window.ghosts import ghosts
-from mars2d.window.player import Player
-from mars2d.window.source import Playback
+from mars2d.window.run.controls import Controls, Marks
+from mars2d.window.run.ghosts import ghosts
+from mars2d.window.run.player import Player
+from mars2d.window.run.source import Playback
 from mars2d.world.timeline import Timeline
 from tests.worlds import ahead
 
@@ -108,7 +108,7 @@ def test_a_recording_has_the_marks_that_its_run_had():
     ran = Marks(timeline).rows()
     player = Player(Playback(timeline.record), 1.0)
     player.go(20)
-    shown = Controls(player).time_state()
+    shown = Controls(player, player.source).time_state()
     assert {kind: [*rows] for kind, rows in shown.marks.items()} == {
         kind: [*ran[kind]] for kind in shown.marks
     }

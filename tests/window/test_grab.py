@@ -12,9 +12,9 @@ from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.output.raster.camera import Camera
-from mars2d.window import drags, grab
-from mars2d.window.drags import pull_of
-from mars2d.window.grab import Grab
+from mars2d.window.run import drags, grab
+from mars2d.window.run.drags import pull_of
+from mars2d.window.run.grab import Grab
 from tests.cases import each_case
 
 LEFT, RIGHT = pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT

@@ -4,12 +4,12 @@ import numpy as np
 import pygame
 import pytest
 
-from mars2d.cli.command_line import main, parser
+from mars2d.cli.command_line import main, parse
 from mars2d.output.raster.layout import TEXT_SIZES
-from mars2d.scenario.examples import examples, examples_folder, games
-from mars2d.window.display import Preferences
+from mars2d.scenario.examples import examples, games, thumbnail_of
 from mars2d.window.home import Home
-from mars2d.window.memory import Memory
+from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.memory import Memory
 from tests.cases import each_case
 
 SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
@@ -56,7 +56,7 @@ def all_cards(home):
 def test_each_example_has_its_pictures():
     for name in examples():
         for looks in ("light", "dark"):
-            assert (examples_folder() / "thumbnails" / f"{name}_{looks}.png").is_file(), name
+            assert thumbnail_of(name, looks).is_file(), name
 
 
 # -- clicks ---------------------------------------------------------------------------------------
@@ -65,7 +65,7 @@ def test_each_example_has_its_pictures():
 def test_each_card_opens_by_a_click_and_its_command_is_one(memory):
     cards = all_cards(shown(memory)[0])
     for card in cards:
-        parser().parse_args(card.command)
+        parse(card.command)
     for card in (cards[0], cards[-1]):
         home, surface = shown(memory)
         click(home, surface, card.command)

@@ -33,11 +33,11 @@ from mars2d.sensors import (
     Sensor,
     SonarRing,
 )
-from mars2d.window.forcemeter import Meter
-from mars2d.window.forceplot import draw_force
-from mars2d.window.inspector import Inspector, sensor_plots
-from mars2d.window.readout import contacts_of, dynamics_of, inbox, rounded, state_of
-from mars2d.window.sensorplot import history
+from mars2d.window.panels.forcemeter import Meter
+from mars2d.window.panels.forceplot import draw_force
+from mars2d.window.panels.inspector import Inspector, sensor_plots
+from mars2d.window.panels.readout import contacts_of, dynamics_of, inbox, rounded, state_of
+from mars2d.window.panels.sensorplot import history
 from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.window.written import Written, painter, pixels

@@ -10,8 +10,8 @@ import pytest
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.bodies.props import Ball, Box, Solid
 from mars2d.core.materials import GRAVITY
-from mars2d.window.forcemeter import Meter, bound_of
-from mars2d.window.picking import body_at, next_body
+from mars2d.window.panels.forcemeter import Meter, bound_of
+from mars2d.window.screen.picking import body_at, next_body
 from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.worlds import ELL

@@ -5,7 +5,7 @@ import pygame
 
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
-from mars2d.window.notes import STAYS, Notes, Progress, draw_progress
+from mars2d.window.widgets.notes import STAYS, Notes, Progress, draw_progress
 from tests.cases import each_case
 from tests.window.written import Written, painter, pixels
 

@@ -181,6 +181,7 @@ def test_a_picture_is_saved_as_png(tmp_path):
 
 def test_while_the_camera_moves_a_slow_picture_is_enlarged_and_then_drawn_anew(monkeypatch):
     monkeypatch.setattr("mars2d.output.raster.stage.PATIENCE", 0.0)
+    monkeypatch.setattr("mars2d.output.raster.stage.MAX_AGE", np.inf)
     now, painter = frame(), Painter()
     start = Camera.fit(now.scenario.bounds, (640, 480), (20, 20, 20, 20))
     zoomed = start.zoomed((400, 200), 1.5).panned(-7.5, 3.25)

@@ -9,7 +9,10 @@ from mars2d import Robot, Scenario, World
 from mars2d.core.errors import InputError
 from mars2d.output.raster.painter import Painter
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.parameter_panel import LEAST_ROWS, ROW, ParameterPanel
+from mars2d.window.panels.parameter_panel import LEAST_ROWS, ROW, ParameterPanel
+from tests.window.strokes import pressed
+
+pytestmark = pytest.mark.usefixtures("keyboard")
 
 FILE = """
 from typing import Annotated
@@ -75,8 +78,9 @@ class Desk:
 
     def press(self, *names, shift=False):
         for name in names:
-            character = name if len(name) == 1 else ""
-            assert self.panel.press(name, character, shift=shift)
+            events = pressed(name, pygame.KMOD_LSHIFT if shift else 0)
+            taken, *_ = [self.panel.press(event) for event in events]
+            assert taken
 
     def value(self, name):
         return self.panel.parameters()[name].value
@@ -145,14 +149,14 @@ def test_a_double_click_and_the_button_put_a_value_back(file):
 
 def test_keys_move_the_slider_that_has_the_focus_and_type_numbers(file):
     desk = Desk(file)
-    assert not desk.panel.press("right", "", shift=False), "none has the focus"
+    assert not any(map(desk.panel.press, pressed("right"))), "none has the focus"
     desk.panel.focus = "mu"
     desk.press("right")
     assert desk.value("mu") == 0.61
     desk.press("left", shift=True)
     assert desk.value("mu") == 0.51
     desk.press("0", ".", "9", "8")
-    assert desk.panel.typed == "0.98"
+    assert desk.panel.typed.text == "0.98"
     desk.press("backspace", "return")
     assert desk.value("mu") == 0.9
     desk.press("down", "3", "return")
@@ -166,14 +170,14 @@ def test_keys_move_the_slider_that_has_the_focus_and_type_numbers(file):
         assert desk.panel.said[1] == "error"
     assert desk.value("mu") == 0.9
     desk.press("7", "escape")
-    assert (desk.panel.typed, desk.panel.focus) == ("", "mu")
+    assert (desk.panel.typed.text, desk.panel.focus) == ("", "mu")
     desk.press("escape")
     assert desk.panel.focus is None
-    assert not desk.panel.press("escape", "", shift=False)
+    assert not any(map(desk.panel.press, pressed("escape")))
     desk.panel.focus = "mu"
-    assert not desk.panel.press("space", " ", shift=False), "other keys stay the window's"
+    assert not any(map(desk.panel.press, pressed("space"))), "other keys stay the window's"
     desk.panel.close()
-    assert not desk.panel.press("right", "", shift=False)
+    assert not any(map(desk.panel.press, pressed("right")))
 
 
 def test_where_there_is_little_room_the_wheel_and_the_focus_scroll(file):

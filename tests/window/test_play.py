@@ -5,11 +5,11 @@ import json
 import pytest
 
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.display import Preferences
-from mars2d.window.memory import Memory
-from mars2d.window.play import COUNTDOWN, game_of
-from mars2d.window.scores import Scores, Tally
-from mars2d.window.window import Window
+from mars2d.window.run.play import COUNTDOWN, game_of
+from mars2d.window.run.scores import Scores, Tally
+from mars2d.window.run.window import Window
+from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.memory import Memory
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 
@@ -212,16 +212,20 @@ def play(open_window, tmp_path, monkeypatch):
     return start
 
 
-@each_case("way", ["key", "click"])
+@each_case("way", ["number", "letter", "arrow", "click"])
 def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person = play(1.0, "corner_game")
     assert person.state["game"]["seats"] == []
     person.press("space")  # begins nothing yet
     assert person.settle()["time"] == 0
-    if way == "key":
+    if way == "number":
         person.press("2")
+    elif way == "letter":
+        person.press("e", "Return")
+    elif way == "arrow":
+        person.press("Down", "Return")
     else:
-        person.do("mousemove", *person.state["game"]["choices"]["2"], "click", 1)
+        person.do("mousemove", *person.state["game"]["choices"]["evader"], "click", 1)
     person.until(lambda s: s["game"]["seats"] == [1] and s["game"]["counting"])
     assert person.state["time"] == 0
     person.until(lambda s: not s["game"]["counting"] and s["time"] > 0)
@@ -231,7 +235,7 @@ def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person.do("keyup", "Right")
 
 
-def test_space_starts_at_once_and_escape_pauses_before_it_leaves(play):
+def test_space_starts_at_once_and_escape_pauses(play):
     person = play(1.0, "corner_game", [1])
     person.press("space")
     person.until(lambda s: s["time"] > 0)
@@ -242,7 +246,7 @@ def test_space_starts_at_once_and_escape_pauses_before_it_leaves(play):
     person.press("Escape")
     person.until(lambda s: not s["playing"])
     person.press("Escape")
-    person.until(lambda s: s.get("left"))
+    person.says("Ctrl Q closes the window")
 
 
 def test_two_people_drive_by_arrows_and_by_letters(play):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mars2d.core.errors import LawError
-from mars2d.window import keys
-from mars2d.window.player import SPEEDS, Player, between
+from mars2d.window.run import keys
+from mars2d.window.run.player import SPEEDS, Player, between
 from tests.cases import each_case
 from tests.window.circling import Circling, circling_scenario
 
@@ -191,7 +191,7 @@ def test_every_key_has_its_own_command():
     [
         ("space", " ", "pause"), ("right", "", "step"), ("=", "=", "faster"), ("=", "+", "faster"),
         ("]", "+", "faster"), ("[+]", "+", "faster"), ("-", "-", "slower"), ("f1", "", "help"),
-        ("escape", "", "leave"), ("w", "w", None), ("left shift", "", None), ("return", "", None),
+        ("escape", "", "escape"), ("w", "w", None), ("left shift", "", None), ("return", "", None),
     ],
 )  # fmt: skip
 def test_what_keys_do(name, character, action):
@@ -253,7 +253,7 @@ def test_at_speed_max_the_simulation_gets_nine_times_as_long_as_the_drawing():
     [
         ("space", "step"), ("return", "step"), ("right", "step"), ("w", "step"), ("up", "step"),
         ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),
-        ("tab", "select"), ("escape", "leave"),
+        ("tab", "select"), ("escape", "escape"),
         ("left shift", None), ("left ctrl", None),
     ],
 )  # fmt: skip

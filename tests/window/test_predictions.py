@@ -8,7 +8,7 @@ from mars2d.core.deadline import Deadline
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.predictions import Predictions
+from mars2d.window.panels.predictions import Predictions
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.written import THEMES, Written, painter

@@ -6,7 +6,7 @@ import pytest
 
 from mars2d import LawError
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.reload import Reload
+from mars2d.window.run.reload import Reload
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 

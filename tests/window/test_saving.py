@@ -12,10 +12,10 @@ from PIL import Image
 from mars2d import InputError, Robot, Scenario
 from mars2d.output.films.filming import FPS, Filming
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.window.director import Director
-from mars2d.window.notes import Notes
-from mars2d.window.player import Player
-from mars2d.window.saving import free_name, save_picture, save_python, start_film
+from mars2d.window.run.director import Director
+from mars2d.window.run.player import Player
+from mars2d.window.screen.saving import free_name, save_picture, save_python, start_film
+from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 
@@ -57,7 +57,7 @@ def frames_of(path):
 
 def waited(film):
     """Wait until a film has written what it was given."""
-    while not film._shots.empty():
+    while film.busy:
         time.sleep(0.001)
 
 
@@ -128,12 +128,12 @@ def test_another_size_is_fitted_into_the_first(suffix, tmp_path):
 
 
 def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monkeypatch):
-    assert start_film(tmp_path, "walk").path.name == "walk_1.mp4"
-    monkeypatch.setitem(sys.modules, "av", None)
-    film = start_film(tmp_path, "walk")
-    assert film.path.name == "walk_1.gif"
-    film.take(painted("red"))
-    assert frames_of(film.stop())
+    for suffix in (".mp4", ".gif"):
+        film = start_film(tmp_path, "walk")
+        assert film.path.name == f"walk_1{suffix}"
+        film.take(painted("red"))
+        assert frames_of(film.stop())
+        monkeypatch.setitem(sys.modules, "av", None)
 
 
 def test_a_scenario_is_kept_with_short_numbers_which_are_those_of_the_file_for_what_stands():

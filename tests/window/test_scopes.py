@@ -14,9 +14,9 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.output.signals import signals_of_bodies
 from mars2d.scenario.experiment import open_experiment
 from mars2d.sensors import Imu, RangeFinder
-from mars2d.window.plot import as_number
-from mars2d.window.scopes import Scopes
-from mars2d.window.trace import Trace
+from mars2d.window.panels.scopes import Scopes
+from mars2d.window.panels.trace import Trace
+from mars2d.window.widgets.plot import as_number
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.person import PUSHING

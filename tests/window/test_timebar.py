@@ -8,8 +8,8 @@ import pytest
 from mars2d.output.marks import MARKS
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
-from mars2d.window.slider import SpeedSlider
-from mars2d.window.timebar import TimeBar, TimeState
+from mars2d.window.run.timebar import TimeBar, TimeState
+from mars2d.window.widgets.slider import SpeedSlider
 from tests.cases import each_case
 from tests.window.written import THEMES, Written, painter, pixels
 

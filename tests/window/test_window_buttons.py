@@ -11,7 +11,7 @@ from mars2d import load, run
 from mars2d.output.controls import CONTROLS
 from mars2d.output.layers.table import LAYERS
 from mars2d.record.marks import marks_of
-from mars2d.window import context, keys, scope_menu, toolbar
+from mars2d.window.run import context, keys, scope_menu, toolbar
 from tests.window.person import differing
 
 
@@ -272,7 +272,7 @@ def test_before_a_run_changed_by_hand_is_lost_the_window_asks(open_window, room,
     window.until(lambda s: s["row"] == 1)
     assert window.state["selected"] is None
     for stay in ("Escape", "Stay"):
-        window.press("Escape")
+        window.press("ctrl+q")
         window.until(lambda s: "Stay" in s["menu"])
         if stay == "Stay":
             choose(window, "Stay")
@@ -307,7 +307,7 @@ def test_a_run_that_can_be_run_again_is_not_asked_for(open_window, room):
     window = open_window(0, experiment=str(room), asks=True)
     window.press("Right")
     window.until(lambda s: s["row"] == 1)
-    window.press("Escape")
+    push(window, "leave")
     window.until(lambda s: s.get("left"))
 
 
@@ -364,6 +364,7 @@ def test_at_a_contact_time_stops_if_it_is_to(open_window, bumping):
     window = open_window(5, experiment=str(bumping))
     window.press("k")
     choose(window, "Stop")
+    window.press("Escape")
     for _ in range(2):
         window.until(lambda s: not s["playing"])
         assert window.state["row"] in rows

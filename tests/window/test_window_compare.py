@@ -9,7 +9,7 @@ from mars2d.core.errors import LawError
 from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.compare_window import CompareWindow
-from mars2d.window.display import Preferences
+from mars2d.window.screen.display import Preferences
 from mars2d.window.trio import Trio
 from tests.cases import each_case
 from tests.window.person import differing
@@ -164,5 +164,5 @@ def test_looks_help_pictures_and_leaving(compare):
     row = window.state["row"]
     window.press("r")
     window.until(lambda s: s["row"] < row or s["row"] < 5)
-    window.press("Escape")
+    window.press("ctrl+q")
     window.until(lambda s: s.get("left"))

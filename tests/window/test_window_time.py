@@ -1,5 +1,6 @@
 """Time in the window: paused, step by step, back and on, slower and faster, other branches."""
 
+import pygame
 import pytest
 
 from tests.window.person import HEADER, PLOT, differing
@@ -250,7 +251,7 @@ def test_where_a_law_fails_its_line_is_shown_and_the_past_can_be_looked_at(open_
     window.until(lambda s: s["newest"] == 0)
     window.press("space")
     window.until(lambda s: s["status"] == "stopped")
-    window.press("Escape")
+    window.press("ctrl+q")
     window.until(lambda s: "raised" in s)
     assert "I am lost" in window.state["raised"]
 
@@ -339,3 +340,16 @@ def test_escape_forgets_a_number_and_closes_nothing(open_window):
     window.until(lambda s: s["chip"] == "manual")
     window.press("Right")
     window.until(lambda s: s["row"] == 1)
+
+
+def test_while_a_law_takes_long_esc_breaks_it_off_and_ctrl_q_closes_the_window(open_window):
+    shown = open_window(0).shown
+    for key, mod, how in (
+        (pygame.K_x, 0, ""),
+        (pygame.K_ESCAPE, 0, "did not return before Esc was pressed"),
+        (pygame.K_q, pygame.KMOD_LCTRL, "did not return before the window was closed"),
+    ):
+        assert shown._open
+        pygame.event.post(pygame.Event(pygame.KEYDOWN, key=key, mod=mod, unicode=""))
+        assert shown._answer("walk.py, line 6") == how
+    assert not shown._open

@@ -5,7 +5,7 @@ import pytest
 
 from mars2d import Robot, Scenario
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.window import Window
+from mars2d.window.run.window import Window
 from mars2d.world.timeline import Timeline
 from tests.window.written import Pens, Written
 from tests.worlds import ahead
@@ -93,11 +93,14 @@ def test_the_first_branch_says_how_to_get_to_the_other(window):
     assert "another branch, run until 5 s; B goes back" in said(window)
 
 
-def test_escape_clears_an_error_before_it_closes_the_window(window):
+def test_escape_clears_an_error_and_never_closes_the_window(window):
     window._open = True
     window.notes.say("walk.py, line 3: no", "error")
-    do(window, "leave")
+    do(window, "escape")
     assert (said(window), window._open) == ([], True)
+    for _ in range(3):
+        do(window, "escape")
+    assert (said(window), window._open) == (["Ctrl Q closes the window"], True)
     do(window, "leave")
     assert not window._open
 

@@ -1,7 +1,7 @@
 """Maps from files: drawings, occupancy grids, images, geographic shapes."""
 
-from mars2d.addons.maps.drawing import Drawing, Piece
-from mars2d.addons.maps.obstacles import TOLERANCE, Obstacles, described, nearest_room, obstacles
+from mars2d.addons.maps.drawing import TOLERANCE, Drawing, Piece
+from mars2d.addons.maps.obstacles import Obstacles, described, nearest_room, obstacles
 from mars2d.addons.maps.reading import SUFFIXES, advice, read
 
 __all__ = [

@@ -29,6 +29,15 @@ ALWAYS = "GeoJSON, WKT, .png, .jpg and .pgm need nothing"
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 """The units that a drawing can be in, by name, in metres."""
 
+TOLERANCE = 0.02
+"""How far corners and curves may be off by default, metres."""
+
+MAX_TOLERANCE = 10.0
+"""Metres."""
+
+COARSER = "remove specks (single pixels), or save it with fewer pixels and a larger resolution"
+"""Advice on pixels with too many corners."""
+
 NO_LAYER = "no layer"
 """The layer of a piece that is in none."""
 
@@ -68,7 +77,9 @@ class Drawing:
     source: the file's name. kind: of the file, in words. notes: remarks, as names and texts.
     hidden: layers that are not shown unless they are named. skipped: the number of things that
     were not read, by kind. others: the number of pieces in layers that were not chosen. apart:
-    its areas are known not to overlap.
+    its areas are known not to overlap. within: how far its curves, which are polylines, may be
+    off [m]. tolerance: how far corners and curves may be off in the obstacles [m].
+    extent: the area of pixels; without it, a drawing has pieces.
     """
 
     source: str
@@ -80,6 +91,9 @@ class Drawing:
     skipped: Mapping[str, int] = field(default_factory=dict)
     others: Mapping[str, int] = field(default_factory=dict)
     apart: bool = False
+    within: float = 0.0
+    tolerance: float = TOLERANCE
+    extent: shapely.Polygon | None = None
 
     @cached_property
     def layers(self) -> dict[str, int]:
@@ -88,10 +102,11 @@ class Drawing:
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of all pieces [m]."""
+        """(xmin, xmax, ymin, ymax) of all pieces, or of the pixels if there are none [m]."""
         import shapely
 
-        xmin, ymin, xmax, ymax = shapely.total_bounds([p.geometry for p in self.pieces]).tolist()
+        shown = [piece.geometry for piece in self.pieces] or [self.extent]
+        xmin, ymin, xmax, ymax = shapely.total_bounds(shown).tolist()
         return xmin, xmax, ymin, ymax
 
     @property
@@ -133,7 +148,7 @@ class Drawing:
                     raise InputError(f"{self.source} has no layer {shown(wanted)}{hint}")
                 chosen |= found
         pieces = tuple(piece for piece in self.pieces if piece.layer in chosen)
-        if not pieces:
+        if not pieces and self.extent is None:
             what = ", ".join(f"{count} {kind}" for kind, count in self.skipped.items())
             more = f", but {what}" if what else ""
             raise InputError(f"{self.source}: expected lines or areas; there are none{more}")
@@ -146,23 +161,26 @@ class Drawing:
 
         xmin, _, ymin, _ = self.bounds
         shift = np.array(at) - (xmin, ymin)
-        moved = shapely.transform([p.geometry for p in self.pieces], lambda xy: xy + shift)
-        pieces = zip(self.pieces, moved.tolist(), strict=True)
-        return replace(self, pieces=tuple(Piece(p.layer, geometry) for p, geometry in pieces))
+        shapes = [*(piece.geometry for piece in self.pieces), self.extent]
+        *moved, extent = shapely.transform(shapes, lambda xy: xy + shift).tolist()
+        pieces = tuple(Piece(p.layer, g) for p, g in zip(self.pieces, moved, strict=True))
+        return replace(self, pieces=pieces, extent=extent)
 
     def check_size(self) -> None:
         """Raise InputError for a drawing that is too far away, or has no size."""
         xmin, xmax, ymin, ymax = self.bounds
         far = max(map(abs, (xmin, xmax, ymin, ymax)))
+        scale = "unit=... says" if self.unit.name else "its resolution says"
         if not isfinite(far) or far > MAX_COORDINATE:
+            moves = "at=(0, 0) moves it there, " if max(self.size) <= MAX_COORDINATE else ""
             raise InputError(
                 f"{self.source}: lies up to {far:.3g} m from the origin, expected at most "
-                f"{MAX_COORDINATE:g} m: at=(0, 0) moves it there, unit=... says how large it is"
+                f"{MAX_COORDINATE:g} m: {moves}{scale} how large it is"
             )
         if max(self.size) < 1e-3:
             raise InputError(
                 f"{self.source}: is {max(self.size):.3g} m in size, expected a map; "
-                "unit=... says how large it is"
+                f"{scale} how large it is"
             )
 
 

@@ -8,23 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mars2d.addons.maps.drawing import Drawing, listed
+from mars2d.addons.maps.drawing import COARSER, MAX_TOLERANCE, Drawing, listed
 from mars2d.addons.maps.regions import GRID, joined, simple_area, simple_line
-from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, counted
 from mars2d.core.plane import Outline, Point, lines_and_areas
 
 if TYPE_CHECKING:
     import shapely
 
-TOLERANCE = 0.02
-"""The default of the distance that corners may move so that there are fewer, metres."""
-
 MAX_CORNERS = 20_000
 """The most corners of a map: a step of the engine must stay quick."""
-
-MAX_TOLERANCE = 10.0
-"""Metres."""
 
 MIN_AREA = 1e-6
 """The area below which an outline is no obstacle, m^2."""
@@ -52,8 +45,8 @@ class Obstacles:
         return sum(map(len, (*self.outlines, *self.walls)))
 
 
-def obstacles(drawing: Drawing, tolerance: float = TOLERANCE) -> Obstacles:
-    """Return the obstacles of a drawing; they differ from it by no more than `tolerance` metres.
+def obstacles(drawing: Drawing) -> Obstacles:
+    """Return the obstacles of a drawing; they differ from it by no more than its tolerance.
 
     Areas that touch are merged, and cut open where there is room inside, so that it stays free. A
     line or area that is drawn twice counts once. Raises InputError for too many corners, or if none
@@ -61,11 +54,12 @@ def obstacles(drawing: Drawing, tolerance: float = TOLERANCE) -> Obstacles:
     """
     import shapely
 
-    tolerance = tolerance_of(tolerance)
+    tolerance = max(drawing.tolerance - drawing.within - GRID, 0.0)
     geometries = [piece.geometry for piece in drawing.pieces]
     solid = [g for g in geometries if g.geom_type == "Polygon"]
     areas = solid if drawing.apart else joined(solid)
-    _check_corners(drawing.source, 3 * len(areas), tolerance)  # a triangle each, at least
+    least = 3 * len(areas)  # a triangle each
+    _check_corners(drawing, least, least)
     simple = shapely.get_parts(
         shapely.set_precision([simple_area(area, tolerance) for area in areas], GRID)
     )
@@ -81,27 +75,25 @@ def obstacles(drawing: Drawing, tolerance: float = TOLERANCE) -> Obstacles:
         for line in _merged(lines, tolerance)
     )
     found = Obstacles(outlines, walls)
-    _check_corners(drawing.source, found.corners, tolerance)
-    if not found.corners:
+    _check_corners(drawing, found.corners, least)
+    if not found.corners and drawing.extent is None:
         raise InputError(f"{drawing.source}: nothing is left of it; is the unit right?")
     return found
 
 
-def _check_corners(name: str, count: int, tolerance: float) -> None:
-    if count > MAX_CORNERS:
-        raise InputError(
-            f"{name}: {count} corners or more, expected at most {MAX_CORNERS}: "
-            f"choose fewer layers, or a tolerance above {tolerance:g} m"
-        )
-
-
-def tolerance_of(value: object) -> float:
-    """Check a tolerance [m]."""
-    expected = f"metres, a number >= 0 and <= {MAX_TOLERANCE:g}"
-    result = real("tolerance", value, expected)
-    if not 0 <= result <= MAX_TOLERANCE:
-        raise wrong("tolerance", value, expected)
-    return result
+def _check_corners(drawing: Drawing, count: int, least: int) -> None:
+    """Raise InputError for too many corners, with advice. least: those of any tolerance."""
+    if count <= MAX_CORNERS:
+        return
+    advice = [COARSER] if drawing.extent else []
+    if len(drawing.layers) > 1:
+        advice.append("choose fewer layers")
+    if least <= MAX_CORNERS and drawing.tolerance < MAX_TOLERANCE:
+        advice.append(f"choose a tolerance above {drawing.tolerance:g} m")
+    raise InputError(
+        f"{drawing.source}: {count} corners or more, expected at most {MAX_CORNERS}: "
+        f"{', or '.join(advice) or 'leave some of it out'}"
+    )
 
 
 def _without_holes(area: shapely.Polygon) -> list[shapely.Polygon]:
@@ -180,11 +172,8 @@ def _merged(lines: list[shapely.LineString], tolerance: float) -> list[shapely.L
     return [part for part in clean.tolist() if part.length > GRID]
 
 
-def described(drawing: Drawing, found: Obstacles, tolerance: float) -> list[tuple[str, str]]:
-    """Return a description of a map and its obstacles, as pairs of a name and a text.
-
-    found: the obstacles, at a tolerance in metres.
-    """
+def described(drawing: Drawing, found: Obstacles) -> list[tuple[str, str]]:
+    """Return a description of a map and its obstacles, as pairs of a name and a text."""
     (width, height), (xmin, xmax, ymin, ymax) = drawing.size, drawing.bounds
     unit = f"{drawing.unit.name}, {drawing.unit.source}"
     rows = [
@@ -197,7 +186,7 @@ def described(drawing: Drawing, found: Obstacles, tolerance: float) -> list[tupl
         *_layers(drawing),
         ("not read", listed(drawing.skipped)),
         ("obstacles", _counts(found)),
-        ("corners", f"{found.corners}, within {tolerance:g} m"),
+        ("corners", f"{found.corners}, within {drawing.tolerance:g} m"),
     ]
     return [(name, text) for name, text in rows if text]
 

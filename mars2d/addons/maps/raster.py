@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.maps.drawing import ALWAYS, Drawing, Piece, Unit, broken, check_bytes
+from mars2d.addons.maps.drawing import ALWAYS, COARSER, Drawing, Piece, Unit, broken, check_bytes
 from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, nearest
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     import shapely
 
 Mask = NDArray[np.bool_]
-Gray = NDArray[np.float32]
+Gray = NDArray[np.float64]
 Pose = tuple[float, float, float]
 
-IMAGES = {".png": "PNG", ".pgm": "PPM", ".jpg": "JPEG", ".jpeg": "JPEG"}
+IMAGES = {".png": "PNG", ".pgm": "PPM", ".jpg": "JPEG", ".jpeg": "JPEG", ".bmp": "BMP"}
 """The suffixes of images, and Pillow's names of their formats."""
 
 MAX_BYTES = 20_000_000
@@ -35,6 +35,9 @@ MAX_CORNERS = 100_000
 
 MODES = ("trinary", "scale", "raw")
 KEYS = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode")
+
+NEGATE = {"0": False, "1": True, "false": False, "true": True, "no": False, "yes": True}
+"""What YAML may say for negate."""
 
 OCCUPIED = 0.65
 """The share above which a cell is occupied, unless the file gives one."""
@@ -51,15 +54,19 @@ def read_picture(path: Path, resolution: float) -> Drawing:
 
     resolution: metres per pixel. The lower left corner is (0, 0). Raises InputError.
     """
-    gray, clear = _read_image(path.name, path)
-    dark = (gray < DARK) & ~clear
+    gray, alpha = _read_image(path.name, path)
+    dark = gray < DARK if alpha is None else (gray < DARK) & (alpha > 0)
+    if not dark.any():
+        raise InputError(f"{path.name}: expected walls; no pixel is darker than middle grey")
     return _drawing(path.name, "an image", dark, _checked(path.name, resolution), (0.0, 0.0, 0.0))
 
 
 def read_occupancy(path: Path) -> Drawing:
     """Read an occupancy grid as ROS's map_server keeps it: a YAML file and an image beside it.
 
-    Occupied cells are solid; free and unknown ones are free. Raises InputError.
+    Occupied cells are solid, and there may be none; free and unknown ones are free. Transparent
+    pixels count as in nav2: in the mode trinary, alpha is one more channel of brightness, in scale
+    a pixel that is not opaque is unknown, and in raw alpha does not matter. Raises InputError.
     """
     name = path.name
     fields = _fields(name, path)
@@ -68,22 +75,28 @@ def read_occupancy(path: Path) -> Drawing:
     mode = fields.get("mode", "trinary")
     if mode not in MODES:
         raise wrong(f"{name}: mode", mode, "one of " + ", ".join(MODES))
-    negate = fields.get("negate", 0)
-    if negate not in (0, 1):
+    negate = str(fields.get("negate", 0)).lower()
+    if negate not in NEGATE:
         raise wrong(f"{name}: negate", negate, "0 or 1")
-    limit = real(f"{name}: occupied_thresh", fields.get("occupied_thresh", OCCUPIED))
-    free = real(f"{name}: free_thresh", fields.get("free_thresh", min(0.25, limit)))
+    limit = _number(f"{name}: occupied_thresh", fields.get("occupied_thresh", OCCUPIED))
+    free = _number(f"{name}: free_thresh", fields.get("free_thresh", min(0.25, limit)))
     if not 0 <= free <= limit <= 1:
         raise InputError(
             f"{name}: free_thresh = {free:g}, occupied_thresh = {limit:g}: expected "
             "0 <= free_thresh <= occupied_thresh <= 1"
         )
     image = _beside(name, path, fields["image"])
-    gray, clear = _read_image(f"{name}: image {image.name}", image)
+    gray, alpha = _read_image(f"{name}: image {image.name}", image)
+    unknown = np.zeros(gray.shape, dtype=bool)
     if mode == "raw":
-        share, unknown = gray / 100, (gray > 100) | clear
+        share = np.rint(gray) / 100
+        unknown = share > 1
     else:
-        share, unknown = (gray if negate else 255 - gray) / 255, clear
+        if alpha is not None and mode == "scale":
+            unknown = alpha < 255
+        elif alpha is not None:
+            gray = (3 * gray + alpha) / 4
+        share = gray / 255 if NEGATE[negate] else 1 - gray / 255
     occupied = (share > limit) & ~unknown
     known_free = (share < free) & ~unknown
     drawing = _drawing(name, "an occupancy grid", occupied, resolution, origin)
@@ -95,36 +108,42 @@ def read_occupancy(path: Path) -> Drawing:
 
 
 def _drawing(name: str, kind: str, occupied: Mask, cell: float, origin: Pose) -> Drawing:
-    """Return the occupied cells as solid, their lower left corner at a pose."""
+    """Return the occupied cells (rows, columns) as solid, their lower left corner at a pose."""
     import shapely
 
     with broken(name, kind):
         x, y, yaw = origin
         c, s = (cell * each for each in cosine_sine(yaw))
         turn = np.array([[c, s], [-s, c]])
-        found = _cells(name, occupied)
-        if not found:
-            raise InputError(f"{name}: expected walls; no pixel is occupied")
-        placed = shapely.transform(found, lambda xy: xy @ turn + (x, y))
-        pieces = tuple(Piece("occupied", area) for area in placed.tolist())
+        rows, columns = occupied.shape
+        cells = [*_cells(name, occupied), shapely.box(0, 0, columns, rows)]
+        *placed, whole = shapely.transform(cells, lambda xy: xy @ turn + (x, y)).tolist()
+        pieces = tuple(Piece("occupied", area) for area in placed)
     unit = Unit("", cell, f"{cell:g} m a pixel")
-    return Drawing(name, kind, unit, pieces, apart=True)
+    return Drawing(name, kind, unit, pieces, apart=True, extent=whole)
 
 
 def _checked(name: str, resolution: Any) -> float:
     expected = f"metres per pixel, a number > 0 and <= {MAX_CELL:g}"
-    if isinstance(resolution, bool) or not isinstance(resolution, (int, float)):
+    cell = _number(f"{name}: resolution", resolution, expected)
+    if not 1e-5 < cell <= MAX_CELL:
         raise wrong(f"{name}: resolution", resolution, expected)
-    if not 1e-5 < resolution <= MAX_CELL:
-        raise wrong(f"{name}: resolution", resolution, expected)
-    return float(resolution)
+    return cell
+
+
+def _number(name: str, value: Any, expected: str = "a number") -> float:
+    """Check a number, or the text of one, as `1e-05`, which Python's YAML does not know as one."""
+    try:
+        return real(name, float(value) if isinstance(value, str) else value, expected)
+    except ValueError:
+        raise wrong(name, value, expected) from None
 
 
 def _origin(name: str, value: Any) -> Pose:
     expected = "the pose of the lower left pixel, such as [x, y, yaw] in metres and radians"
     if not isinstance(value, list) or len(value) not in (2, 3):
         raise wrong(f"{name}: origin", value, expected)
-    x, y, yaw = (real(f"{name}: origin[{i}]", v) for i, v in enumerate([*value, 0.0][:3]))
+    x, y, yaw = (_number(f"{name}: origin[{i}]", v) for i, v in enumerate([*value, 0.0][:3]))
     if not isfinite(yaw) or abs(yaw) > 4 * pi:
         raise wrong(f"{name}: origin", value, expected)
     return x, y, yaw
@@ -135,13 +154,24 @@ def _fields(name: str, path: Path) -> dict[str, Any]:
     with extra("maps", f"{name}: an occupancy grid needs PyYAML", ALWAYS):
         import yaml
     with broken(name, "YAML"):
-        fields = yaml.safe_load(path.read_text(encoding="utf-8"))
+        fields = yaml.load(path.read_text(encoding="utf-8-sig"), Loader=yaml.BaseLoader)
     if not isinstance(fields, dict):
         raise InputError(f"{name}: expected an occupancy grid: image, resolution, origin, ...")
+    if fields.get("type") == "line_segments" or ("data" in fields and "image" not in fields):
+        raise InputError(
+            f"{name}: line_segments of flatland are not read; expected an occupancy grid: image, "
+            "resolution, ..., or its lines as WKT"
+        )
+    if "layers" in fields:
+        raise InputError(
+            f"{name}: a world of several layers, as flatland has them; expected the YAML file of "
+            "one occupancy grid: image, resolution, ..."
+        )
     for key in ("image", "resolution"):
         if key not in fields:
-            near = nearest(key, [str(k) for k in fields if k not in KEYS])
-            raise InputError(f"{name}: expected {key}: ..., as in an occupancy grid of ROS{near}")
+            near = [k for k in fields if k not in KEYS and nearest(key, [k])]
+            said = f" in place of {near[0]}" if near else ""
+            raise InputError(f"{name}: expected {key}: ...{said}, as in an occupancy grid of ROS")
     return fields
 
 
@@ -157,18 +187,20 @@ def _beside(name: str, path: Path, image: Any) -> Path:
     return found
 
 
-def _read_image(name: str, path: Path) -> tuple[Gray, Mask]:
-    """Return the brightness of an image's pixels from 0 to 255, and where they are transparent.
+def _read_image(name: str, path: Path) -> tuple[Gray, Gray | None]:
+    """Return the brightness and alpha of an image's pixels from 0 to 255; None without alpha.
 
     Both are (rows, columns), the upper row first; colours count by the mean of their channels.
     Raises InputError, which begins with `name`.
     """
-    with opened_image(name, path, IMAGES[path.suffix.lower()]) as image:
-        if image.mode == "L":
-            gray = np.asarray(image, dtype=np.float32)
-            return gray, np.zeros(gray.shape, dtype=bool)
-        pixels = np.asarray(image.convert("RGBA"))
-    return pixels[..., :3].mean(axis=2, dtype=np.float32), pixels[..., 3] == 0
+    with opened_image(name, path, IMAGES[path.suffix.lower()], deep=True) as image:
+        if image.mode.startswith("I"):  # 16 bits
+            return np.asarray(image, dtype=float) / 257, None
+        if image.mode == "L" and "transparency" not in image.info:
+            return np.asarray(image, dtype=float), None
+        clear = image.has_transparency_data
+        pixels = np.asarray(image.convert("RGBA"), dtype=float)
+    return pixels[..., :3].mean(axis=2), pixels[..., 3] if clear else None
 
 
 def _cells(name: str, occupied: Mask) -> list[shapely.Polygon]:
@@ -189,7 +221,7 @@ def _cells(name: str, occupied: Mask) -> list[shapely.Polygon]:
     if count > MAX_CORNERS:
         raise InputError(
             f"{name}: the occupied cells have {count} corners, expected at most {MAX_CORNERS}: "
-            "is it a map? smooth it, or make it coarser"
+            f"is it a map? {COARSER}"
         )
     y, x1, x2 = _runs(across, corner)
     x, y1, y2 = _runs(along, corner.T)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from mars2d.addons.maps.drawing import METRES, Drawing, Unit, check_bytes
+from mars2d.addons.maps.drawing import MAX_TOLERANCE, METRES, TOLERANCE, Drawing, Unit, check_bytes
 from mars2d.addons.maps.raster import IMAGES, MAX_BYTES, read_occupancy, read_picture
 from mars2d.core.checks import point
 from mars2d.core.description import real, wrong
@@ -22,6 +23,12 @@ MAX_SIZES = {
 
 SUFFIXES = tuple(MAX_SIZES)
 """The suffixes of files that are maps."""
+
+CURVES = 0.25
+"""The share of the tolerance by which curves may be off, before corners are removed."""
+
+FINEST = 1e-4
+"""How far curves may always be off, even if the tolerance is smaller, metres."""
 
 TAKES = {
     ".dxf": ("layers", "unit"), ".svg": ("layers", "unit"), ".geojson": ("layers", "unit"),
@@ -38,14 +45,16 @@ def read(
     unit: str | float | None = None,
     resolution: float | None = None,
     at: Sequence[float] | None = None,
+    tolerance: float = TOLERANCE,
 ) -> Drawing:
     """Read a map from a file: DXF, SVG, YAML of ROS, an image, GeoJSON, WKT.
 
     layers: names or patterns such as ``*WALL*``, a list or one text with commas; None: all that
     are shown. unit: that of the file, ``mm``, ``cm``, ``m``, ``in``, ``ft`` or a number of metres,
     in place of what the file says. resolution: metres per pixel, for images. at: (x, y)
-    [m] of the lower left corner of the map; None: where the file has it. Raises
-    InputError, which names the file, what is wrong with it, and what was expected.
+    [m] of the lower left corner of the map; None: where the file has it. tolerance: how far
+    corners and curves may be off in the obstacles [m]. Raises InputError, which names the file,
+    what is wrong with it, and what was expected.
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
@@ -61,12 +70,14 @@ def read(
         raise InputError(f"{path.name}: an image needs resolution, metres per pixel, such as 0.05")
     chosen = None if layers is None else _layers(layers)
     place = None if at is None else point("at", at)
+    tolerance = _tolerance(tolerance)
     _check_file(path, suffix)
-    drawing = _read(path, suffix, _unit(unit), resolution).only(chosen)
+    within = max(CURVES * tolerance, FINEST)
+    drawing = _read(path, suffix, _unit(unit), resolution, within).only(chosen)
     if place is not None:
         drawing = drawing.moved(place)
     drawing.check_size()
-    return drawing
+    return replace(drawing, tolerance=tolerance)
 
 
 def advice(path: Path) -> str:
@@ -74,15 +85,15 @@ def advice(path: Path) -> str:
     return "; save the drawing as DXF" if path.suffix.lower() == ".dwg" else ""
 
 
-def _read(path: Path, suffix: str, unit: Unit | None, resolution: Any) -> Drawing:
+def _read(path: Path, suffix: str, unit: Unit | None, resolution: Any, within: float) -> Drawing:
     if suffix == ".dxf":
         from mars2d.addons.maps.dxf import read_dxf
 
-        return read_dxf(path, unit)
+        return read_dxf(path, unit, within)
     if suffix == ".svg":
         from mars2d.addons.maps.svg import read_svg
 
-        return read_svg(path, unit)
+        return read_svg(path, unit, within)
     if suffix in (".geojson", ".json"):
         from mars2d.addons.maps.geo import read_geojson
 
@@ -109,6 +120,15 @@ def _check_file(path: Path, suffix: str) -> None:
         raise InputError(f"{path.name}: an empty file; expected a map")
     if not os.access(path, os.R_OK):
         raise InputError(f"{path}: can't be read: no permission")
+
+
+def _tolerance(value: object) -> float:
+    """Check a tolerance [m]."""
+    expected = f"metres, a number >= 0 and <= {MAX_TOLERANCE:g}"
+    result = real("tolerance", value, expected)
+    if not 0 <= result <= MAX_TOLERANCE:
+        raise wrong("tolerance", value, expected)
+    return result
 
 
 def _layers(value: Any) -> list[str]:

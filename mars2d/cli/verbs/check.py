@@ -22,7 +22,7 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.figures.map import save_map
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
 from mars2d.scenario.options import options_in_words, parse_option, reading_options
 from mars2d.scenario.policy import SUFFIX as LEARNED
@@ -147,9 +147,8 @@ def _check_map(path: Path, options: dict[str, Any], picture: Path | None) -> Non
     for name in options:
         if name not in known:
             raise InputError(f"--set {name}: no option{nearest(name, known)}")
-    tolerance = options.pop("tolerance", maps.TOLERANCE)
     drawing = maps.read(path, **options)
-    for name, text in maps.described(drawing, maps.obstacles(drawing, tolerance), tolerance):
+    for name, text in maps.described(drawing, maps.obstacles(drawing)):
         tell(f"{name:<12}{text}")
     if picture is not None:
         tell(f"picture     {save_map(drawing, picture)}")
@@ -378,8 +377,8 @@ def _source_of(path: Path, record: Record) -> str:
     found = [each for each in (Path(name), path.parent / Path(name).name) if each.is_file()]
     if found:
         return str(found[0])
-    if Path(name).stem in examples():
-        return Path(name).stem
+    if experiment_name(Path(name)) in examples():
+        return experiment_name(Path(name))
     raise InputError(f"{path}: {name} is not here: name the experiment, --laws EXPERIMENT")
 
 

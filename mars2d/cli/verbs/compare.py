@@ -6,58 +6,30 @@ import argparse
 import dataclasses
 import json
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.cli.arguments import add_options, add_preferences, options_of, preferences_of
-from mars2d.cli.films import DURATION, FPS, film_speed
-from mars2d.cli.outputs import check_outputs
+from mars2d.cli.arguments import add_shared, options_of, preferences_of
+from mars2d.cli.outputs import DURATION, FPS, OUTPUTS, check_outputs, film_speed, filming
 from mars2d.cli.runs import has_display, make_folder, run_headless
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell
-from mars2d.output.figures import figure
 from mars2d.output.figures.comparison import MODES, Comparison
-from mars2d.output.films import film
 from mars2d.output.raster import require_pygame
-from mars2d.scenario.animation import playback_speed
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.record import Record
 
 if TYPE_CHECKING:
-    from mars2d.output.films.footage import Footage
     from mars2d.output.films.triptych import Reel
 
 FOLDER = Path("mars2d_compare")
 
-OUTPUTS = {"figure": figure.SUFFIXES, "video": film.SUFFIXES}
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
-    add = parser.add_argument
-    add("experiment", metavar="EXPERIMENT", help="a .py or .toml file, or the name of an example")
-    add("--seed", type=int, default=0, metavar="N", help="of all random streams")
-    add_options(parser)
-    add("--figure", type=Path, metavar="OUT", help="the picture: .png, .pdf, .svg")
-    add("--video", type=Path, metavar="OUT", help="the film: .gif, .mp4")
-    add("--speed", type=_speed, metavar="X", help="of the window or the film: 1 is real time")
-    add("--headless", action="store_true", help="without a window: a picture and a film")
-    add_preferences(parser)
-    add("--json", action="store_true", help="print the outcome as one line of JSON")
-
-
-def _speed(text: str) -> float:
-    try:
-        speed = playback_speed("--speed", float(text))
-    except ValueError:
-        speed = 0.0
-    if not isinstance(speed, float) or speed <= 0:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected a number > 0")
-    return speed
+    add_shared(parser, "experiment headless seed speed stop-time set figure video dark text json")
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -66,29 +38,34 @@ def execute(arguments: argparse.Namespace) -> None:
     In a window, if there is a display and no other output is wanted.
     """
     start = time.perf_counter()
-    check_outputs(arguments, OUTPUTS)
-    options, seed = _options(arguments), arguments.seed
-    outputs = arguments.figure, arguments.video
-    if not (arguments.headless or arguments.json or any(outputs)) and has_display():
-        _show(arguments, options, seed)
-        return
-    experiments = {mode: _opened(arguments.experiment, options, seed, mode) for mode in MODES}
-    paths = _paths(arguments)
+    check_outputs(arguments, {name: OUTPUTS[name] for name in ("figure", "video")})
+    options = options_of(arguments)
+    if "physics" in options:
+        raise InputError("--set physics: compare runs each physics by itself")
+    if arguments.speed in (0, "max"):
+        raise InputError(f"--speed {arguments.speed}: expected a number > 0")
+    opened = partial(_opened, arguments.experiment, options, arguments.seed)
+    if not (arguments.json or arguments.figure or arguments.video):
+        if not arguments.headless and has_display():
+            _show(arguments, opened)
+            return
+        require_pygame("a film")
+        make_folder(FOLDER)
+        stem = Path(arguments.experiment).stem
+        arguments.figure, arguments.video = FOLDER / f"{stem}.png", FOLDER / f"{stem}.gif"
+        arguments.speed = arguments.speed or opened("contact").scenario.stop_time / DURATION
     records: dict[str, Record] = {}
     reels: dict[str, Reel] = {}
-    for mode, experiment in experiments.items():
-        with _saying(mode):
-            footage = _footage(arguments, experiment) if "video" in paths else None
-            world = run_headless(experiment, [footage] if footage else [])
-        records[mode] = world.record
-        if footage is not None:
-            reels[mode] = footage, world.frame
+    for mode in MODES:
+        records[mode] = _run(opened(mode), mode, arguments, reels)
     comparison = Comparison(**records)
-    if not arguments.json:
-        tell(_as_table(comparison))
-    _save(comparison, reels, paths, say=not arguments.json)
     if arguments.json:
-        tell(_as_json(comparison, paths, time.perf_counter() - start))
+        _save(comparison, reels, arguments)
+        tell(_as_json(comparison, arguments, time.perf_counter() - start))
+        return
+    tell(_as_table(comparison))
+    for word, path in _save(comparison, reels, arguments).items():
+        tell(f"{word + ':':<8} {path}")
 
 
 def _opened(source: str, options: dict[str, Any], seed: int, mode: str) -> Experiment:
@@ -102,81 +79,75 @@ def _opened(source: str, options: dict[str, Any], seed: int, mode: str) -> Exper
     return dataclasses.replace(opened, scenario=scenario, opened=again)
 
 
-def _show(arguments: argparse.Namespace, options: dict[str, Any], seed: int) -> None:
+def _show(arguments: argparse.Namespace, opened: Callable[[str], Experiment]) -> None:
     """Show the runs in a window, and print how they went until it was closed."""
     from mars2d.window.show import show_comparison
 
-    own = open_experiment(arguments.experiment, options, seed=seed).scenario.animation
-    speed = own.playback_speed if arguments.speed is None else arguments.speed
-    opened = partial(_opened, arguments.experiment, options, seed)
+    own = opened("contact").scenario.animation.playback_speed
+    speed = own if arguments.speed is None else arguments.speed
     records = show_comparison(opened, speed, preferences_of(arguments))
     if all(len(record) for record in records.values()):
         tell(_as_table(Comparison(**records)))
 
 
-def _options(arguments: argparse.Namespace) -> dict[str, Any]:
-    options = options_of(arguments)
-    if "physics" in options:
-        raise InputError("--set physics: compare runs each physics by itself")
-    return options
+def _run(
+    experiment: Experiment, mode: str, arguments: argparse.Namespace, reels: dict[str, Reel]
+) -> Record:
+    """Run with a physics, which errors name; keep the frames of a film that is wanted."""
+    from mars2d.output.films.footage import Footage
 
-
-def _paths(arguments: argparse.Namespace) -> dict[str, Path]:
-    """Return the paths of figure and film; without any output option, both go into a folder."""
-    wanted = {name: path for name in OUTPUTS if (path := getattr(arguments, name)) is not None}
-    if wanted or arguments.json:
-        return wanted
-    require_pygame("a film")
-    make_folder(FOLDER)
-    name = Path(arguments.experiment).stem
-    return {"figure": FOLDER / f"{name}.png", "video": FOLDER / f"{name}.gif"}
-
-
-@contextmanager
-def _saying(mode: str) -> Iterator[None]:
-    """Add the kind of physics to the place of an error."""
+    speed = film_speed(experiment.scenario, arguments.speed)
+    footage = Footage(experiment.scenario, speed, FPS) if arguments.video else None
     try:
-        yield
+        world = run_headless(experiment, [footage] if footage else [])
     except Mars2dError as error:
         error.where = ": ".join(filter(None, [f"physics = {mode!r}", error.where]))
         raise
-
-
-def _footage(arguments: argparse.Namespace, experiment: Experiment) -> Footage:
-    from mars2d.output.films.footage import Footage
-
-    speed = arguments.speed
-    if speed is None and arguments.video is None:
-        speed = experiment.scenario.stop_time / DURATION
-    return Footage(experiment.scenario, film_speed(experiment.scenario, speed), FPS)
+    if footage:
+        reels[mode] = footage, world.frame
+    return world.record
 
 
 def _save(
-    comparison: Comparison, reels: dict[str, Reel], paths: dict[str, Path], *, say: bool
-) -> None:
-    """Save the requested figure and film, and print their paths."""
-    if "figure" in paths:
-        comparison.save_figure(paths["figure"])
-        if say:
-            tell(f"picture: {paths['figure']}")
-    if "video" in paths:
-        from mars2d.output.films.triptych import save_triptych
+    comparison: Comparison, reels: dict[str, Reel], arguments: argparse.Namespace
+) -> dict[str, Path]:
+    """Save the requested picture and film, and return their paths."""
+    made: dict[str, Path] = {}
+    if arguments.figure:
+        made["picture"] = comparison.save_figure(arguments.figure)
+    if arguments.video:
+        from mars2d.output.films.film import save_pictures
+        from mars2d.output.films.triptych import triptych
 
-        progress = Progress(max(footage.count(last) for footage, last in reels.values()), "frames")
-        try:
-            save_triptych(comparison, reels, paths["video"], fps=FPS, progress=progress.update)
-        finally:
-            progress.close()
-        if say:
-            tell(f"film:    {paths['video']}")
+        made["film"] = arguments.video
+        with filming(max(footage.count(last) for footage, last in reels.values())) as update:
+            save_pictures(triptych(comparison, reels), arguments.video, FPS, update)
+    return made
 
 
-def _rows(comparison: Comparison) -> list[dict[str, Any]]:
-    """Return the outcome of each run; the drift is that at the last time of both runs."""
-    rows = []
+def _as_table(comparison: Comparison) -> str:
+    """Return the outcome as a table, with the final drift from the run with contact."""
+    lines = [("physics", "steps", "collisions", "drift max", "drift mean", "ended")]
     for mode, record in comparison.records.items():
         drift = comparison.drifts.get(mode)
-        rows.append(
+        # Less than a micrometre is rounding.
+        last = [] if drift is None else [drift.max[-1], drift.mean[-1]]
+        apart = [f"{round(float(each), 6):.3g} m" for each in last] or ["-", "-"]
+        counts = str(len(record) - 1), str(record.collisions)
+        lines.append((mode, *counts, apart[0], apart[1], record.over_message))
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    table = [f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}"]
+    for first, *middle, last_word in lines:
+        cells = [cell.rjust(width) for cell, width in zip(middle, widths[1:-1], strict=True)]
+        table.append("  ".join([first.ljust(widths[0]), *cells, last_word]))
+    return "\n".join(table)
+
+
+def _as_json(comparison: Comparison, arguments: argparse.Namespace, seconds: float) -> str:
+    runs = []
+    for mode, record in comparison.records.items():
+        drift = comparison.drifts.get(mode)
+        runs.append(
             {
                 "physics": mode,
                 "ticks": len(record) - 1,
@@ -188,37 +159,8 @@ def _rows(comparison: Comparison) -> list[dict[str, Any]]:
                 "digest": record.digest,
             }
         )
-    return rows
-
-
-def _as_table(comparison: Comparison) -> str:
-    """Return the outcome as a table, with the final drift from the run with contact."""
-    lines = [("physics", "steps", "collisions", "drift max", "drift mean", "ended")]
-    for row in _rows(comparison):
-        drifts = ("-", "-")
-        if row["physics"] != "contact":
-            drifts = _metres(row["drift_max"]), _metres(row["drift_mean"])
-        counts = str(row["ticks"]), str(row["collisions"])
-        lines.append((row["physics"], *counts, *drifts, row["message"]))
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    table = [f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}"]
-    for first, *middle, last in lines:
-        cells = [cell.rjust(width) for cell, width in zip(middle, widths[1:-1], strict=True)]
-        table.append("  ".join([first.ljust(widths[0]), *cells, last]))
-    return "\n".join(table)
-
-
-def _metres(distance: float) -> str:
-    """Return a distance as text; less than a micrometre is rounding and shown as 0."""
-    return f"{round(distance, 6):.3g} m"
-
-
-def _as_json(comparison: Comparison, paths: dict[str, Path], seconds: float) -> str:
-    outcome = {
-        "title": comparison.contact.scenario.title,
-        "seed": comparison.contact.seed,
-        "runs": _rows(comparison),
-        **{name: str(path) for name, path in paths.items()},
-        "wall_s": round(seconds, 6),
-    }
-    return json.dumps(outcome)
+    scenario, seed = comparison.contact.scenario, comparison.contact.seed
+    files = {"figure": arguments.figure, "video": arguments.video}
+    outcome = {"title": scenario.title, "seed": seed, "runs": runs}
+    outcome |= {name: str(path) for name, path in files.items() if path}
+    return json.dumps(outcome | {"wall_s": round(seconds, 6)})

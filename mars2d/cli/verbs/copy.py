@@ -9,16 +9,14 @@ from pathlib import Path
 
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import GAME, examples
 from mars2d.scenario.experiment import open_experiment
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the example, and the folder."""
     parser.add_argument("example", metavar="EXAMPLE", help="its name, as in mars2d demo")
-    parser.add_argument(
-        "folder", metavar="FOLDER", nargs="?", default=".", help="where to; else here"
-    )
+    parser.add_argument("folder", metavar="FOLDER", nargs="?", default=".", help="else here")
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -27,8 +25,11 @@ def execute(arguments: argparse.Namespace) -> None:
     if name not in examples():
         raise InputError(f"there is no example {name!r}{nearest(name, examples())}")
     path = examples()[name]
-    read = {file.relative_to(path.parent).parts[0] for file in open_experiment(path).source.written}
-    sources = [path, *(path.parent / each for each in sorted(read - {path.name}))]
+    if path.name == GAME:
+        sources = [path.parent]
+    else:
+        read = [file.relative_to(path.parent) for file in open_experiment(path).source.written]
+        sources = sorted({path.parent / file.parts[0] for file in read})
     for source in sources:
         if (folder / source.name).exists():
             raise InputError(
@@ -38,10 +39,10 @@ def execute(arguments: argparse.Namespace) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for source in sources:
         if source.is_dir():
-            unwanted = shutil.ignore_patterns("__pycache__")
+            unwanted = shutil.ignore_patterns("__pycache__", "light.png", "dark.png", "solution.py")
             shutil.copytree(source, folder / source.name, ignore=unwanted)
         else:
             shutil.copyfile(source, folder / source.name)
     copied = ", ".join(f"{each.name}/" if each.is_dir() else each.name for each in sources)
-    run = shlex.join(["mars2d", "run", str(folder / f"{name}.py")])
+    run = shlex.join(["mars2d", "run", str(folder / path.relative_to(sources[0].parent))])
     tell(f"{copied}: copied; run it: {run}")

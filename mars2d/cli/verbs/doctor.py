@@ -3,20 +3,67 @@
 from __future__ import annotations
 
 import argparse
+import json
+from pathlib import Path
 
-from mars2d.core.errors import Mars2dError
+from mars2d.cli.verbs import VERBS
+from mars2d.core.errors import InputError, Mars2dError, nearest
+from mars2d.core.extras import extra
+from mars2d.core.files import atomic_write
 from mars2d.core.terminal import tell
-from mars2d.reports.doctor import examine
 
 MARKS = {True: "ok", None: "--", False: "NO"}
 
+PREAMBLE = {
+    "bash": """\
+_mars2d_experiments() {{
+  compgen -W "{names}" -- "$1"
+  compgen -f -X '!*.py' -- "$1"
+  compgen -f -X '!*.toml' -- "$1"
+  compgen -d -S / -- "$1"
+}}
+""",
+    "zsh": """\
+_mars2d_experiments() {{
+  compadd {names}
+  _files -g '*.(py|toml)'
+}}
+""",
+}
+"""A function of the shell that completes the names of examples, and files."""
 
-def add_arguments(_: argparse.ArgumentParser) -> None:
-    """Add nothing: the verb has no arguments."""
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add what to print instead of the examination."""
+    add = parser.add_argument
+    add(
+        "--completion",
+        metavar="SHELL",
+        help="print the script by which bash, zsh, tcsh, fish or powershell completes commands",
+    )
+    add(
+        "--schema",
+        nargs="?",
+        const=Path("-"),
+        type=Path,
+        metavar="OUT",
+        help="print the JSON Schema of scenario files, for editors, or write it to a file",
+    )
 
 
-def execute(_: argparse.Namespace) -> None:
+def execute(arguments: argparse.Namespace) -> None:
     """Show the libraries and devices of this machine, and test the installation."""
+    if arguments.completion is not None:
+        tell(_completion(arguments.completion))
+    elif arguments.schema is not None:
+        _write_schema(arguments.schema)
+    else:
+        _examine()
+
+
+def _examine() -> None:
+    from mars2d.reports.doctor import examine
+
     broken = []
     for finding in examine():
         tell(f"{MARKS[finding.ok]}  {finding.name:<12}{finding.text}")
@@ -24,3 +71,39 @@ def execute(_: argparse.Namespace) -> None:
             broken.append(finding.name)
     if broken:
         raise Mars2dError(f"the installation does not work: {', '.join(broken)}")
+
+
+def _write_schema(path: Path) -> None:
+    from mars2d.scenario.schema import schema
+
+    text = json.dumps(schema(), indent=1) + "\n"
+    if path == Path("-"):
+        tell(text, end="")
+        return
+    with atomic_write(path) as file:
+        file.write(text.encode())
+
+
+def _completion(shell: str) -> str:
+    """Return the script by which a shell completes commands, options and examples."""
+    from mars2d.cli.command_line import parser_of
+    from mars2d.scenario.examples import examples
+
+    with extra("completion", "completion needs shtab"):
+        import shtab
+    if shell not in shtab.SUPPORTED_SHELLS:
+        hint = nearest(shell, shtab.SUPPORTED_SHELLS)
+        raise InputError(f"--completion {shell}: shtab has no script for it{hint}")
+    root = argparse.ArgumentParser(prog="mars2d")
+    verbs = root.add_subparsers()
+    experiments = dict.fromkeys(PREAMBLE, "_mars2d_experiments")
+    for name, line in VERBS.items():
+        verb = verbs.add_parser(name, help=line, parents=[parser_of(name)], add_help=False)
+        for action in verb._actions:
+            if action.metavar in ("EXPERIMENT", "EXAMPLE", "GAME") and not action.option_strings:
+                action.complete = experiments  # type: ignore[attr-defined]
+            elif action.type is Path or action.metavar == "FILE":
+                action.complete = shtab.FILE  # type: ignore[attr-defined]
+    names = " ".join(examples())
+    preamble = {each: text.format(names=names) for each, text in PREAMBLE.items()}
+    return str(shtab.complete(root, shell, preamble=preamble))  # type: ignore[arg-type]

@@ -5,14 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mars2d.cli.arguments import add_preferences, preferences_of
-from mars2d.cli.runs import has_display
+from mars2d.cli.arguments import add_shared, options_of, preferences_of
+from mars2d.cli.runs import require_display
 from mars2d.core.errors import InputError
 from mars2d.core.terminal import warn
-from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.options import parse_option
 from mars2d.scenario.scenario import Scenario
 
 NO_DISPLAY = (
@@ -23,26 +21,23 @@ NO_DISPLAY = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
-    add = parser.add_argument
-    add("scenario", metavar="SCENARIO", nargs="?", help="a .toml or .py file, or an example")
-    add("--set", action="append", default=[], metavar="KEY=VALUE", help="override a field")
-    add_preferences(parser)
+    what = "a .toml or .py file, or an example"
+    parser.add_argument("scenario", metavar="SCENARIO", nargs="?", help=what)
+    add_shared(parser, "set dark text")
 
 
 def execute(arguments: argparse.Namespace) -> None:
     """Draw a scenario with the mouse, a new one or that of a file, and save it as a file."""
-    options = dict(parse_option(setting) for setting in arguments.set)
+    options = options_of(arguments)
     path = None if arguments.scenario is None else Path(arguments.scenario)
     new = path is None or (path.suffix.lower() == ".toml" and not path.exists())
     if new and path is not None and not path.parent.is_dir():
         raise InputError(f"{path}: there is no folder {path.parent}")
     experiment = open_experiment(Scenario() if new else arguments.scenario, options)
-    if not has_display():
-        require_pygame("a window")
-        raise InputError(NO_DISPLAY)
+    require_display(NO_DISPLAY)
     from mars2d.window.editor import Editor
     from mars2d.window.editor_window import EditorWindow
-    from mars2d.window.looks import Looks
+    from mars2d.window.screen.looks import Looks
 
     robots_wanted = any(name.partition(".")[0] == "robots" for name in options)
     editor = Editor(

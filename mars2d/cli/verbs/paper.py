@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 
 from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.progress import Progress
 from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
-from mars2d.reports.paper.figure import Figure, Result
-from mars2d.reports.paper.figures import FIGURES
-from mars2d.reports.paper.folder import prepare, remove, write_page
-from mars2d.reports.paper.make import make_all
+from mars2d.reports.paper.figures import FIGURES, Result
+from mars2d.reports.paper.make import finish, make_all, prepare
 from mars2d.reports.paper.page import verdict
 
 
@@ -41,42 +38,37 @@ def execute(arguments: argparse.Namespace) -> None:
     """Regenerate the figures of the MARS paper on a page that compares them with theory."""
     seed, folder = check_seed(arguments.seed), arguments.folder
     figures = [f for f in FIGURES if arguments.only is None or f.number in arguments.only]
-    prepare(folder, [name for figure in FIGURES for name in figure.files])
+    prepare(folder)
     done: dict[int, Result] = {}
     progress = Progress(len(figures), after=0)
-
-    def watch(count: int, active: Sequence[int]) -> None:
-        progress.update(count, f"figure {' and '.join(map(str, active))}")
-
     try:
-        make_all(figures, folder, seed, done, watch)
+        progress.update(0, "the first figures")
+        for result in make_all(figures, folder, seed):
+            done[result.number] = result
+            progress.update(len(done), f"figure {result.number} is made")
     finally:  # also after Ctrl-C: the page then shows the figures made so far
         progress.close()
-        remove([name for f in figures if f.number not in done for name in f.files], folder)
-        path = write_page(folder, figures, done, seed)
-        _report(figures, done, path)
+        path = finish(folder, figures, done, seed)
+        for figure in figures:
+            width = max(len(each.title) for each in figures)
+            _report(f"{figure.title:<{width}}", figure.number, done.get(figure.number))
+        failed = sum(result.failed for result in done.values())
+        if failed:
+            tell(f"{counted(failed, 'prediction')} {'does' if failed == 1 else 'do'} not hold")
+        tell(f"page: {path}")
     broken = [number for number, result in sorted(done.items()) if result.problems]
     if broken:
         raise Mars2dError(f"not all was made: see figure {', '.join(map(str, broken))} above")
 
 
-def _report(figures: Sequence[Figure], done: dict[int, Result], path: Path) -> None:
-    """Print the verdict on each figure, failed predictions, and the page's path."""
-    width = max(len(figure.title) for figure in figures)
-    for figure in figures:
-        result = done.get(figure.number)
-        words = "not made" if result is None else verdict(result)
-        tell(f"figure {figure.number}  {figure.title:<{width}}  {words}")
-        if result is None:
-            continue
-        for problem in result.problems:
-            tell(f"          {problem}")
-        for picture in result.pictures:
-            for p in picture.predictions:
-                if not p.ok:
-                    tell(f"          NOT OK: {picture.title}: {p.name}")
-    failed = sum(result.failed for result in done.values())
-    if failed:
-        verb = "does" if failed == 1 else "do"
-        tell(f"{counted(failed, 'prediction')} {verb} not hold")
-    tell(f"page: {path}")
+def _report(title: str, number: int, result: Result | None) -> None:
+    """Print the verdict on a figure, and its failed predictions."""
+    tell(f"figure {number}  {title}  {'not made' if result is None else verdict(result)}")
+    if result is None:
+        return
+    for problem in result.problems:
+        tell(f"          {problem}")
+    for picture in result.pictures:
+        for p in picture.predictions:
+            if not p.ok:
+                tell(f"          NOT OK: {picture.title}: {p.name}")

@@ -3,44 +3,43 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from itertools import count
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import times
-from mars2d.cli.outputs import check_outputs, naming_lost_letters
+from mars2d.cli.arguments import add_shared
+from mars2d.cli.outputs import OUTPUTS, check_outputs, naming_lost_letters
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
 from mars2d.output.figures import figure
 from mars2d.output.figures.style import STYLES, style_of
-from mars2d.output.formats import SUFFIXES
 from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.scenario.examples import examples
 from mars2d.world.record import Record, load
 
 KINDS = ("paths", "snapshots", "signals", "energy", "momentum", "contacts", "distances")
 
-DRAWINGS = ("paths", "snapshots")
-"""The kinds that show the plane, by layers."""
-
-KIND_OF_OPTION = {"at": "snapshots"} | dict.fromkeys(("columns", "robots", "from", "to"), "signals")
-"""Options that belong to one kind of figure."""
+OPTIONS = {
+    "--at": (("snapshots",), "at"),
+    "--layers": (("paths", "snapshots"), "layers"),
+    "--columns": (("signals",), "columns"),
+    "--robots": (("signals",), "robots"),
+    "--from": (("signals",), "start"),
+    "--to": (("signals",), "end"),
+}
+"""Options of some kinds of figures only: the kinds, and where the value is."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
+    add_shared(parser, "record")
     add = parser.add_argument
-    add("record", type=Path, metavar="RECORD", help=f"a saved run: {', '.join(SUFFIXES)}")
     add("kind", metavar="KIND", nargs="?", default="paths", help=f"{', '.join(KINDS)}")
-    add("--figure", type=Path, metavar="OUT", help="the figure's file: .png, .pdf, .svg")
     add("--columns", type=_words, metavar="A,B,...", help="signals: such as x,speed,effort")
     add("--robots", type=_words, metavar="A,B,...", help="signals: of robots, by name or index")
-    add("--from", type=float, metavar="S", help="signals: start at this time")
-    add("--to", type=float, metavar="S", help="signals: end at this time")
-    add("--at", type=times, metavar="T1,T2,...", help="snapshots: at these times")
     add("--layers", type=_words, metavar="A,B,...", help="such as names,neighbours,no-grid")
     add("--style", default="screen", metavar="STYLE", help=f"{', '.join(STYLES)}")
+    add_shared(parser, "figure at from to")
 
 
 def _words(text: str) -> list[str]:
@@ -55,55 +54,48 @@ def execute(arguments: argparse.Namespace) -> None:
     kind, path = arguments.kind, arguments.record
     if kind not in KINDS:
         raise InputError(f"there is no figure of {kind!r}{nearest(kind, KINDS)}")
-    for option, only in KIND_OF_OPTION.items():
-        if getattr(arguments, option) is not None and kind != only:
-            raise InputError(f"--{option} is for {only}: mars2d plot {path} {only}")
-    if arguments.layers is not None and kind not in DRAWINGS:
-        raise InputError(f"--layers is for {' and '.join(DRAWINGS)}: mars2d plot {path} paths")
+    for option, (kinds, name) in OPTIONS.items():
+        if getattr(arguments, name) is not None and kind not in kinds:
+            wanted = f"{' and '.join(kinds)}: mars2d plot {path} {kinds[0]}"
+            raise InputError(f"{option} is for {wanted}")
     if kind == "snapshots" and arguments.at is None:
         raise InputError("snapshots need their times, such as --at 0,5,end")
     look = style_of(arguments.style)
-    check_outputs(arguments, {"figure": figure.SUFFIXES})
-    _refuse_experiments(path)
-    record = load(path)
-    draw = _drawing(arguments, record)
-    target = arguments.figure or _free(f"{path.stem}_{kind}")
-    with naming_lost_letters():
-        tell(figure.save_drawing(draw, target, trim=look.trim, dpi=look.dpi))
-
-
-def _refuse_experiments(path: Path) -> None:
-    """Raise InputError for an experiment, which has to be run first."""
+    check_outputs(arguments, {"figure": OUTPUTS["figure"]})
     if path.suffix in (".py", ".toml") or (str(path) in examples() and not path.exists()):
-        raise InputError(
-            f"{path}: an experiment; run it first: mars2d run {path} --record {path.stem}.npz"
+        first = f"mars2d run {path} --record {path.stem}.npz"
+        raise InputError(f"{path}: an experiment; run it first: {first}")
+    record = load(path)
+    layers = _layers(arguments.layers, record, paths=kind == "paths")
+    names = (f"{path.stem}_{kind}{f'_{k}' if k > 1 else ''}.png" for k in count(1))
+    target = arguments.figure or next(Path(name) for name in names if not Path(name).exists())
+    with naming_lost_letters():
+        tell(
+            figure.save_drawing(
+                lambda: _drawing(arguments, record, layers), target, trim=look.trim, dpi=look.dpi
+            )
         )
 
 
-def _drawing(arguments: argparse.Namespace, record: Record) -> Callable[[], Any]:
-    """Return the function that makes the figure."""
-    paths = arguments.kind == "paths"
-    style, layers = arguments.style, _layers(arguments.layers, record, paths=paths)
-    makers: dict[str, Callable[[], Any]] = {
-        "paths": lambda: figure.plot_paths(record, style=style, layers=layers).figure,
-        "snapshots": lambda: figure.plot_snapshots(
-            record, arguments.at, style=style, layers=layers
-        ),
-        "signals": lambda: (
-            record.plot_signals(
-                *arguments.columns or (),
-                robots=_robots(arguments.robots, record),
-                start=getattr(arguments, "from"),
-                end=arguments.to,
-                style=style,
-            )[0].figure
-        ),
-        "energy": lambda: record.plot_signals("energy", "kinetic", style=style)[0].figure,
-        "momentum": lambda: record.plot_signals("momentum", style=style)[0].figure,
-        "contacts": lambda: record.plot_contacts(style=style)[0].figure,
-        "distances": lambda: record.plot_distances(style=style).figure,
-    }
-    return makers[arguments.kind]
+def _drawing(arguments: argparse.Namespace, record: Record, layers: Layers | None) -> Any:
+    """Return the figure."""
+    kind, style = arguments.kind, arguments.style
+    if kind == "paths":
+        return figure.plot_paths(record, style=style, layers=layers).figure
+    if kind == "snapshots":
+        return figure.plot_snapshots(record, arguments.at, style=style, layers=layers)
+    if kind == "contacts":
+        return record.plot_contacts(style=style)[0].figure
+    if kind == "distances":
+        return record.plot_distances(style=style).figure
+    columns = {"energy": ("energy", "kinetic"), "momentum": ("momentum",)}
+    return record.plot_signals(
+        *columns.get(kind, arguments.columns or ()),
+        robots=_robots(arguments.robots, record),
+        start=arguments.start,
+        end=arguments.end,
+        style=style,
+    )[0].figure
 
 
 def _layers(words: list[str] | None, record: Record, *, paths: bool) -> Layers | None:
@@ -127,9 +119,3 @@ def _robots(words: list[str] | None, record: Record) -> list[str | int] | None:
         return None
     names = {robot.name for robot in record.scenario.robots}
     return [int(w) if w.isdecimal() and w not in names else w for w in words]
-
-
-def _free(stem: str) -> Path:
-    """Return the name of a new file in the current folder."""
-    names = (Path(f"{stem}_{k}.png" if k > 1 else f"{stem}.png") for k in count(1))
-    return next(path for path in names if not path.exists())

@@ -11,42 +11,26 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from mars2d.cli import remarks
-from mars2d.cli.arguments import (
-    add_human,
-    add_options,
-    add_preferences,
-    add_run_arguments,
-    add_speed,
-    add_theory,
-    humans_of,
-    options_of,
-    preferences_of,
-    theory_of,
-)
-from mars2d.cli.films import FPS, Film, check_film, film_speed, save_footage
+from mars2d.cli.arguments import add_shared, options_of, preferences_of
 from mars2d.cli.outputs import (
+    FPS,
     OUTPUTS,
-    add_pictures,
+    Make,
+    check_film,
     check_outputs,
-    check_snapshots,
+    film_speed,
     run_and_save,
+    save_footage,
     say,
     tell_files,
 )
-from mars2d.cli.runs import (
-    has_display,
-    predictions_of,
-    print_predictions,
-    run_headless,
-    show,
-    warn_unchecked,
-)
+from mars2d.cli.runs import has_display, require_display, run_headless, show
 from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
-from mars2d.output.raster import require_pygame
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.prediction import Prediction
+from mars2d.scenario.prediction import Prediction, table
+from mars2d.scenario.roles import robots_named
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
 from mars2d.world.world import Watcher
@@ -60,18 +44,15 @@ LONG = 20.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
+    add_shared(parser, "experiment headless seed speed stop-time set figure at video size from to")
+    add_shared(parser, "html theory dark text json")
     add = parser.add_argument
-    add("experiment", metavar="EXPERIMENT", help="a .py or .toml file, or the name of an example")
-    add_run_arguments(parser)
-    add_speed(parser)
-    add_options(parser)
     add(
         "--record",
         type=Path,
         metavar="OUT",
         help="save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc",
     )
-    add_pictures(parser)
     add(
         "--foxglove",
         type=int,
@@ -80,53 +61,76 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PORT",
         help=f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}",
     )
-    add_theory(parser)
-    add_human(parser)
-    add_preferences(parser)
-    add("--json", action="store_true", help="print the outcome as one line of JSON")
+    add(
+        "--human",
+        action="append",
+        default=[],
+        metavar="WHO",
+        help="a robot to drive by hand: its name or index, or a role; may be given twice",
+    )
 
 
 def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment, in a window if there is a display, and save the requested files."""
     check_outputs(arguments, OUTPUTS)
-    check_snapshots(arguments)
-    options = options_of(arguments) | theory_of(arguments)
-    experiment = open_experiment(arguments.experiment, options, seed=arguments.seed)
-    _check_times(arguments, experiment)
-    scenario = experiment.scenario
-    check_film(arguments, scenario, scenario.last_iteration * scenario.sampling_time)
-    humans_of(arguments, experiment)
+    if arguments.at is not None and arguments.figure is None:
+        raise InputError("--at needs --figure OUT")
+    experiment = open_experiment(arguments.experiment, options_of(arguments), seed=arguments.seed)
+    humans = _check(arguments, experiment)
     for remark in remarks.before(experiment):
         warn(remark)
-    bounds = remarks.Bounds()
-    start = time.perf_counter()
-    run = _run_in_window if _wants_window(arguments) else _run_headless
+    bounds, start = remarks.Bounds(), time.perf_counter()
     try:
         with _live(arguments) as live:
             watchers: list[Watcher] = [bounds, *live]
-            record, made, troubles = run_and_save(
-                arguments, lambda: run(arguments, experiment, watchers)
-            )
+
+            def run() -> tuple[Record, Make | None]:
+                if not _wants_window(arguments):
+                    return _run_headless(arguments, experiment, watchers)
+                log, kept = formats.log_to(arguments.record), arguments.record is not None
+                look, speed = preferences_of(arguments), arguments.speed
+                return show(experiment, speed, look, humans, log, watchers, kept=kept), None
+
+            record, made, troubles = run_and_save(arguments, run)
     except Interrupted:
-        warn_unchecked(experiment, "cut short")
+        _warn_unchecked(experiment, "cut short")
         raise
-    lawless = experiment.control is None and not any(
-        robot.controller for robot in experiment.scenario.robots
-    )
-    if lawless and not experiment.scenario.props:
-        warn(f"there is no law, so all robots stood still{_law_meant(experiment)}")
+    _warn_lawless(experiment)
     if arguments.json:
-        predictions = predictions_of(experiment, record)
+        predictions = _predictions(experiment, record)
         tell(_as_json(record, predictions, time.perf_counter() - start))
     else:
         tell(_as_text(record))
-        print_predictions(experiment, record)
+        if predictions := _predictions(experiment, record):
+            title = [experiment.source.summary] if experiment.source.summary else []
+            tell("", *title, table(predictions), sep="\n")
         for remark in bounds.remarks():
             tell(f"note: {remark}")
         tell_files(made)
     if troubles:
         say(troubles[:-1])
         raise troubles[-1]
+
+
+def _check(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
+    """Return the robots that --human names. Raises InputError for what can't be done."""
+    scenario = experiment.scenario
+    for moment in arguments.at or ():
+        if moment != "end" and not 0 <= moment <= scenario.stop_time:
+            last = f"the experiment goes from 0 to {scenario.stop_time:g} s"
+            raise InputError(f"--at {moment:g}: {last}")
+    check_film(arguments, scenario, scenario.last_iteration * scenario.sampling_time)
+    humans = robots_named(scenario, arguments.human, "--human")
+    needs = ""
+    if humans:
+        needs = f"--human {', '.join(arguments.human)}: driving by hand"
+    elif arguments.speed == 0:
+        needs = "--speed 0 makes one step a key press, and"
+    if needs and arguments.headless:
+        raise InputError(f"{needs} needs a window, not --headless")
+    if needs:
+        require_display(f"{needs} needs a window, and there is no display")
+    return humans
 
 
 @contextmanager
@@ -142,71 +146,31 @@ def _live(arguments: argparse.Namespace) -> Iterator[list[Watcher]]:
         yield [live]
 
 
-def _law_meant(experiment: Experiment) -> str:
-    """Return how a function of the file that is no law becomes one, or ""."""
-    for name, function in experiment.source.functions.items():
-        first = next(iter(inspect.signature(function).parameters), "")
-        if first == "robot":
-            return f"; give {name}(robot) to a robot: Robot(controller={name})"
-        if first == "world" or likely(name, ["control"]):
-            return f"; the law of the team must be called control: rename {name}({first})"
-    return ""
-
-
-def _check_times(arguments: argparse.Namespace, experiment: Experiment) -> None:
-    last = experiment.scenario.stop_time
-    for moment in arguments.at or ():
-        if moment != "end" and not 0 <= moment <= last:
-            raise InputError(f"--at {moment:g}: the experiment goes from 0 to {last:g} s")
-
-
 def _wants_window(arguments: argparse.Namespace) -> bool:
-    if not arguments.headless and has_display():
-        return True
-    if arguments.speed == 0:
-        require_pygame("a window")
-        why = "it needs a window, not --headless" if arguments.headless else "there is no display"
-        raise InputError(f"--speed 0 makes one step a key press: {why}")
-    if not arguments.headless:
-        warn("there is no display, so this runs without a window")
+    if arguments.headless or has_display():
+        return not arguments.headless
+    warn("there is no display, so this runs without a window")
     return False
-
-
-def _run_in_window(
-    arguments: argparse.Namespace, experiment: Experiment, watchers: Sequence[Watcher]
-) -> tuple[Record, Film | None]:
-    people, look = humans_of(arguments, experiment), preferences_of(arguments)
-    log = formats.log_to(arguments.record)
-    record = show(
-        experiment,
-        arguments.speed,
-        look,
-        people,
-        log,
-        watchers,
-        kept=arguments.record is not None,
-    )
-    return record, None
 
 
 def _run_headless(
     arguments: argparse.Namespace, experiment: Experiment, watchers: Sequence[Watcher]
-) -> tuple[Record, Film | None]:
+) -> tuple[Record, Make | None]:
     """Run as fast as possible, or in real time for Foxglove; --speed is the film's, too."""
-    log = formats.log_to(arguments.record)
-    pace = "max" if arguments.foxglove is None else arguments.speed or 1.0
-    if arguments.video is None:
-        world = run_headless(experiment, watchers, log, pace)
-        _advise_to_compile(world.simulation.engine_seconds)
-        return world.record, None
     from mars2d.output.films.footage import Footage
 
+    log = formats.log_to(arguments.record)
+    pace = "max" if arguments.foxglove is None else arguments.speed or 1.0
     speed = film_speed(experiment.scenario, arguments.speed)
-    footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
-    world = run_headless(experiment, [footage, *watchers], log, pace)
+    if arguments.video is None:
+        world, film = run_headless(experiment, watchers, log, pace), None
+    else:
+        footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
+        world = run_headless(experiment, [footage, *watchers], log, pace)
+        last = world.frame
+        film = lambda: save_footage(footage, last, arguments)  # noqa: E731
     _advise_to_compile(world.simulation.engine_seconds)
-    last, path, size = world.frame, arguments.video, arguments.size
-    return world.record, lambda: save_footage(footage, last, path, size)
+    return world.record, film
 
 
 def _advise_to_compile(seconds: float) -> None:
@@ -221,6 +185,35 @@ def _advise_to_compile(seconds: float) -> None:
         f"the engine took {seconds:.0f} s, since {reason_without()}. "
         f"Compiled it is many times quicker: {remedy()}"
     )
+
+
+def _warn_lawless(experiment: Experiment) -> None:
+    """Say that no robot has a law, and how a function of the file that is none becomes one."""
+    scenario, hint = experiment.scenario, ""
+    laws = [experiment.control, *(robot.controller for robot in scenario.robots)]
+    if any(laws) or scenario.props:
+        return
+    for name, function in experiment.source.functions.items():
+        first = next(iter(inspect.signature(function).parameters), "")
+        if first == "robot":
+            hint = f"; give {name}(robot) to a robot: Robot(controller={name})"
+        elif first == "world" or likely(name, ["control"]):
+            hint = f"; the law of the team must be called control: rename {name}({first})"
+    warn(f"there is no law, so all robots stood still{hint}")
+
+
+def _predictions(experiment: Experiment, record: Record) -> Sequence[Prediction]:
+    """Return the predictions of an experiment's checks; print why if they can't be made."""
+    if not record.finished:
+        _warn_unchecked(experiment, "cut short")
+    elif record.interventions:
+        _warn_unchecked(experiment, "changed by hand")
+    return experiment.predictions(record)
+
+
+def _warn_unchecked(experiment: Experiment, happened: str) -> None:
+    if experiment.source.checks is not None:
+        warn(f"the run was {happened}, so its checks were not made")
 
 
 def _as_text(record: Record) -> str:

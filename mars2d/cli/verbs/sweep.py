@@ -15,8 +15,8 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output.figures.style import STYLES, style_of
 from mars2d.study.kept import records_beside
 from mars2d.study.plan import Plan, parse_all, seeds_of, settings_of
-from mars2d.study.prepare import prepared
 from mars2d.study.run import run_study
+from mars2d.study.study import prepared
 from mars2d.study.table import Table, is_table, load_table
 from mars2d.study.units import checked_units, parse_units
 

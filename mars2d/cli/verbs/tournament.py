@@ -16,6 +16,7 @@ from mars2d.core.scene import NAMED, rgb
 from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
+from mars2d.scenario.examples import experiment_name
 from mars2d.study.plan import parse_all
 from mars2d.study.work import worker_count
 from mars2d.tournaments.folder import played_before
@@ -82,7 +83,7 @@ def execute(arguments: argparse.Namespace) -> None:
             return
     players = [file for files in arguments.players for file in files]
     planned = schedule(arguments.scenario, roles, players, **more)
-    path = arguments.out or Path(f"tournament_{Path(planned.experiment).stem}")
+    path = arguments.out or Path(f"tournament_{experiment_name(Path(planned.experiment))}")
     if arguments.match is None:
         _play_all(arguments, planned, path, limits)
     else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -53,21 +54,49 @@ def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) 
     """
     ppm = points_per_metre(ax)
     for shape in scene.shapes:
-        if isinstance(shape, Circle):
-            _circle(shape, ax, scale, level, ppm)
-        elif isinstance(shape, Line):
-            _line(shape, ax, scale, level, ppm)
-        elif isinstance(shape, Polygon):
-            _polygon(shape, ax, scale, level)
-        elif isinstance(shape, Arrow):
-            _arrow(shape, ax, scale, level, ppm)
+        if isinstance(shape, Text):
+            _write(shape, ax, scale, level)
         elif isinstance(shape, Image):
-            _image(shape, ax, level)
+            _show(shape, ax, level)
         else:
-            _text(shape, ax, scale, level)
+            for artist in artists(shape, scale, ppm):
+                artist.set_zorder(level)
+                artist.set_in_layout(False)  # it stays within the axes
+                ax.add_artist(artist)
     if scene.shapes:
         ax.update_datalim(np.vstack([_corners(shape) for shape in scene.shapes]))
         ax.autoscale_view()
+
+
+def artists(
+    shape: Circle | Line | Polygon | Arrow, scale: float, ppm: float
+) -> Iterator[Line2D | Patch]:
+    """Yield the artists of a shape, the first one lowest; ppm: the points of a metre."""
+    from matplotlib import patches
+    from matplotlib.lines import Line2D
+
+    if isinstance(shape, Line):
+        yield _line(shape, scale, ppm)
+        return
+    fill, edge = shape.fill or "none", shape.stroke or "none"
+    width = shape.width * scale if shape.stroke else 0.0
+    colors: dict[str, Any] = {"facecolor": fill, "edgecolor": edge, "joinstyle": "round"}
+    if isinstance(shape, Arrow):
+        points = arrow_outline(shape.tail, shape.tip, shape.width * scale / ppm)
+        yield patches.Polygon(points, linewidth=0.8 * width, **colors)
+        yield patches.Polygon(points, linewidth=0.0, **colors)
+    elif isinstance(shape, Polygon):
+        if len(shape.points):
+            yield patches.Polygon(shape.points, linewidth=width, **colors)
+    elif shape.radius == 0:  # a mark, which keeps its size when zoomed
+        (x, y), size = shape.center, 2 * shape.pixels * scale
+        yield Line2D(
+            [x], [y], linestyle="none", marker="o", markersize=size, markerfacecolor=fill,
+            markeredgecolor=edge, markeredgewidth=width,
+        )  # fmt: skip
+    else:
+        radius = shape.radius + shape.pixels * scale / ppm
+        yield patches.Circle(shape.center, radius, linewidth=width, **colors)
 
 
 def _corners(shape: Shape) -> Float:
@@ -81,64 +110,7 @@ def _corners(shape: Shape) -> Float:
     return np.reshape(shape.position, (1, 2)) if isinstance(shape, Text) else shape.points
 
 
-def _add(artist: Line2D | Patch, ax: Axes) -> None:
-    """Add a shape to axes, ignored by the layout since it stays within them."""
-    artist.set_in_layout(False)
-    ax.add_artist(artist)
-
-
-def _circle(shape: Circle, ax: Axes, scale: float, level: float, ppm: float) -> None:
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Circle as Disc
-
-    fill, stroke = shape.fill or "none", shape.stroke or "none"
-    width = shape.width * scale if shape.stroke else 0.0
-    if shape.radius == 0:  # a mark, which keeps its size when zoomed
-        x, y = shape.center
-        size = 2 * shape.pixels * scale
-        mark = Line2D(
-            [x], [y], linestyle="none", marker="o", markersize=size,
-            markerfacecolor=fill, markeredgecolor=stroke, markeredgewidth=width, zorder=level,
-        )  # fmt: skip
-        _add(mark, ax)
-        return
-    radius = shape.radius + shape.pixels * scale / ppm
-    disc = Disc(
-        shape.center, radius, facecolor=fill, edgecolor=stroke, linewidth=width, zorder=level
-    )
-    _add(disc, ax)
-
-
-def _polygon(shape: Polygon, ax: Axes, scale: float, level: float) -> None:
-    from matplotlib.patches import Polygon as Outline
-
-    if len(shape.points) == 0:
-        return
-    patch = Outline(
-        shape.points, closed=True, joinstyle="round", zorder=level,
-        facecolor=shape.fill or "none", edgecolor=shape.stroke or "none",
-        linewidth=shape.width * scale if shape.stroke else 0.0,
-    )  # fmt: skip
-    _add(patch, ax)
-
-
-def _arrow(shape: Arrow, ax: Axes, scale: float, level: float, ppm: float) -> None:
-    from matplotlib.patches import Polygon as Outline
-
-    points = arrow_outline(shape.tail, shape.tip, shape.width * scale / ppm)
-    edge = (
-        {"edgecolor": shape.stroke, "linewidth": 0.8 * shape.width * scale}
-        if shape.stroke
-        else {"linewidth": 0}
-    )
-    for style in (edge, {"linewidth": 0.0}):
-        patch = Outline(
-            points, closed=True, joinstyle="round", zorder=level, facecolor=shape.fill, **style
-        )
-        _add(patch, ax)
-
-
-def _image(shape: Image, ax: Axes, level: float) -> None:
+def _show(shape: Image, ax: Axes, level: float) -> None:
     from matplotlib.image import AxesImage
 
     image = AxesImage(ax, extent=shape.bounds, origin="upper", zorder=level)
@@ -147,17 +119,16 @@ def _image(shape: Image, ax: Axes, level: float) -> None:
     ax.add_artist(image)
 
 
-def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None:
+def _line(shape: Line, scale: float, ppm: float) -> Line2D:
     from matplotlib.lines import Line2D
 
-    mark, style = split_wake_style(shape.style)
+    mark, dash = split_wake_style(shape.style)
+    style: Any = dash or "none"  # Matlab and matplotlib name line styles alike
     line = Line2D(
         shape.points[:, 0], shape.points[:, 1], color=shape.stroke, linewidth=shape.width * scale,
-        solid_capstyle="butt" if len(shape.points) == 2 else "round", solid_joinstyle="round",
-        zorder=level,
+        linestyle=style, solid_capstyle="butt" if len(shape.points) == 2 else "round",
+        solid_joinstyle="round",
     )  # fmt: skip
-    dash: Any = style or "none"  # Matlab and matplotlib name line styles alike
-    line.set_linestyle(dash)
     if mark:
         name, filled, size = MARKS[mark]
         line.set_marker(name)
@@ -165,7 +136,7 @@ def _line(shape: Line, ax: Axes, scale: float, level: float, ppm: float) -> None
         line.set_markeredgewidth(0.0 if mark == "." else shape.width * scale)
         line.set_markerfacecolor(shape.stroke if filled else "none")
         line.set_markevery(_spaced(shape.points, MARK_SPACING * scale / ppm))
-    _add(line, ax)
+    return line
 
 
 def _spaced(points: Float, spacing: float) -> list[int]:
@@ -178,7 +149,7 @@ def _spaced(points: Float, spacing: float) -> list[int]:
     return kept
 
 
-def _text(shape: Text, ax: Axes, scale: float, level: float) -> None:
+def _write(shape: Text, ax: Axes, scale: float, level: float) -> None:
     # "left" puts the text's left end at the point, as in Matlab and matplotlib.
     shifts = {"left": (1, 0), "right": (-1, 0), "above": (0, 1), "below": (0, -1)}
     dx, dy = shifts.get(shape.anchor, (0, 0))

@@ -22,6 +22,9 @@ from mars2d.output.figures.figure import (
     paint_row,
     save_drawing,
 )
+from mars2d.output.figures.legend import Entry, add_legend
+from mars2d.output.figures.panels import caption, frame_panel, say
+from mars2d.output.figures.style import SCREEN
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -140,10 +143,8 @@ class Comparison:
 
 # -- the figure -----------------------------------------------------------------------------------
 
-WIDTH = 11.0
-LEFT, RIGHT, GAP = 0.75, 0.25, 0.3
-HEAD, TITLES, LABELS, DRIFT, FOOT = 0.55, 0.95, 0.95, 1.9, 0.6
-"""The heights of the heading, the titles, the gap for labels, the drift and the foot, inches."""
+WIDTH, DRIFT = 11.0, 1.9
+"""The width of the figure and the height of the drift, inches."""
 
 
 def plot_comparison(comparison: Comparison) -> Figure:
@@ -151,56 +152,34 @@ def plot_comparison(comparison: Comparison) -> Figure:
 
     Returns a matplotlib figure that pyplot does not know of.
     """
-    column = (WIDTH - LEFT - RIGHT - 2 * GAP) / 3
-    width, height = comparison.view.inches(column, 1.3 * column)
-    tall = HEAD + TITLES + height + LABELS + DRIFT + FOOT
-    figure = new_figure(WIDTH, tall, layout=None)
-
-    def place(left: float, bottom: float, wide: float, high: float) -> Axes:
-        return figure.add_axes((left / WIDTH, bottom / tall, wide / WIDTH, high / tall))
-
-    _head(figure, comparison)
-    for k, (mode, record) in enumerate(comparison.records.items()):
-        left = LEFT + k * (column + GAP)
-        ax = place(left + (column - width) / 2, FOOT + DRIFT + LABELS, width, height)
-        dress(ax, record.scenario, comparison.view)
-        label(ax, beside=k == 0)
-        _title(figure, (left + column / 2) / WIDTH, 1 - HEAD / tall, mode, record)
-        paint_row(ax, record, len(record) - 1)
-    plot_drift(comparison, place(LEFT, FOOT, WIDTH - LEFT - RIGHT, DRIFT))
+    _, height = comparison.view.inches(3.2, 4.2)
+    figure = new_figure(WIDTH, height + DRIFT + 2.6)
+    places, heights = [[*MODES], ["drift"] * len(MODES)], [height, DRIFT]
+    axes = figure.subplot_mosaic(places, height_ratios=heights)  # type: ignore[arg-type]
+    for mode, record in comparison.records.items():
+        dress(axes[mode], record.scenario, comparison.view)
+        label(axes[mode], beside=mode == MODES[0])
+        _title(axes[mode], mode, record)
+    plot_drift(comparison, axes["drift"])
+    title = textwrap.shorten(comparison.contact.scenario.title, 80, placeholder=" …")
+    seed = f"seed {comparison.contact.seed}"
+    figure.suptitle(f"{title}, {seed}", fontsize=15, color=INK, parse_math=False)
+    figure.draw_without_rendering()  # the scale is known from the layout
+    for mode, record in comparison.records.items():
+        paint_row(axes[mode], record, len(record) - 1)
     return figure
 
 
-def _head(figure: Figure, comparison: Comparison) -> None:
-    """Write the experiment's title and the seed across the top."""
-    wide, tall = figure.get_size_inches()
-    title = textwrap.shorten(comparison.contact.scenario.title, 80, placeholder=" …")
-    level = 1 - 0.3 / tall
-    figure.text(
-        LEFT / wide, level, title, fontsize=15, fontweight="bold", color=INK, va="center",
-        parse_math=False,
-    )  # fmt: skip
-    figure.text(
-        1 - RIGHT / wide, level, f"seed {comparison.contact.seed}", fontsize=11, color=MUTED,
-        va="center", ha="right",
-    )  # fmt: skip
-
-
-def _title(figure: Figure, x: float, y: float, mode: str, record: Rows) -> None:
+def _title(ax: Axes, mode: str, record: Rows) -> None:
     """Write the physics, the number of collisions and the end of a run above its panel."""
-    tall = figure.get_size_inches()[1]
     done = f"{counted(record.collisions, 'collision')}, {counted(len(record) - 1, 'step')}"
-    ended = textwrap.fill(record.over_message, 44, max_lines=2, placeholder=" …")
-    lines = [
-        (0.20, mode, 15, COLORS[mode], "bold", "baseline"),
-        (0.46, done, 11, INK, "normal", "baseline"),
-        (0.56, ended, 9.5, MUTED, "normal", "top"),
-    ]
-    for down, text, size, color, weight, level in lines:
-        figure.text(
-            x, y - down / tall, text, fontsize=size, color=color, fontweight=weight,
-            ha="center", va=level, linespacing=1.25, parse_math=False,
-        )  # fmt: skip
+    said = [done, *textwrap.wrap(record.over_message, 44, max_lines=2, placeholder=" …")]
+    color, pad = COLORS[mode], 9 + 13 * len(said)
+    ax.set_title(mode, loc="left", fontsize=15, color=color, fontweight="bold", pad=pad)
+    ax.annotate(
+        "\n".join(said), (0, 1), xytext=(0, 6), xycoords="axes fraction",
+        textcoords="offset points", fontsize=9.5, color=MUTED, parse_math=False,
+    )  # fmt: skip
 
 
 def plot_drift(comparison: Comparison, ax: Axes) -> list[Float]:
@@ -209,61 +188,44 @@ def plot_drift(comparison: Comparison, ax: Axes) -> list[Float]:
     The scale is linear, unless one of the two would lie flat on the axis. Returns the curves, each
     (T, 2) in seconds and metres: the largest and the mean drift of "stop", then of "ideal".
     """
-    peaks = {mode: float(drift.max.max()) for mode, drift in comparison.drifts.items()}
-    _dress_drift(ax, comparison.end, list(peaks.values()))
+    peaks = [float(drift.max.max()) for drift in comparison.drifts.values()]
+    _set_limits(ax, comparison.end, min(peaks), max(peaks))
     low = ax.get_ylim()[0]
-    curves = []
+    curves, entries = [], []
     for mode, drift in comparison.drifts.items():
-        color = COLORS[mode]
-        for values, style, width, name in (
+        for values, dash, width, name in (
             (drift.max, "-", 2.2, "max"),
-            (drift.mean, (0, (3, 1.4)), 1.5, "mean"),
+            (drift.mean, "--", 1.5, "mean"),
         ):
+            entries.append(Entry(f"{mode}, {name}", COLORS[mode], dash, width))
             shown = np.where(values < low, np.nan, values)
             ax.plot(
-                drift.time, shown, color=color, linestyle=style, linewidth=width, clip_on=False,
-                marker="o", markersize=6.5, markeredgecolor="white", markeredgewidth=0.8,
-                markevery=[-1], zorder=3, label=f"{mode}, {name}",
+                drift.time, shown, color=COLORS[mode], linestyle=dash, linewidth=width,
+                clip_on=False, marker="o", markersize=6.5, markeredgecolor="white",
+                markeredgewidth=0.8, markevery=[-1], zorder=3, label=f"{mode}, {name}",
             )  # fmt: skip
             curves.append(np.column_stack([drift.time, shown]))
-    ax.set_title(
-        f"How far each {_body(comparison)} is from where contact puts it",
-        loc="left", fontsize=11, color=INK, pad=8,
-    )  # fmt: skip
-    legend = ax.legend(
-        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, frameon=False, fontsize=10,
-        labelcolor=INK, borderaxespad=0.3, handlelength=2.0, columnspacing=1.4, handletextpad=0.5,
-    )  # fmt: skip
-    for line in legend.get_lines():
-        line.set_marker("")
-    if max(peaks.values()) < NO_DRIFT:
-        ax.text(
-            0.5, 0.5, "no drift: the three runs agree", transform=ax.transAxes,
-            ha="center", va="center", fontsize=11, color=MUTED,
-        )  # fmt: skip
+    title = f"How far each {_body(comparison)} is from where contact puts it"
+    ax.set_title(title, loc="left", fontsize=11, color=INK, pad=8)
+    place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0)}
+    add_legend(ax, entries, SCREEN, ncols=len(entries), **place)
+    if max(peaks) < NO_DRIFT:
+        say(ax, "no drift: the three runs agree", SCREEN)
     return curves
 
 
-def _dress_drift(ax: Axes, end: float, peaks: list[float]) -> None:
-    """Set the limits, the scale and the grid of the drift."""
-    low, high = min(peaks), max(peaks)
+def _set_limits(ax: Axes, end: float, low: float, high: float) -> None:
+    """Set the limits and the scale of a drift whose two largest ones are these, metres."""
+    frame_panel(ax, SCREEN, [1, 2, 5, 10])
     ax.set_xlim(0, end if end > 0 else 1)
-    if high < NO_DRIFT:
-        ax.set_ylim(0, 1)
-        ax.set_yticks([0])
-    elif low > NO_DRIFT and high > LOG_RATIO * low:
+    ax.set_xlabel("time [s]", color=INK, fontsize=SCREEN.label)
+    caption(ax, "drift", "m", SCREEN)
+    if low > NO_DRIFT and high > LOG_RATIO * low:
         ax.set_yscale("log")
         ax.yaxis.set_major_formatter("{x:g}")
         ax.set_ylim(low * FOOT_ROOM, high * 2)
     else:
-        ax.set_ylim(0, high * 1.06)
-    ax.grid(visible=True, color="#e6e9ed", linewidth=0.6)
-    ax.set_axisbelow(True)
-    ax.tick_params(which="both", length=0, labelsize=9, labelcolor=MUTED)
-    ax.spines[:].set(color="#c3cad2", linewidth=0.8)
-    ax.spines[["top", "right"]].set_visible(False)
-    ax.set_xlabel("time [s]", color=INK, fontsize=10)
-    ax.set_ylabel("drift [m]", color=INK, fontsize=10)
+        ax.set_ylim(0, 1.06 * high if high >= NO_DRIFT else 1)
 
 
 def _body(comparison: Comparison) -> str:

@@ -10,14 +10,11 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import counted
 from mars2d.output.figures.extent import check_rows
-from mars2d.output.figures.figure import plain_name
+from mars2d.output.figures.legend import Entry, plain_name
 from mars2d.output.figures.panels import (
-    Entry,
     caption,
     color_bar,
     curve,
-    dress_panel,
-    finish,
     name_curves,
     panels,
     say,
@@ -60,19 +57,20 @@ def plot_contacts(
     """
     look = style_of(style)
     check_rows(record)
-    contacts = record.contacts
-    force = bool(contacts["normal_impulse"].any())
-    pairs, group = _pairs(contacts)
-    chosen = _chosen(contacts, pairs, group, look.rows)
+    touches = record.pair_forces
+    force = bool(touches["normal_force"].any())
+    both = np.column_stack([touches["a"], touches["b"]]).astype(np.intp)
+    pairs, group = np.unique(both, axis=0, return_inverse=True)
+    group = group.ravel()
+    chosen = _chosen(touches, group, len(pairs), look.rows)
+    line = np.full(len(pairs), -1)
+    line[chosen] = np.arange(len(chosen))
     names = ["pairs", "normal force"][: _panel_count(axes, force=force)]
-    own = axes is None
     with look.fonts():
         tall = max(0.9, 0.24 * look.label / 10 * (len(chosen) + 1) / look.panel)
-        axes = panels(axes, names, look, [tall, 1.0][: len(names)])
-        for ax in axes:
-            dress_panel(ax, record, axes[-1], look)
+        axes = panels(record, axes, names, look, [tall, 1.0][: len(names)])
         if len(chosen):
-            _timeline(axes[0], record, pairs[chosen], _lines(group, chosen, len(pairs)), look)
+            _timeline(axes[0], record, pairs[chosen], line[group], look)
             if len(chosen) < len(pairs):
                 _say_more(axes[0], len(pairs) - len(chosen), look)
         else:
@@ -80,7 +78,7 @@ def plot_contacts(
         if len(axes) == 2 and len(chosen):
             _sum(axes[1], record, look)
         name_curves(axes[0], record.scenario.title, [], look)
-        return finish(axes, own=own)
+        return axes
 
 
 def normal_force(record: Rows) -> Float:
@@ -88,10 +86,9 @@ def normal_force(record: Rows) -> Float:
 
     This is the normal impulse of the control step that led to the row, over the sampling time.
     """
-    rows = record.contact_rows
-    inside = rows < len(record)
-    impulse = np.bincount(rows[inside], record.contacts["normal_impulse"][inside], len(record))
-    return np.asarray(impulse / record.scenario.sampling_time)
+    pairs = record.pair_forces
+    force = np.bincount(pairs["row"], pairs["normal_force"], len(record))
+    return np.asarray(force[: len(record)])
 
 
 def pair_name(scenario: Scenario, a: int, b: int) -> str:
@@ -106,52 +103,35 @@ def _panel_count(axes: Sequence[Axes] | None, *, force: bool) -> int:
     return 2 if force or axes is not None else 1
 
 
-def _pairs(contacts: NDArray[np.void]) -> tuple[Index, Index]:
-    """Return the pairs that touched, (p, 2), and the index of each contact's pair, (c,)."""
-    both = np.column_stack([contacts["a"], contacts["b"]]).astype(np.intp)
-    pairs, group = np.unique(both, axis=0, return_inverse=True)
-    return pairs, group.ravel()
-
-
-def _chosen(contacts: NDArray[np.void], pairs: Index, group: Index, most: int) -> Index:
+def _chosen(touches: NDArray[np.void], group: Index, count: int, most: int) -> Index:
     """Return the `most` pairs of the largest impulse, in the order of first contact."""
-    count = len(pairs)
-    impulse = np.bincount(group, contacts["normal_impulse"], count)
-    touched = np.bincount(group, contacts["duration"], count)
+    impulse = np.bincount(group, touches["normal_force"], count)
+    lasted = np.bincount(group, touches["until"] - touches["time"], count)
     first = np.full(count, np.inf)
-    np.minimum.at(first, group, contacts["time"])
-    which = np.lexsort((first, -touched, -impulse))[:most]
+    np.minimum.at(first, group, touches["time"])
+    which = np.lexsort((first, -lasted, -impulse))[:most]
     return np.asarray(which[np.lexsort((which, first[which]))])
 
 
-def _lines(group: Index, chosen: Index, count: int) -> Index:
-    """Return the line of each contact, from the top, (c,); -1 if it is not drawn."""
-    line = np.full(count, -1, dtype=np.intp)
-    line[chosen] = np.arange(len(chosen))
-    return np.asarray(line[group])
-
-
 def _timeline(ax: Axes, record: Rows, pairs: Index, lines: Index, look: Style) -> None:
-    """Draw a bar for each time that a pair stayed in touch, coloured by its force."""
+    """Draw a bar for each time that a pair stayed in touch, coloured by its force.
+
+    lines: of each of the record's `pair_forces`, from the top; -1 if it is not drawn.
+    """
     import matplotlib as mpl
     from matplotlib.collections import PolyCollection
 
-    drawn = lines >= 0
-    contacts, lines = record.contacts[drawn], lines[drawn]
+    touches, lines = record.pair_forces[lines >= 0], lines[lines >= 0]
     step, end = record.scenario.sampling_time, float(record.time[-1])
     width = max(end - float(record.time[0]), step) / TIME_CELLS
-    cell = np.floor(contacts["time"] / width).astype(np.intp)
+    cell = np.floor(touches["time"] / width).astype(np.intp)
     # A pair has one bar for each interval, even if it parted in between.
     keys, group = np.unique(np.column_stack([lines, cell]), axis=0, return_inverse=True)
     group = group.ravel()
-    # A pair may touch by several normals in a control step.
-    steps = np.column_stack([lines, record.contact_rows[drawn]])
-    _, same = np.unique(steps, axis=0, return_inverse=True)
-    pressed = np.bincount(same.ravel(), contacts["normal_impulse"])[same.ravel()]
     begin, until, force = (np.full(len(keys), v) for v in (np.inf, -np.inf, 0.0))
-    np.minimum.at(begin, group, contacts["time"])
-    np.maximum.at(until, group, contacts["time"] + contacts["duration"])
-    np.maximum.at(force, group, pressed / step)
+    np.minimum.at(begin, group, touches["time"])
+    np.maximum.at(until, group, touches["until"])
+    np.maximum.at(force, group, touches["normal_force"])
     until = np.maximum(until, begin + 1.5 * width)  # so that the shortest touch is visible
     middle = len(pairs) - 0.5 - keys[:, 0]
     low, high = middle - BAR_HEIGHT / 2, middle + BAR_HEIGHT / 2

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from io import BytesIO
 from math import ceil, log
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,18 +20,25 @@ from mars2d.core.plane import grid_step
 from mars2d.core.scene import Circle, Line, Polygon, Scene, Shape, Text, faded
 from mars2d.output.figures.artists import SHAPES, paint, points_per_metre
 from mars2d.output.figures.extent import View, rows_at
+from mars2d.output.figures.legend import (
+    BESIDE,
+    Entry,
+    add_legend,
+    column_width,
+    plain_name,
+    sign_scale,
+)
 from mars2d.output.figures.style import SCREEN, Style, style_of
-from mars2d.output.layers.arrows import EDGE, LABEL_SIZE, arrow, has_cut
+from mars2d.output.layers.arrows import has_cut
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.impulses import impulses
-from mars2d.output.layers.legend import SIGNED, legends, sign_rows
+from mars2d.output.layers.legend import Sign, legends
 from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
 
 if TYPE_CHECKING:
-    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -51,8 +58,6 @@ LEGEND_LIMIT = 8
 CROWD = 60
 """With more robots, paths are thinner."""
 
-NAME_LIMIT = 24
-
 FAINT_AREA = 0.1
 """The highest opacity of an area that a sensor covers."""
 
@@ -62,7 +67,7 @@ WORKSPACE = 1.0
 """The zorder of the workspace; the grid has 1.5, shapes have 2."""
 
 ARROWS = {"forces": forces, "impulses": impulses, "velocities": velocities}
-"""The layers whose arrows have a scale in a corner."""
+"""The layers whose arrows have a scale in the legend."""
 
 TICK_SPACING = 28.0  # points between ticks, at least
 
@@ -87,10 +92,11 @@ def plot_paths(
     view = View.of(record, len(record) - 1)
     record = look.restyled(record)
     layers = layers or layers_of(record.scenario, paths=True)
-    own = ax is None
+    own, last = ax is None, record.frame(len(record) - 1)
+    entries = _entries(record.scenario, look) + _signs([last], layers, look, _ppm(look, view))
     with look.fonts():
         if ax is None:
-            width, height = _page(look, record.scenario, view)
+            width, height = _page(look, view, legend_size(entries, look))
             ax = new_figure(width, height).add_subplot()
         else:
             check_axes(ax)
@@ -99,7 +105,7 @@ def plot_paths(
         dress(ax, record.scenario, view, look, layers)
         label(ax, look=look)
         _set_title(ax, f"{record.scenario.title}, {_time(float(record.time[-1]))}", look)
-        _add_legend(ax, record.scenario, look)
+        add_legend(ax, entries, look, **BESIDE)
         if own:
             ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
             show_in_notebooks(ax)
@@ -107,16 +113,22 @@ def plot_paths(
     return ax
 
 
-def _page(look: Style, scenario: Scenario, view: View) -> tuple[float, float]:
-    """Return the size of a figure with one drawing, inches."""
+def _page(look: Style, view: View, legend: tuple[float, float]) -> tuple[float, float]:
+    """Return the size of a figure with one drawing and its legend, inches."""
     if look.page is not None:
         return look.page
-    beside = 0.8 * look.label / SCREEN.label + _legend_width(scenario, look)
+    beside = 0.8 * look.label / SCREEN.label + legend[0]
     if look.single is None:
         width, height = view.inches(5.2, 4.8)
-        return width + beside, height + 0.9
+        return width + beside, max(height, legend[1]) + 0.9
     _, height = view.inches(look.single - beside, 1.5 * look.single)
-    return look.single, height + 0.5
+    return look.single, max(height, legend[1]) + 0.5
+
+
+def _ppm(look: Style, view: View, cols: int = 1) -> float:
+    """Return the points of a metre, approximately, in drawings side by side in a new figure."""
+    wide, tall = look.page or ((look.single if cols == 1 else look.full) or 7.0, 6.0)
+    return 72 * view.inches(0.75 * wide / cols, 0.8 * tall)[0] / view.width
 
 
 def plot_snapshots(
@@ -147,9 +159,12 @@ def _snapshots(
     ratio = view.width / view.height
     cols = _columns(len(rows), ratio, look.page)
     lines = ceil(len(rows) / cols)
-    own = figure is None
+    own, frames = figure is None, [record.frame(row) for row in rows]
+    layers = layers or layers_of(scenario)
+    entries = _entries(scenario, look) + _signs(frames, layers, look, _ppm(look, view, cols))
     if figure is None:
-        figure = new_figure(*_page_of_panels(look, scenario, view, cols, lines))
+        beside = legend_size(entries, look)[0]
+        figure = new_figure(*_page_of_panels(look, view, cols, lines, beside))
     panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
     for unused in panels[len(rows) :]:
         unused.remove()
@@ -157,7 +172,7 @@ def _snapshots(
         dress(ax, scenario, view, look, layers)
         label(ax, below=k + cols >= len(rows), beside=k % cols == 0, look=look)
         ax.set_title(_time(float(record.time[row])), fontsize=look.label, color=look.ink)
-    _add_legend(panels[min(cols, len(rows)) - 1], scenario, look)
+    add_legend(panels[min(cols, len(rows)) - 1], entries, look, **BESIDE)
     if look.title:
         heading = _wrapped(scenario.title, figure.bbox.width / figure.dpi, look)
         figure.suptitle(heading, fontsize=look.title, color=look.ink, parse_math=False)
@@ -170,12 +185,15 @@ def _snapshots(
 
 
 def _page_of_panels(
-    look: Style, scenario: Scenario, view: View, cols: int, lines: int
+    look: Style, view: View, cols: int, lines: int, beside: float
 ) -> tuple[float, float]:
-    """Return the size of a figure with drawings in columns and lines, inches."""
+    """Return the size of a figure with drawings in columns and lines, inches.
+
+    beside: the width of the legend.
+    """
     if look.page is not None:
         return look.page
-    beside = 0.6 + _legend_width(scenario, look)
+    beside += 0.6
     if look.full is None:
         room = min(3.2, 9.6 / cols)
         width, height = view.inches(room, room)
@@ -263,7 +281,13 @@ def dress(
     look: Style = SCREEN,
     layers: Layers | None = None,
 ) -> None:
-    """Set limits, grid and ticks."""
+    """Set limits, grid and ticks for an experiment."""
+    dress_plane(ax, view, look, grid=(layers or layers_of(scenario)).grid)
+    ax.spines[:].set(visible=scenario.workspace is None)
+
+
+def dress_plane(ax: Axes, view: View, look: Style = SCREEN, *, grid: bool = True) -> None:
+    """Set limits, grid and ticks of a part of the plane."""
     ax.set_aspect("equal")
     ax.set_xlim(view.xmin, view.xmax)
     ax.set_ylim(view.ymin, view.ymax)
@@ -274,13 +298,10 @@ def dress(
     set_ticks(ax)
     ax.callbacks.connect("xlim_changed", set_ticks)
     ax.callbacks.connect("ylim_changed", set_ticks)
-    layers = layers or layers_of(scenario)
-    if layers.grid:
-        ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
-    else:
-        ax.grid(visible=False)
-    edge = scenario.workspace is None
-    ax.spines[:].set(color=look.grid, linewidth=0.8 * look.stroke, visible=edge)
+    ax.grid(visible=grid)
+    if grid:
+        ax.grid(color=look.grid, linewidth=0.6 * look.stroke)
+    ax.spines[:].set(color=look.grid, linewidth=0.8 * look.stroke)
 
 
 def style_ticks(ax: Axes, look: Style) -> None:
@@ -288,11 +309,6 @@ def style_ticks(ax: Axes, look: Style) -> None:
     ax.tick_params(which="both", length=0, labelsize=look.small, labelcolor=look.muted)
     if look.family:
         ax.tick_params(which="both", labelfontfamily=list(look.family))
-
-
-def line_style(dash: str) -> Any:
-    """Return Matlab's name of a line style, typed for matplotlib, which uses the same names."""
-    return dash
 
 
 def _set_ticks(ax: Axes, spacing: float) -> None:
@@ -351,8 +367,6 @@ def paint_row(
         if layer.name == "workspace" and scene.shapes:
             for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
                 line.set_clip_path(ax.patches[before])
-    _paint_legend(ax, now, layers, scales["bodies"], words)
-    _paint_signs(ax, now, layers, words)
 
 
 def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, layers: Layers) -> Scene:
@@ -363,7 +377,6 @@ def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, layers: Layer
     (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
     view = Box((xmin + xmax) / 2, (ymin + ymax) / 2, (xmax - xmin) / 2, (ymax - ymin) / 2)
     scenes = [drawn(now) for name, drawn in ARROWS.items() if getattr(layers, name)]
-    scenes += _arrow_legend(ax, now, layers)
     others = [shape for scene in scenes for shape in scene.shapes]
     return placed_names(names, now, words / points_per_metre(ax), view, others)
 
@@ -404,57 +417,6 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
         "bodies": max(0.4, robots),
     }
     return {name: scale * look.stroke for name, scale in scales.items()}
-
-
-def _paint_legend(ax: Axes, now: Frame, layers: Layers, scale: float, words: float) -> None:
-    """Paint the scales of forces and impulses in a corner."""
-    arrows, text = _arrow_legend(ax, now, layers)
-    paint(arrows, ax, scale=scale)
-    paint(text, ax, scale=words)
-
-
-def _paint_signs(ax: Axes, now: Frame, layers: Layers, words: float) -> None:
-    """Paint the legend of the layers' signs in a corner, above the scale of forces, if any."""
-    shown = [
-        legend
-        for legend in legends(now.scenario)
-        if legend.layer in SIGNED and getattr(layers, legend.layer)
-    ]
-    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
-    up = 0.13 if layers.forces else 0.05
-    corner = xmin + 0.02 * (xmax - xmin), ymin + up * (ymax - ymin)
-    paint(sign_rows(shown, corner, words / points_per_metre(ax)), ax, scale=words)
-
-
-def _arrow_legend(ax: Axes, now: Frame, layers: Layers) -> tuple[Scene, Scene]:
-    """Return arrows of round sizes in a corner, one above the other, and their numbers.
-
-    That of forces is always there, others where they are needed: that of impulses after a blow, and
-    one with a cut where an arrow is shortened.
-    """
-    rows: list[tuple[Float, str, str, bool]] = []
-    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
-    for legend in legends(now.scenario):
-        ruler, drawn = legend.ruler, ARROWS.get(legend.layer)
-        if ruler is None or drawn is None or not getattr(layers, legend.layer):
-            continue
-        scene = drawn(now)
-        if not scene.shapes and legend.layer != "forces":
-            continue
-        length, words = ruler.within(0.14 * (xmax - xmin))
-        rows.append((np.array([length, 0.0]), words, ruler.color, False))
-        if has_cut(scene):
-            way = np.array([0.06 * (xmax - xmin), 0.0])
-            rows.append(
-                (way, f"over {ruler.in_words(ruler.longest / ruler.unit)}", ruler.color, True)
-            )
-    pictures, text = Scene(), Scene()
-    foot, line = ymin + 0.05 * (ymax - ymin), 1.7 * LABEL_SIZE / points_per_metre(ax)
-    for k, (way, words, color, shortened) in enumerate(rows):
-        tail = np.array([xmin + 0.03 * (xmax - xmin), foot + k * line])
-        arrow(pictures, tail, way, fill=color, width=3.0, shortened=shortened)
-        text.text(tail + way, words, color=color, size=LABEL_SIZE, anchor="left", halo=EDGE)
-    return pictures, text
 
 
 def _told_apart(now: Frame, look: Style) -> Scene:
@@ -504,67 +466,52 @@ def _time(seconds: float) -> str:
     return f"t = {seconds:.10g} s"
 
 
-class _Entry(NamedTuple):
-    """An entry of the legend: a name, and the first robot that it stands for."""
-
-    name: str
-    robot: int
-
-
-def _entries(scenario: Scenario, look: Style) -> list[_Entry]:
+def _entries(scenario: Scenario, look: Style) -> list[Entry | Sign]:
     """Return an entry for robots that look alike, or none if there are too many robots."""
     if len(scenario.robots) > LEGEND_LIMIT:
         return []
     alike: dict[object, list[int]] = {}
     for i, color in enumerate(scenario.colors):
         alike.setdefault(i if look.greys else color, []).append(i)
-    names = [str(robot.name) for robot in scenario.robots]
-    return [
-        _Entry(plain_name(_joined([names[i] for i in same])), same[0]) for same in alike.values()
-    ]
+    entries: list[Entry | Sign] = []
+    for first, *others in alike.values():
+        names = [str(scenario.robots[i].name) for i in (first, *others)]
+        name = ", ".join(names) if len(others) < 2 else f"{names[0]} and {len(others)} alike"
+        dash = look.dash(first) if look.greys else ""
+        color, width = scenario.colors[first], 1.5 * look.stroke
+        entries.append(Entry(plain_name(name), color, dash, width, "o"))
+    return entries
 
 
-def _joined(names: list[str]) -> str:
-    """Return the names of robots that look alike as one: with their number, if they are many."""
-    return ", ".join(names) if len(names) < 3 else f"{names[0]} and {len(names) - 1} alike"
+def _signs(frames: Sequence[Frame], layers: Layers, look: Style, ppm: float) -> list[Entry | Sign]:
+    """Return what the arrows and signs of layers mean; ppm: the points of a metre.
+
+    The arrow of forces is always there, others where they are needed: that of impulses after a
+    blow, and one with a cut where an arrow is shortened.
+    """
+    found: list[Entry | Sign] = []
+    for legend in legends(frames[0].scenario):
+        if not getattr(layers, legend.layer):
+            continue
+        if legend.ruler is None:
+            found += legend.signs
+            continue
+        scenes = [ARROWS[legend.layer](frame) for frame in frames]
+        if legend.layer == "forces" or any(scene.shapes for scene in scenes):
+            found.append(legend.ruler.sign(sign_scale(look) / ppm))
+        if any(map(has_cut, scenes)):
+            found.append(legend.ruler.limit)
+    return found
 
 
-def plain_name(name: str) -> str:
-    """Return a name for a legend: on one line, and shortened if long."""
-    name = " ".join(name.split())
-    return name if len(name) <= NAME_LIMIT else name[: NAME_LIMIT - 1] + "…"
-
-
-def _legend_width(scenario: Scenario, look: Style) -> float:
-    """Return the approximate width of the legend, inches."""
-    names = [entry.name for entry in _entries(scenario, look)]
-    return (0.3 + 0.075 * max(map(len, names))) * look.small / SCREEN.small if names else 0.0
-
-
-def _add_legend(ax: Axes, scenario: Scenario, look: Style) -> None:
-    """Add a legend of the robots beside the drawing, if they are few."""
-    from matplotlib.lines import Line2D
-
-    entries = _entries(scenario, look)
+def legend_size(entries: Sequence[Entry | Sign], look: Style) -> tuple[float, float]:
+    """Return the approximate width and height of a legend, inches."""
     if not entries:
-        return
-    handles: list[Artist] = [
-        Line2D(
-            [], [], linestyle=line_style(look.dash(entry.robot) if look.greys else ""),
-            linewidth=1.5 * look.stroke, marker="o", markersize=6 * look.small / SCREEN.small,
-            color=scenario.colors[entry.robot], markeredgewidth=0,
-        )
-        for entry in entries
-    ]  # fmt: skip
-    legend = ax.legend(
-        handles, ["robot"] * len(entries), loc="upper left",
-        bbox_to_anchor=(1.0, 1.0), borderaxespad=0.3,
-        frameon=False, fontsize=look.small, labelcolor=look.ink,
-        handletextpad=0.6 if look.greys else 0.1, handlelength=3.0 if look.greys else 1.5,
-    )  # fmt: skip
-    for text, entry in zip(legend.get_texts(), entries, strict=True):
-        text.set_parse_math(False)
-        text.set_text(entry.name)  # only now: a legend leaves out labels that begin with "_"
+        return 0.0, 0.0
+    names = [each.meaning if isinstance(each, Sign) else each.name for each in entries]
+    letters = 0.075 * max(map(len, names)) * look.small / SCREEN.small
+    wide = letters + (column_width(entries, look) + 1.3 * look.small) / 72
+    return wide, len(entries) * 1.5 * look.small / 72
 
 
 def _columns(count: int, ratio: float, page: tuple[float, float] | None) -> int:

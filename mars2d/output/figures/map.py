@@ -8,9 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mars2d.addons.maps import Drawing
-from mars2d.core.plane import grid_step
 from mars2d.core.scene import PALETTE
-from mars2d.output.figures.figure import GRID, INK, MUTED, label, new_figure, save_drawing
+from mars2d.output.figures.extent import View
+from mars2d.output.figures.figure import (
+    INK,
+    dress_plane,
+    label,
+    legend_size,
+    new_figure,
+    save_drawing,
+)
+from mars2d.output.figures.legend import BESIDE, Entry, add_legend
+from mars2d.output.figures.style import SCREEN
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,41 +46,26 @@ def plot_map(drawing: Drawing) -> Figure:
     """Draw a map, areas filled and walls as lines, in a new figure with axes in metres."""
     width, height = (max(side, max(drawing.size) / 20) for side in drawing.size)
     scale = LONG_SIDE / max(width, height)
-    legend = 0.5 + 0.075 * min(max(map(len, drawing.layers)), NAME_LIMIT + 6)
-    size = max(scale * width, MIN_SIDE) + 0.9 + legend, max(scale * height, MIN_SIDE) + 0.9
-    figure = new_figure(*size)
-    ax = figure.add_subplot()
-    _dress(ax, drawing)
-    names = list(drawing.layers)
+    names, counts = list(drawing.layers), drawing.layers
     colors = {names[0]: INK} if len(names) == 1 else dict(zip(names, PALETTE, strict=False))
+    rows = [(color, f"{_short(name)}  {counts[name]}") for name, color in colors.items()]
+    rest = [count for name, count in counts.items() if name not in colors]
+    if rest:
+        rows.append((REST_COLOR, f"{len(rest)} more  {sum(rest)}"))
+    entries = [Entry(said, color, "-", 4.0) for color, said in rows] if len(names) > 1 else []
+    legend = legend_size(entries, SCREEN)[0]
+    size = max(scale * width, MIN_SIDE) + 0.9 + legend, max(scale * height, MIN_SIDE) + 0.9
+    ax = new_figure(*size).add_subplot()
+    xmin, xmax, ymin, ymax = drawing.bounds
+    margin = 0.03 * max(drawing.size)
+    dress_plane(ax, View(xmin - margin, xmax + margin, ymin - margin, ymax + margin))
+    label(ax)
+    title = f"{drawing.source}, {drawing.size[0]:.3g} m x {drawing.size[1]:.3g} m"
+    ax.set_title(title, fontsize=SCREEN.title, color=INK, parse_math=False)
     for name in reversed(names):  # the layers with most pieces on top
         _paint(ax, drawing, name, colors.get(name, REST_COLOR))
-    if len(names) > 1:
-        _add_legend(ax, drawing, colors)
-    return figure
-
-
-def _dress(ax: Axes, drawing: Drawing) -> None:
-    """Set limits, grid, ticks and title."""
-    from matplotlib.ticker import MultipleLocator
-
-    xmin, xmax, ymin, ymax = drawing.bounds
-    longer = max(drawing.size)
-    margin = 0.03 * longer
-    ax.set_aspect("equal")
-    ax.set_xlim(xmin - margin, xmax + margin)
-    ax.set_ylim(ymin - margin, ymax + margin)
-    step = grid_step(longer / 12)
-    ax.xaxis.set_major_locator(MultipleLocator(step))
-    ax.yaxis.set_major_locator(MultipleLocator(step))
-    ax.set_axisbelow(True)
-    ax.grid(visible=True, color=GRID, linewidth=0.6)
-    ax.spines[:].set(color=GRID, linewidth=0.8)
-    ax.tick_params(length=0, labelsize=9, labelcolor=MUTED)
-    label(ax)
-    width, height = drawing.size
-    title = f"{drawing.source}, {width:.3g} m x {height:.3g} m"
-    ax.set_title(title, fontsize=12, color=INK, parse_math=False)
+    add_legend(ax, entries, SCREEN, **BESIDE)
+    return ax.figure  # type: ignore[return-value]
 
 
 def _paint(ax: Axes, drawing: Drawing, layer: str, color: str) -> None:
@@ -91,30 +85,15 @@ def _paint(ax: Axes, drawing: Drawing, layer: str, color: str) -> None:
         else:
             walls.append(np.asarray(shapely.get_coordinates(piece.geometry)))
     ax.add_collection(
-        PathCollection(areas, facecolor=color, edgecolor=color, linewidth=0.3, alpha=0.85),
+        PathCollection(
+            areas, facecolor=color, edgecolor=color, linewidth=0.3, alpha=0.85, zorder=2
+        ),
         autolim=False,
     )
     ax.add_collection(
-        LineCollection(walls, colors=color, linewidth=1.2, capstyle="round"), autolim=False
+        LineCollection(walls, colors=color, linewidth=1.2, capstyle="round", zorder=2),
+        autolim=False,
     )
-
-
-def _add_legend(ax: Axes, drawing: Drawing, colors: dict[str, str]) -> None:
-    """Add a legend of the layers beside the drawing, with their numbers of pieces."""
-    from matplotlib.lines import Line2D
-
-    rows = [(color, f"{_short(name)}  {drawing.layers[name]}") for name, color in colors.items()]
-    rest = [count for name, count in drawing.layers.items() if name not in colors]
-    if rest:
-        rows.append((REST_COLOR, f"{len(rest)} more  {sum(rest)}"))
-    handles = [Line2D([], [], color=color, linewidth=4) for color, _ in rows]
-    legend = ax.legend(
-        handles, ["layer"] * len(rows), loc="upper left", bbox_to_anchor=(1.0, 1.0),
-        borderaxespad=0.3, frameon=False, fontsize=9, labelcolor=INK, handlelength=1.0,
-    )  # fmt: skip
-    for text, (_, said) in zip(legend.get_texts(), rows, strict=True):
-        text.set_parse_math(False)
-        text.set_text(said)
 
 
 def _short(name: str) -> str:

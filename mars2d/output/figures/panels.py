@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 from math import ceil
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, counted
 from mars2d.output.figures.figure import (
     check_axes,
-    line_style,
     new_figure,
     show_in_notebooks,
     style_ticks,
 )
 from mars2d.output.figures.labels import shortened, wrapped
+from mars2d.output.figures.legend import Entry, add_legend
 from mars2d.output.figures.style import Style
 from mars2d.output.signals import thinned
 
@@ -33,7 +33,7 @@ Float = NDArray[np.float64]
 MAX_VERTICES = 20_000
 """The most points in a panel, over all its curves, approximately."""
 
-MAX_BLOCKS, MIN_BLOCKS = 1000, 250
+MAX_BLOCKS, MIN_BLOCKS = 1000, 40
 """The limits of the blocks into which a long curve is cut; each block keeps its extremes."""
 
 CAPTION_LETTERS, CAPTION_HEIGHT = 12, 0.5
@@ -43,24 +43,18 @@ LETTER_WIDTH = 0.56
 """The approximate width of a letter, in text heights."""
 
 
-class Entry(NamedTuple):
-    """A curve's entry in a legend: its name, colour, line style, width [points] and marker."""
-
-    name: str
-    color: str
-    dash: str
-    width: float
-    marker: str = ""
-    hollow: bool = False
-
-
 def panels(
-    axes: Sequence[Axes] | None, names: Sequence[str], look: Style, heights: Sequence[float] = ()
+    record: Rows,
+    axes: Sequence[Axes] | None,
+    names: Sequence[str],
+    look: Style,
+    heights: Sequence[float] = (),
+    rows: slice = slice(None),
 ) -> list[Axes]:
-    """Return axes for panels below each other: those given, or those of a new figure.
+    """Return dressed axes for panels below each other: those given, or those of a new figure.
 
     names: the panels' contents, for the error if the number of axes differs. heights: the relative
-    heights of the panels.
+    heights of the panels. rows: the rows that are drawn. Notebooks show the axes of a new figure.
     """
     if axes is not None:
         given = list(np.ravel(np.asarray(axes, dtype=object)))
@@ -69,25 +63,23 @@ def panels(
         if len(given) != len(names):
             panels_needed = f"{counted(len(names), 'panel')} ({', '.join(names)})"
             raise InputError(f"axes: {len(given)} of them, for {panels_needed}: one for each")
-        return given
-    tall = sum(heights) if heights else len(names)
-    width, height = look.page or (look.full or 7.6, tall * look.panel + 0.09 * look.label)
-    figure = new_figure(width, height)
-    grid = {"height_ratios": list(heights)} if heights else {}
-    made = figure.subplots(len(names), 1, sharex=True, squeeze=False, gridspec_kw=grid)
-    return list(made.ravel())
-
-
-def dress_panel(ax: Axes, record: Rows, last: Axes, look: Style, rows: slice = slice(None)) -> None:
-    """Set the limits of time, grid, ticks and spines; label the time below the last panel.
-
-    rows: the rows that are drawn.
-    """
+    else:
+        tall = sum(heights) if heights else len(names)
+        width, height = look.page or (look.full or 7.6, tall * look.panel + 0.09 * look.label)
+        grid = {"height_ratios": list(heights) or [1] * len(names)}
+        made = new_figure(width, height).subplots(
+            len(names), 1, sharex=True, squeeze=False, gridspec_kw=grid
+        )
+        given = list(made.ravel())
+        for ax in given:
+            show_in_notebooks(ax)
     begin, end = record.time[rows][[0, -1]].tolist()
-    ax.set_xlim(begin, end if end > begin else begin + record.scenario.sampling_time)
-    frame_panel(ax, look, [1, 2, 4, 5, 10])
-    if ax is last or not ax.get_shared_x_axes().joined(ax, last):
-        ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
+    for ax in given:
+        ax.set_xlim(begin, end if end > begin else begin + record.scenario.sampling_time)
+        frame_panel(ax, look, [1, 2, 4, 5, 10])
+        if ax is given[-1] or not ax.get_shared_x_axes().joined(ax, given[-1]):
+            ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
+    return given
 
 
 def frame_panel(ax: Axes, look: Style, steps: Sequence[float]) -> None:
@@ -133,10 +125,8 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
         each = look.small * (handle + 0.5 + 1.2 + LETTER_WIDTH * widest)
         cols = max(1, min(len(entries), int(room / each)))
         lines = ceil(len(entries) / cols)
-        _legend(
-            ax, entries, look, loc="lower left", bbox_to_anchor=(0.0, 1.0),
-            ncols=ceil(len(entries) / lines),
-        )  # fmt: skip
+        place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
+        add_legend(ax, entries, look, ncols=ceil(len(entries) / lines), **place)
         above = lines * look.small * 1.5
     if look.title:
         letters = max(20, letters_in(room, look.title))
@@ -144,40 +134,6 @@ def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> 
             textwrap.fill(title, letters, max_lines=2, placeholder=" …"), loc="left",
             fontsize=look.title, color=look.ink, pad=6 * look.stroke**0.5 + above, parse_math=False,
         )  # fmt: skip
-
-
-def name_beside(ax: Axes, entries: Sequence[Entry], look: Style) -> None:
-    """Write a legend of a panel's own curves at its right side."""
-    if entries:
-        _legend(ax, entries, look, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-
-
-def _legend(ax: Axes, entries: Sequence[Entry], look: Style, **place: Any) -> None:
-    from matplotlib.lines import Line2D
-
-    handles = [
-        Line2D(
-            [],
-            [],
-            color=entry.color,
-            linestyle=line_style(entry.dash),
-            linewidth=entry.width,
-            marker=entry.marker,
-            markersize=0.7 * look.small,
-            markerfacecolor="white" if entry.hollow else entry.color,
-        )
-        for entry in entries
-    ]
-    legend = ax.legend(
-        handles, ["curve"] * len(entries), frameon=False, fontsize=look.small,
-        labelcolor=look.ink, handlelength=3.2 if look.greys else 2.0, columnspacing=1.2,
-        handletextpad=0.5, borderpad=0.0, borderaxespad=0.3, labelspacing=0.3, **place,
-    )  # fmt: skip
-    ax.add_artist(legend)  # a further one of these axes would take its place
-    legend.set_clip_on(False)
-    for text, entry in zip(legend.get_texts(), entries, strict=True):
-        text.set_parse_math(False)
-        text.set_text(entry.name)  # only now: a legend leaves out labels that begin with "_"
 
 
 def curve(

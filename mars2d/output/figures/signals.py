@@ -12,15 +12,12 @@ from numpy.typing import NDArray
 from mars2d.core.description import real
 from mars2d.core.errors import InputError
 from mars2d.output.figures.extent import PANEL_LIMIT, check_rows
-from mars2d.output.figures.figure import LEGEND_LIMIT, plain_name
+from mars2d.output.figures.figure import LEGEND_LIMIT
+from mars2d.output.figures.legend import BESIDE, Entry, add_legend, plain_name
 from mars2d.output.figures.panels import (
-    Entry,
     caption,
     color_bar,
     curve,
-    dress_panel,
-    finish,
-    name_beside,
     name_curves,
     panels,
     say,
@@ -115,16 +112,15 @@ def draw_signals(
             "choose some columns, or some robots"
         )
     with look.fonts():
-        given, own = axes, axes is None
-        axes = panels(given, [signal.name for signal in shown], look)
+        own = axes is None
+        axes = panels(record, axes, [signal.name for signal in shown], look, rows=rows)
         for ax, signal in zip(axes, shown, strict=True):
-            dress_panel(ax, record, axes[-1], look, rows)
             _draw(ax, record, rows, signal, look)
         entries = _entries(record, robots, shown, look) + _mark(axes, record, rows, look)
         name_curves(axes[0], record.scenario.title, entries, look)
         if own:
             axes[0].figure.align_ylabels(axes)
-        return finish(axes, own=own)
+        return axes
 
 
 def _rows(record: Rows, start: float | None, end: float | None) -> slice:
@@ -170,7 +166,7 @@ def _draw(ax: Axes, record: Rows, rows: slice, signal: Signal, look: Style) -> N
     caption(ax, signal.name, signal.unit, look)
     many = values.shape[1]
     entries = _own_entries(signal, look)
-    name_beside(ax, entries, look)
+    add_legend(ax, entries, look, **BESIDE)
     entries = entries or [_entry(record, signal.bodies[k // each], look, many) for k in range(many)]
     for k, entry in enumerate(entries):
         curve(ax, times, values[:, k], entry, held=signal.held, many=many, wraps=signal.wraps)

@@ -1,30 +1,25 @@
-"""Video in MP4: one picture is encoded while others are converted and drawn."""
+"""Video in MP4 by PyAV, H.264 where its FFmpeg can."""
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
 from fractions import Fraction
+from io import RawIOBase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.extras import extra
-from mars2d.core.files import atomic_write
 
 if TYPE_CHECKING:
     import pygame
 
-Pixels = NDArray[np.uint32]
-
 ENCODERS = ("libx264", "libopenh264", "mpeg4")
 """Encoders that a build of FFmpeg may have, the best first."""
 
-IN_PIECES = "frag_keyframe+empty_moov+default_base_moof"
+OPTIONS = {"movflags": "hybrid_fragmented", "frag_duration": "1000000"}
+"""A file that can be played up to a second ago while it grows, and is a common one at its end."""
 
 GIF = "a .gif needs nothing"
 """What is there without PyAV."""
@@ -33,13 +28,7 @@ MIN_AV = 17
 """The first version of PyAV that has everything needed here."""
 
 BT709 = 1
-"""FFmpeg's number for the colours of HD video."""
-
-PLACES = 3
-"""Pictures in memory: one is encoded, one converted, and one copied as soon as it is drawn."""
-
-PIECE_SECONDS = 1.0
-"""The length of a piece."""
+"""FFmpeg's number for the colours of HD video, as players expect them."""
 
 
 def require_av(target: Path) -> None:
@@ -51,157 +40,72 @@ def require_av(target: Path) -> None:
             raise ImportError(av.__version__)
 
 
-def write_mp4(
-    file: BinaryIO, pictures: Iterator[pygame.Surface], fps: float, *, in_pieces: bool = False
-) -> int:
-    """Write H.264 video, or the next best of this build of FFmpeg; return the number of frames.
+class Mp4:
+    """Writes pictures of one size, of even sides, as video."""
 
-    in_pieces: write a file that can be played at any time, a second or two late; afterwards
-    `rewrapped` makes a common file of it. PyAV releases the interpreter while it converts and
-    encodes, so each of these has its own thread.
-    """
-    import av
+    def __init__(self, file: BinaryIO | RawIOBase, fps: float) -> None:
+        """Begin; `file` stays open at the end."""
+        import av
 
-    count = 0
-    options = {"movflags": IN_PIECES if in_pieces else "faststart"}
-    encoder: _Encoder | None = None
-    waiting: deque[Future[None]] = deque()
-    target = _Quiet(file)
-    with (
-        target.checked(),
-        av.open(target, "w", format="mp4", options=options) as container,
-        ThreadPoolExecutor(1, "converter") as converting,
-        ThreadPoolExecutor(1, "encoder") as encoding,
-    ):
-        for picture in pictures:
-            if encoder is None:
-                encoder = _Encoder(container, picture.get_size(), fps, in_pieces=in_pieces)
-            pixels = encoder.copied(picture, count % PLACES)
-            if len(waiting) == PLACES - 1:
-                waiting.popleft().result()
-            target.check()
-            frame = converting.submit(encoder.converted, pixels)
-            waiting.append(encoding.submit(encoder.encode, frame))
-            count += 1
-        for each in waiting:
-            each.result()
-        if encoder is not None:
-            encoder.finish()
-    return count
+        self._file: Any = _Quiet(file)
+        self._container: Any = av.open(self._file, "w", format="mp4", options=OPTIONS)
+        self._fps = fps
+        self._stream: Any = None
 
+    def add(self, picture: pygame.Surface) -> None:
+        """Add a picture."""
+        import av
+        import pygame
+        from av.video.reformatter import ColorRange, Colorspace
 
-def rewrapped(path: Path) -> None:
-    """Replace a film that was written in pieces by one that begins with its index."""
-    import av
+        if self._stream is None:
+            self._stream = _video_stream(self._container, picture.get_size(), self._fps)
+        # They are 0x..rrggbb: in memory blue comes first, on all that PyAV is built for.
+        pixels = np.ascontiguousarray(pygame.surfarray.pixels2d(picture).T)
+        frame: Any = av.VideoFrame.from_numpy_buffer(
+            pixels.view(np.uint8).reshape(*pixels.shape, 4), format="bgra"
+        )
+        video = frame.reformat(
+            format=self._stream.pix_fmt,
+            dst_colorspace=Colorspace.ITU709,
+            dst_color_range=ColorRange.MPEG,
+        )
+        self._container.mux(self._stream.encode(video))
+        self._file.check()
 
-    # If this fails, for example on a full disk, the film in pieces can be played as well.
-    with (
-        suppress(OSError, ValueError),
-        atomic_write(path) as file,
-        _Quiet(file).checked() as target,
-        av.open(str(path)) as pieces,
-        av.open(target, "w", format="mp4", options={"movflags": "faststart"}) as whole,
-    ):
-        stream = whole.add_stream_from_template(pieces.streams.video[0])
-        for packet in pieces.demux(video=0):
-            if packet.dts is not None:  # the last one is empty
-                packet.stream = stream
-                whole.mux(packet)
+    def close(self) -> None:
+        """Write the pictures that still wait for later ones, and the end."""
+        if self._stream is not None:
+            self._container.mux(self._stream.encode(None))
+        self._container.close()
+        self._file.check()
 
 
 class _Quiet:
-    """A file that keeps its first error for later, for example that of a full disk.
+    """A file that keeps its first error until it is asked; FFmpeg ends the process after one."""
 
-    PyAV writes again when it closes a film, and prints the errors that are raised then.
-    """
-
-    def __init__(self, file: BinaryIO) -> None:
+    def __init__(self, file: Any) -> None:
         self._file = file
         self._error: OSError | None = None
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._file, name)
+        self.read, self.tell = file.read, file.tell
 
     def write(self, data: bytes) -> int:
-        """Write bytes, unless writing has failed before."""
-        return self._tried(lambda: self._file.write(data), len(data))
+        return self._tried(self._file.write, data) or len(data)
 
     def seek(self, offset: int, whence: int = 0) -> int:
-        """Go to a place, unless writing has failed before."""
-        return self._tried(lambda: self._file.seek(offset, whence), offset)
+        return self._tried(self._file.seek, offset, whence) or 0
 
-    def _tried(self, act: Callable[[], int], otherwise: int) -> int:
+    def _tried(self, act: Callable[..., int], *values: object) -> int | None:
         if self._error is None:
             try:
-                return act()
+                return act(*values)
             except OSError as error:
                 self._error = error
-        return otherwise
+        return None
 
     def check(self) -> None:
-        """Raise the error that was kept, if any."""
         if self._error is not None:
             raise self._error
-
-    @contextmanager
-    def checked(self) -> Iterator[_Quiet]:
-        """Raise the error that was kept, if any, at the end of the block."""
-        yield self
-        self.check()
-
-
-class _Encoder:
-    """Encodes pictures of one size [pixels] into a container."""
-
-    def __init__(
-        self, container: Any, size: tuple[int, int], fps: float, *, in_pieces: bool
-    ) -> None:
-        """Add a video to the container."""
-        from av.video.reformatter import VideoReformatter
-
-        self._container, self._stream = container, _video_stream(container, size, fps)
-        if in_pieces:
-            self._stream.gop_size = round(fps * PIECE_SECONDS)
-            self._stream.max_b_frames = 0  # with them a film in pieces begins late
-        self._reformatter = VideoReformatter()
-        self._sound = True  # unless encoding has failed
-        self._memory = np.empty((PLACES, size[1], size[0]), dtype=np.uint32)
-
-    def copied(self, picture: pygame.Surface, place: int) -> Pixels:
-        """Return a picture's pixels (height, width), copied to one of the places in memory."""
-        import pygame
-
-        pixels: Pixels = self._memory[place]
-        pixels[:] = pygame.surfarray.pixels2d(picture).T
-        return pixels
-
-    def converted(self, pixels: Pixels) -> Any:
-        """Return a picture in a video's colours; afterwards its pixels may be overwritten."""
-        import av
-        from av.video.reformatter import ColorRange, Colorspace
-
-        # They are 0x..rrggbb: in memory blue comes first, on all that PyAV is built for.
-        picture = pixels.view(np.uint8).reshape(*pixels.shape, 4)
-        return self._reformatter.reformat(
-            av.VideoFrame.from_numpy_buffer(picture, format="bgra"),
-            format=self._stream.pix_fmt,
-            dst_colorspace=Colorspace.ITU709,  # as players expect of HD
-            dst_color_range=ColorRange.MPEG,
-        )
-
-    def encode(self, frame: Future[Any]) -> None:
-        """Encode a picture once it is converted; do nothing after a failure.
-
-        FFmpeg ends the process if it is told to continue a file whose beginning has failed.
-        """
-        if self._sound:
-            self._sound = False
-            self._container.mux(self._stream.encode(frame.result()))
-            self._sound = True
-
-    def finish(self) -> None:
-        """Encode the pictures that still wait for later ones."""
-        self._container.mux(self._stream.encode(None))
 
 
 def _video_stream(container: Any, size: tuple[int, int], fps: float) -> Any:

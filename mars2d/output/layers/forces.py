@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mars2d.core.scene import Scene
 from mars2d.geometry.shapes import Shape
 from mars2d.output.layers.arrows import LONGEST, arrow, beside, shortening
+from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
@@ -73,15 +74,6 @@ def force_scale(scenario: Scenario) -> ForceScale:
     )
 
 
-def mean_forces(contacts: NDArray[np.void], sampling_time: float) -> Float:
-    """Return the mean force on b over the control step of each contact, (k, 2) newtons."""
-    normal = contacts["normal"]
-    tangent = np.column_stack([-normal[:, 1], normal[:, 0]])
-    impulse = contacts["normal_impulse"][:, None] * normal
-    impulse = impulse + contacts["tangential_impulse"][:, None] * tangent
-    return np.asarray(impulse / sampling_time)
-
-
 def forces(frame: Frame) -> Scene:
     """Return the mean forces of the control step that led to a frame, and which drives slip.
 
@@ -98,9 +90,7 @@ def forces(frame: Frame) -> Scene:
     size = np.hypot(force[:, 0], force[:, 1])
     scale = force_scale(scenario)
     drawn = np.flatnonzero(size >= FAINTEST * scale.strongest)
-    drawn = drawn[np.argsort(size[drawn], kind="stable")][
-        -MAX_CONTACTS:
-    ]  # the strongest lie on top
+    drawn = drawn[np.argsort(size[drawn], kind="stable")][-MAX_CONTACTS:]  # the strongest on top
     at = _touching_points(frame)
     shorter = shortening(scale.newton * size[drawn], scale.longest)
     reach = scale.newton * shorter[:, None] * force[drawn]

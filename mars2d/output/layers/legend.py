@@ -33,7 +33,6 @@ from mars2d.scenario.scenario import Scenario
 MAX_ARROW = 72.0
 """The greatest length of an arrow, points; it means 1, 2, 5, 10 ... newtons or metres a second."""
 
-
 SIGNED = ("messages", "theory", "sensors")
 """The layers whose signs have a legend in pictures without plates, too."""
 ROW = 16.0
@@ -53,18 +52,40 @@ class Ruler(NamedTuple):
     longest: float
     in_words: Callable[[float], str]
 
-    def within(self, most: float) -> tuple[float, str]:
-        """Return the longest arrow of a round number up to `most`: metres, and in words."""
-        number = round_force(most / self.unit)
-        return number * self.unit, self.in_words(number)
+    @property
+    def lengths(self) -> list[tuple[float, str]]:
+        """The arrows of round numbers that are not shortened: metres, and in words."""
+        numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
+        kept = [k for k in numbers if k * self.unit <= self.longest * (1 + 1e-9)]
+        return [(k * self.unit, self.in_words(k)) for k in kept or numbers[:1]]
+
+    def sign(self, point: float) -> Sign:
+        """Return the longest arrow of a round number up to `MAX_ARROW`, where a point is metres."""
+        number = round_force(min(MAX_ARROW * point, self.longest) / self.unit)
+        metres, scene = number * self.unit, Scene()
+        start, way = np.array([-0.5, 0.0]) * metres / point, np.array([metres / point, 0.0])
+        arrow(scene, start, way, fill=self.color, width=self.width)
+        return Sign(scene, metres / point, self.in_words(number), self.color, metres)
+
+    @property
+    def limit(self) -> Sign:
+        """The sign of an arrow that is drawn shorter than it is, as it stands for too much."""
+        scene, way = Scene(), np.array([32.0, 0.0])
+        arrow(scene, -way / 2, way, fill=self.color, width=self.width, shortened=True)
+        return Sign(scene, 36.0, f"over {self.in_words(self.longest / self.unit)}", self.color)
 
 
 class Sign(NamedTuple):
-    """A sign and its meaning. scene: round (0, 0), in points. room: its width, points."""
+    """A sign and its meaning. scene: round (0, 0), in points. room: its width, points.
+
+    color: of the words, where they are not on a plate. length: of an arrow to scale, metres.
+    """
 
     scene: Scene
     room: float
     meaning: str
+    color: str = INK
+    length: float = 0.0
 
 
 class Legend(NamedTuple):
@@ -86,9 +107,9 @@ def legends(scenario: Scenario) -> list[Legend]:
     rubbing = Sign(_rubbing(), 24.0, "friction, and its cone")
     turning = Sign(_turning(), 24.0, "turn in 1 s")
     found = [
-        Legend("forces", (_shortened(newtons), Sign(_slipping(), 18.0, "slips")), newtons),
-        Legend("impulses", (_shortened(blow), rubbing), blow),
-        Legend("velocities", (_shortened(paces), turning), paces),
+        Legend("forces", (newtons.limit, Sign(_slipping(), 18.0, "slips")), newtons),
+        Legend("impulses", (blow.limit, rubbing), blow),
+        Legend("velocities", (paces.limit, turning), paces),
     ]
     if signs := _of_sensors(scenario):
         found.append(Legend("sensors", signs))
@@ -105,12 +126,14 @@ def sign_rows(shown: Sequence[Legend], corner: Point, point: float) -> Scene:
 
     point: how long a point is, metres. For pictures without plates.
     """
-    scene, (x, y) = Scene(), corner
-    for k, sign in enumerate(sign for legend in shown for sign in legend.signs):
-        middle = x + 14.0 * point, y + ROW * k * point
+    scene, signs = Scene(), [sign for legend in shown for sign in legend.signs]
+    column = max((sign.room for sign in signs), default=0.0)
+    for k, sign in enumerate(signs):
+        level = corner[1] + ROW * (k + 0.5) * point
+        middle = corner[0] + column / 2 * point, level
         scene.extend(_moved(shape, middle, point) for shape in sign.scene.shapes)
-        place = middle[0] + 16.0 * point, middle[1]
-        scene.text(place, sign.meaning, color=INK, anchor="left", halo="#ffffff")
+        place = corner[0] + (column + 2.0) * point, level
+        scene.text(place, sign.meaning, color=sign.color, anchor="left", halo="#ffffff")
     return scene
 
 
@@ -162,14 +185,6 @@ def _theory() -> Scene:
     scene = Scene()
     scene.line([(-12, 0), (12, 0)], stroke=THEORY, width=2.0)
     return scene
-
-
-def _shortened(ruler: Ruler) -> Sign:
-    """Return the sign of an arrow that is drawn shorter than it is, as it stands for too much."""
-    scene = Scene()
-    start, way = np.array([-16.0, 0.0]), np.array([32.0, 0.0])
-    arrow(scene, start, way, fill=ruler.color, width=ruler.width, shortened=True)
-    return Sign(scene, 36.0, f"over {ruler.in_words(ruler.longest / ruler.unit)}")
 
 
 def _rubbing() -> Scene:

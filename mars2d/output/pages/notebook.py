@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -65,10 +64,6 @@ def world_svg(world: Shown) -> str:
 
     def picture() -> tuple[Frame, str]:
         frame, last = world.frame, world.scenario.stop_time
-        if len(frame.path) and not world.over:
-            frame = replace(
-                frame, sensed=frame.path[-1]
-            )  # the poses at which its readings were taken
         when = f"t = {world.time:.10g} s of {last:g} s"
         return frame, f"{world.scenario.title}: {when}" + (
             f"; {world.over_message}" if world.over else ""

@@ -33,7 +33,7 @@ class Canvas:
 
     Other cameras of the same scale can show it shifted. camera: of the whole surface. area: its
     part that is drawn, pixels. memory: bytes that may be used to go back in time quickly. seconds:
-    the time that drawing took.
+    the time that drawing took. made: when it began, on the clock of `perf_counter`.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Canvas:
         memory: int = 0,
     ) -> None:
         """Draw the layers that stand still on a surface of `size` pixels."""
-        start = perf_counter()
+        self.made = perf_counter()
         self.camera, self.area = camera, area
         self.still = pygame.Surface(size, 0, 32)
         self.still.set_clip(area)
@@ -62,17 +62,17 @@ class Canvas:
                 painter.paint(self.still, layer.shapes(frame).shapes, camera)
         self.wakes: Wakes | None = None
         self._painter, self._scenario, self._memory = painter, scenario, memory
-        self.seconds = perf_counter() - start
+        self.seconds = perf_counter() - self.made
 
-    def with_paths(self, frame: Frame, until: float = float("inf")) -> pygame.Surface | None:
-        """Return the picture with the paths up to a frame; None if they are not drawn in time."""
-        start = perf_counter()
-        if fresh := self.wakes is None:
+    def with_paths(self, frame: Frame) -> pygame.Surface:
+        """Return the picture with the paths up to a frame."""
+        if self.wakes is None:
+            start = perf_counter()
             self.wakes = Wakes(self._painter, self._scenario, self.camera, self.still, self._memory)
-        done = self.wakes.show(frame, until)
-        if fresh:
+            self.wakes.show(frame)
             self.seconds += perf_counter() - start
-        return self.wakes.surface if done else None
+        self.wakes.show(frame)
+        return self.wakes.surface
 
     def shift(self, camera: Camera) -> tuple[int, int]:
         """Return the place of the surface's corner for another camera, in whole pixels."""
@@ -103,13 +103,11 @@ MEMORY = 100_000_000
 PATIENCE = 0.012
 """The seconds that the kept layers may take to draw before a moving camera jerks."""
 
-AHEAD = 0.004
-"""Where it takes longer, the seconds of each picture in which the next canvas is drawn."""
+MAX_AGE = 0.25
+"""Where it takes longer, the seconds for which a moving camera shows them shifted or enlarged."""
 
-WIDE_MARGIN = 0.25
+MARGIN = 0.25
 """The margin that is drawn on all sides while the camera moves, as a share of the picture."""
-NEAR_MARGIN = 0.1
-"""The rest of that margin at which a new canvas is drawn, as a share of the picture."""
 
 
 class Stage:
@@ -127,15 +125,12 @@ class Stage:
         self.painter = painter
         self.memory = memory
         self._canvas: Canvas | None = None
-        self._next: Canvas | None = None  # the canvas that will be needed soon
         self._key: tuple[Hashable, ...] = ()
         self._scenario: Scenario | None = None
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
         self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
         self._places: dict[int, int] = {}  # of the names in the last picture
-        self._numbers: list[tuple[pygame.Surface, tuple[int, int]]] = []
-        self._numbers_of: tuple[Hashable, ...] = ()
         self._legends: tuple[Scenario, list[Legend]] | None = None
         self._legend = pygame.Surface((0, 0)), (0, 0)
         self._legend_of: tuple[object, ...] = ()
@@ -159,8 +154,8 @@ class Stage:
         free: the part of the plot on which nothing else will be drawn, where legends go; by default
         all of it. beneath, marks: shapes to draw below and above the bodies. selected: a body whose
         name goes before others, an index of `Scenario.bodies`. hurried: whether the camera is
-        moving. If the layers that stand still took long to draw, the last picture is then enlarged
-        or shifted until there is time to draw a new one.
+        moving. If the layers that stand still took long to draw, the last picture of them is then
+        enlarged or shifted for a quarter of a second.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -169,30 +164,31 @@ class Stage:
         if canvas.shows(camera, plot):
             self._spread(surface, canvas, frame, camera, layers, plot)
         else:
-            self._enlarge(surface, canvas, camera, layers, plot)
+            self._enlarge(surface, canvas, frame, camera, layers, plot)
             if layers.sensors:
                 self.painter.paint(surface, _sensors(frame), camera)
         self._paint_above(surface, frame, camera, layers, beneath, marks, selected)
-        surface.fblits(self._numbers_at(frame.scenario, camera, layers, surface.get_size(), plot))
+        if layers.grid:
+            bounds, painter = grid_bounds(frame.scenario, camera, surface.get_size()), self.painter
+            numbers = labels(plot, camera, bounds, painter.fonts, painter.ui, painter.theme)
+            surface.fblits(numbers)
         shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
-        image, corner = self._drawn(shown, camera, plot if free is None else free)
-        surface.blit(image, corner)
+        self._draw_legends(surface, shown, camera, plot if free is None else free)
         surface.set_clip(before)
 
-    def _drawn(
-        self, shown: Sequence[Legend], camera: Camera, room: pygame.Rect
-    ) -> tuple[pygame.Surface, tuple[int, int]]:
-        """Return the picture of legends and its corner; it is drawn again when they change."""
-        painter = self.painter
-        names = [legend.layer for legend in shown]
+    def _draw_legends(
+        self, surface: pygame.Surface, shown: Sequence[Legend], camera: Camera, room: pygame.Rect
+    ) -> None:
+        """Draw legends from a picture that is kept until they change."""
+        painter, names = self.painter, [legend.layer for legend in shown]
         of = (self._scenario, *names, camera.scale, *room, painter.ui, painter.theme)
         if of != self._legend_of:
             whole = pygame.Surface(room.size, pygame.SRCALPHA, 32)
             draw_legends(whole, painter, camera, whole.get_rect(), shown)
             place = whole.get_bounding_rect()
-            corner = room.left + place.left, room.top + place.top
-            self._legend_of, self._legend = of, (whole.subsurface(place).copy(), corner)
-        return self._legend
+            self._legend_of, self._legend = of, (whole.subsurface(place).copy(), place.topleft)
+        image, (left, top) = self._legend
+        surface.blit(image, (room.left + left, room.top + top))
 
     def _legends_of(self, scenario: Scenario) -> list[Legend]:
         """Return the legends of a scenario, made once for as long as it is the same."""
@@ -254,42 +250,26 @@ class Stage:
         plot: pygame.Rect,
         hurried: bool,
     ) -> Canvas:
-        """Return the canvas for a camera, a new one if needed and not hurried."""
+        """Return the canvas for a camera; an older one for a moment, if hurried."""
         size = surface.get_size()
         stands = frozenset(layer.name for layer in standing())
         began = b"".join(poses.tobytes() for poses in starts(frame))
         key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme, began
         canvas = self._canvas
         if key != self._key or frame.scenario is not self._scenario:
-            canvas = self._next = None
+            canvas = None
         self._key, self._scenario = key, frame.scenario
-        slow = canvas is not None and canvas.seconds > PATIENCE
-        if canvas is not None and hurried and slow:
-            canvas = self._look_ahead(canvas, frame, camera, layers, plot)
-        elif canvas is None or not canvas.is_exact(camera) or not canvas.shows(camera, plot):
-            canvas = Canvas(self.painter, frame, camera, layers, size, plot, memory=self.memory)
-        self._canvas = canvas
-        return canvas
-
-    def _look_ahead(
-        self, canvas: Canvas, frame: Frame, camera: Camera, layers: Layers, plot: pygame.Rect
-    ) -> Canvas:
-        """Return the canvas to use while the camera moves; draw a larger one bit by bit."""
-        near = plot.inflate(2 * NEAR_MARGIN * plot.width, 2 * NEAR_MARGIN * plot.height)
-        if camera.scale != canvas.camera.scale or canvas.shows(camera, near):
+        if canvas is not None and hurried and canvas.seconds > PATIENCE:
+            if canvas.shows(camera, plot) or perf_counter() - canvas.made < MAX_AGE:
+                return canvas
+            wide = plot.inflate(2 * MARGIN * plot.width, 2 * MARGIN * plot.height)
+            camera, plot = camera.panned(-wide.left, -wide.top), pygame.Rect(0, 0, *wide.size)
+            size = wide.size
+        elif canvas is not None and canvas.is_exact(camera) and canvas.shows(camera, plot):
             return canvas
-        if self._next is None or not self._next.shows(camera, near):
-            wide = plot.inflate(2 * WIDE_MARGIN * plot.width, 2 * WIDE_MARGIN * plot.height)
-            own = camera.panned(-wide.left, -wide.top)
-            self._next = Canvas(
-                self.painter, frame, own, layers, wide.size, pygame.Rect(0, 0, *wide.size),
-                memory=self.memory,
-            )  # fmt: skip
-            return canvas
-        if layers.trails and self._next.with_paths(frame, perf_counter() + AHEAD) is None:
-            return canvas
-        following, self._next = self._next, None
-        return following
+        new = Canvas(self.painter, frame, camera, layers, size, plot, memory=self.memory)
+        self._canvas = new
+        return new
 
     def _spread(
         self,
@@ -301,10 +281,7 @@ class Stage:
         plot: pygame.Rect,
     ) -> None:
         """Draw the layers that stand still, the paths and the readings."""
-        picture: pygame.Surface | None = canvas.still
-        if layers.trails:
-            picture = canvas.with_paths(frame)
-        assert picture is not None
+        picture = canvas.with_paths(frame) if layers.trails else canvas.still
         read: Sequence[Shape] = ()
         if layers.sensors:
             picture, read = self._with_sensors(picture, frame, canvas)
@@ -318,12 +295,13 @@ class Stage:
         self,
         surface: pygame.Surface,
         canvas: Canvas,
+        frame: Frame,
         camera: Camera,
         layers: Layers,
         plot: pygame.Rect,
     ) -> None:
         """Draw a canvas as another camera sees it, roughly."""
-        last = canvas.wakes.surface if layers.trails and canvas.wakes is not None else canvas.still
+        last = canvas.with_paths(frame) if layers.trails else canvas.still
         factor = camera.scale / canvas.camera.scale
         corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
         # The whole pixels of the last picture that are visible now.
@@ -336,25 +314,6 @@ class Stage:
             size = round(seen.width * factor), round(seen.height * factor)
             place = corner[0] + factor * seen.left, corner[1] + factor * seen.top
             surface.blit(pygame.transform.scale(last.subsurface(seen), size), place)
-
-    def _numbers_at(
-        self,
-        scenario: Scenario,
-        camera: Camera,
-        layers: Layers,
-        size: tuple[int, int],
-        plot: pygame.Rect,
-    ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return the numbers of the grid, and their places."""
-        key = camera, *self._key
-        if self._numbers_of != key:
-            self._numbers_of, self._numbers = key, []
-            if layers.grid:
-                bounds, painter = grid_bounds(scenario, camera, size), self.painter
-                self._numbers = labels(
-                    plot, camera, bounds, painter.fonts, painter.ui, painter.theme
-                )
-        return self._numbers
 
     def _with_sensors(
         self, picture: pygame.Surface, frame: Frame, canvas: Canvas

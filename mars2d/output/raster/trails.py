@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from time import perf_counter
 
 import numpy as np
 import pygame
@@ -211,11 +210,8 @@ class Wakes:
         self._every = FIRST_STRIDE
         self._kept: dict[int, Kept] = {}
 
-    def show(self, frame: Frame, until: float = float("inf")) -> bool:
-        """Show the paths of props, which may be unknown, and of robots up to a frame.
-
-        until: at which time of the clock to stop. Returns whether all is drawn.
-        """
+    def show(self, frame: Frame) -> None:
+        """Show the paths of props, which may be unknown, and of robots up to a frame."""
         paths = frame.prop_path, frame.path
         rows, cuts = len(paths[1]), sorted({row for row, _ in frame.leaps})
         self._begin(paths)
@@ -229,9 +225,6 @@ class Wakes:
                 trails.prolong(self.surface, path[:end], those)
             if self._most and end % self._every == 0:
                 self._keep(end)
-            if perf_counter() > until:
-                break
-        return self._drawn == rows
 
     def finish(self, surface: pygame.Surface, frame: Frame, shift: tuple[int, int]) -> None:
         """Draw the loose ends of the paths that `show` has drawn up to a frame.

@@ -19,6 +19,7 @@ HERE = Path(__file__).parent
 MODULES = (
     "arithmetic", "piece", "state", "rigid", "drive", "body", "floor", "flush", "seams", "surfaces",
     "thrust", "pair", "tie", "solver", "contacts", "impact", "island", "neighbours", "mover",
+    "rays",
 )  # fmt: skip
 """The modules, each after those that it imports."""
 

@@ -1,26 +1,30 @@
-"""Make figures: run their experiments, draw them, and compare them with theory."""
+"""Make figures: run their experiments, draw them, and write them into a folder with a page."""
 
 from __future__ import annotations
 
+import json
 import re
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+from mars2d.core.errors import InputError
+from mars2d.core.files import atomic_write
 from mars2d.core.hints import described
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_drawing
-from mars2d.reports.paper.figure import Figure, Picture, Result, Run
-from mars2d.reports.paper.studies.base import Study
-from mars2d.scenario.experiment import Experiment, open_experiment, open_module
-from mars2d.study.work import each_done, worker_count
-from mars2d.study.workers import Failure
+from mars2d.reports.paper import studies
+from mars2d.reports.paper.figures import FIGURES, Chart, Figure, Picture, Result, Run
+from mars2d.reports.paper.page import MARK, NUMBERS, page
+from mars2d.scenario.experiment import open_experiment, open_module
+from mars2d.scenario.options import parse_option
+from mars2d.study.work import each_done
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 
-Watch = Callable[[int, Sequence[int]], None]
-"""Called with the number of figures done, and the numbers of those being made."""
+PAGE = "index.html"
+"""The page's file."""
 
 
 def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
@@ -31,60 +35,58 @@ def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
     pictures: list[Picture] = []
     records: list[Record] = []
     problems: list[str] = []
-    setting = ""
     for run in figure.runs:
         try:
-            options = {**run.options, "animation.theory": True}
-            experiment = open_experiment(run.experiment, options, seed=seed)
-            setting = setting or _setting(run.experiment)
-            record = simulate(experiment).record
-            pictures.append(_of_run(run, experiment, record, figure.number, folder))
-            records.append(record)
+            picture, record = _of_run(run, folder / run.stem(figure.number), seed)
         except Exception as error:  # the page shows the problem in place of the figure
             problems.append(f"{run.experiment}: {described(error)}")
-    for name, study in figure.studies.items():
+        else:
+            pictures.append(picture)
+            records.append(record)
+    for chart in figure.charts:
         if len(records) < len(figure.runs):
-            problems.append(f"{name}: not made, since it needs a run that failed")
+            problems.append(f"{chart.name}: not made, since it needs a run that failed")
             continue
         try:
-            pictures.append(_of_study(study, records, folder / f"fig{figure.number}_{name}"))
+            pictures.append(_of_study(chart, records, folder / f"fig{figure.number}_{chart.name}"))
         except Exception as error:
-            problems.append(f"{name}: {described(error)}")
-    return Result(figure.number, setting, tuple(pictures), tuple(problems))
+            problems.append(f"{chart.name}: {described(error)}")
+    setting = setting_of(figure.runs[0].experiment) if records else ""
+    return Result(figure.number, setting, pictures, problems)
 
 
-def _of_run(run: Run, experiment: Experiment, record: Record, number: int, folder: Path) -> Picture:
-    stem, end = run.stem(number), float(record.time[-1])
+def _of_run(run: Run, path: Path, seed: int) -> tuple[Picture, Record]:
+    options = dict(map(parse_option, run.settings)) | {"animation.theory": True}
+    experiment = open_experiment(run.experiment, options, seed=seed)
+    record = simulate(experiment).record
+    end = float(record.time[-1])
     times = run.times_until(end)
 
     def draw() -> Any:
         return plot_snapshots(record, times) if times else plot_paths(record).get_figure()
 
     when = f"at {', '.join(f'{moment:.4g}' for moment in times)} s" if times else f"in {end:.4g} s"
-    team = len(record.scenario.robots)
     return Picture(
-        stem=stem,
+        stem=path.name,
         title=run.title,
-        alt=f"Paths of {team} robots {when}. {run.shows}",
+        alt=f"Paths of {len(record.scenario.robots)} robots {when}. {run.shows}",
         caption=run.shows,
-        size=_save(draw, folder / stem),
-        command=run.command(stem, record.seed, end),
+        size=_save(draw, path),
+        command=run.command(path.name, record.seed, end),
         outcome=record.over_message,
         digest=record.digest,
         predictions=experiment.predictions(record),
-    )
+    ), record
 
 
-def _of_study(
-    study: Callable[[Sequence[Record]], Study], records: Sequence[Record], path: Path
-) -> Picture:
-    made = study(records)
+def _of_study(chart: Chart, records: Sequence[Record], path: Path) -> Picture:
+    made = getattr(studies, chart.name)(records)
     return Picture(
         stem=path.name,
-        title=made.title,
-        alt=made.alt,
-        caption=made.shows,
-        size=_save(made.draw, path),
+        title=chart.title,
+        alt=chart.alt,
+        caption=chart.caption.format(**made.says),
+        size=_save(lambda: made.drawing, path),
         predictions=made.predictions,
         columns=made.columns,
     )
@@ -94,43 +96,84 @@ def _save(draw: Callable[[], Any], path: Path) -> tuple[int, int]:
     """Save a drawing as .pdf and .png; return the width and height of the .png, pixels."""
     save_drawing(draw, path.with_suffix(".pdf"))
     png = save_drawing(draw, path.with_suffix(".png"))
-    with png.open("rb") as file:
-        width, height = struct.unpack(">II", file.read(24)[16:])  # in its first chunk
+    width, height = struct.unpack(">II", png.read_bytes()[16:24])  # in its first chunk
     return width, height
 
 
-def _setting(experiment: str) -> str:
+def setting_of(experiment: str) -> str:
     """Return the sentence after "Setting:" in an experiment's docstring, or an empty text."""
     doc = open_module(experiment).__doc__ or ""
     found = re.search(r"^Setting: (.+?)(?=[.:](?:\s|$)|\n\n|\Z)", doc, flags=re.M | re.S)
     return " ".join(found[1].split()) if found else ""
 
 
-def make_all(
-    figures: Sequence[Figure],
-    folder: Path,
-    seed: int,
-    done: dict[int, Result],
-    watch: Watch,
-    processes: int | None = None,
-) -> None:
-    """Make figures in a folder with several processes, and put the results into `done`.
+def make_all(figures: Sequence[Figure], folder: Path, seed: int) -> Iterator[Result]:
+    """Yield the results of figures as they are made in a folder, with a process per core.
 
-    The figures with the most work are begun first. done: filled as figures are completed, by their
-    numbers, also if Ctrl-C ends the rest. processes: by default one per processor; with 1, or for
-    one figure, no process is started. The results do not depend on it.
+    The figures with the most work are begun first. For one figure no process is started.
     """
-    count = min(worker_count(processes), len(figures))
-    if count <= 1:
-        for figure in figures:
-            watch(len(done), [figure.number])
-            done[figure.number] = make(figure, folder, seed)
-        return
     order = sorted(figures, key=lambda figure: -figure.work)
-    left = [figure.number for figure in order]
-    watch(0, left[:count])
-    for index, made in each_done(partial(make, folder=folder, seed=seed), order, workers=count):
-        number = order[index].number
-        done[number] = Result(number, problems=(made.error,)) if isinstance(made, Failure) else made
-        left.remove(number)
-        watch(len(done), left[:count])
+    work = partial(make, folder=folder, seed=seed)
+    if len(order) == 1:
+        yield work(order[0])
+        return
+    for index, made in each_done(work, order):
+        failed = Result(order[index].number, problems=[getattr(made, "error", "")])
+        yield made if isinstance(made, Result) else failed
+
+
+# -- the folder, which never holds other files -----------------------------------------------------
+
+
+def prepare(folder: Path) -> None:
+    """Make the folder, or remove the files of an earlier run from it.
+
+    Raises InputError for a folder with other files (except hidden ones, which are left alone), and
+    for one that can't be written.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"{folder}: this is a file; expected a folder")
+    if not folder.absolute().parent.is_dir():
+        raise InputError(f"{folder}: there is no folder {folder.parent}")
+    own = {PAGE, NUMBERS} | {name for figure in FIGURES for name in names(figure)}
+    try:
+        folder.mkdir(exist_ok=True)
+        inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
+        for path in inside:
+            ours = path.name in own and path.is_file()
+            if not ours or (path.name == PAGE and MARK not in path.read_text("utf-8", "replace")):
+                raise InputError(
+                    f"{folder}: holds {path.name}, which is not of `mars2d paper`; nothing was "
+                    "changed. Name a new folder, or an empty one"
+                )
+        for path in inside:
+            path.unlink()
+        (folder / NUMBERS).touch()  # to find out before the first run whether it can be written
+    except OSError as error:
+        raise InputError(f"{folder}: can't be written: {error.strerror}") from error
+
+
+def finish(folder: Path, figures: Sequence[Figure], done: dict[int, Result], seed: int) -> Path:
+    """Write the page and the numbers, remove pictures that it does not show; return its path."""
+    for figure in figures:
+        for name in names(figure) if figure.number not in done else ():
+            (folder / name).unlink(missing_ok=True)
+    made = [
+        {
+            "figure": number,
+            "ok": result.ok,
+            "problems": result.problems,
+            "pictures": [picture.as_dict() for picture in result.pictures],
+        }
+        for number, result in sorted(done.items())
+    ]
+    numbers = json.dumps({"seed": seed, "figures": made}, indent=1, allow_nan=False) + "\n"
+    for path, text in ((NUMBERS, numbers), (PAGE, page(figures, done, seed))):
+        with atomic_write(folder / path) as file:
+            file.write(text.encode())
+    return folder / PAGE
+
+
+def names(figure: Figure) -> list[str]:
+    """Return the names of all files of a figure."""
+    return [f"{stem}{suffix}" for stem in figure.stems for suffix in (".png", ".pdf")]

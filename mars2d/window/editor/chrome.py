@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import pygame
@@ -10,9 +10,9 @@ import pygame
 from mars2d.core.errors import Mars2dError
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
-
-MAX_TYPED = 200
-"""How many characters can be typed into a prompt."""
+from mars2d.window.widgets.help import cap_width, draw_cap
+from mars2d.window.widgets.keys import chord
+from mars2d.window.widgets.text_field import TextField
 
 
 class Button(NamedTuple):
@@ -106,91 +106,113 @@ def draw_footer(
         y += 1.3 * size
 
 
-class Prompt:
-    """A question at the foot of the window, which stays until one of its keys is pressed.
+class Answer(NamedTuple):
+    """A way to answer a prompt: a key, by the name that `chord` gives it, or its button.
 
-    Esc closes it without an answer. answers: functions of the typed text, by the names of keys; if
-    one raises Mars2dError, the error is shown and the prompt stays open. field: whether there is a
-    field to type in.
+    label: of the key. act: takes the text that was typed; if it raises Mars2dError, the error is
+    shown and the prompt stays open.
+    """
+
+    key: str
+    label: str
+    words: str
+    act: Callable[[str], None]
+
+
+class Prompt:
+    """A question at the foot of the window, over which nothing else can be done.
+
+    Esc closes it without an answer. field: to type in, if there is one. doc: says more about it.
+    places: where the buttons of the answers were drawn, by their words.
     """
 
     def __init__(
         self,
         label: str,
-        hint: str,
-        answers: Mapping[str, Callable[[str], None]],
-        *,
-        text: str = "",
-        field: bool = False,
+        *answers: Answer,
+        field: TextField | None = None,
+        doc: str = "",
+        escape: str = "cancel",
     ) -> None:
-        """Open the prompt; hint: names the keys; text: the first content of the field."""
-        self.label, self.hint, self.text, self.field = label, hint, text, field
-        self.error = ""
-        self.open = True
-        self._answers = answers
+        """Open the prompt; escape: what Esc does, in words."""
+        self.label, self.field, self.doc = label, field, doc
+        self.error, self.open = "", True
+        self._answers = [*answers, Answer("escape", "Esc", escape, lambda _: None)]
+        self.places: dict[str, pygame.Rect] = {}
 
-    def press(self, name: str, character: str) -> None:
-        """Press a key; name: as `chord` returns it; character: the text that it types."""
-        name = "return" if name == "enter" else "shift+return" if name == "shift+enter" else name
-        if name == "escape":
-            self.open = False
-        elif name in self._answers:
-            self._answer(self._answers[name])
-        elif self.field and name == "backspace":
-            self.text, self.error = self.text[:-1], ""
-        elif self.field and character.isprintable() and len(self.text) < MAX_TYPED:
-            self.text, self.error = self.text + character, ""
-
-    def _answer(self, answer: Callable[[str], None]) -> None:
+    def handle(self, event: pygame.Event) -> None:
+        """Handle an event: each is for the prompt."""
+        answer = self._answered(event)
+        if answer is None:
+            if self.field is not None and self.field.handle(event):
+                self.error = ""
+            return
         self.open = False  # unless the answer opens it again
         try:
-            answer(self.text)
+            answer.act("" if self.field is None else self.field.text)
         except Mars2dError as error:
             self.open, self.error = True, str(error)
 
+    def _answered(self, event: pygame.Event) -> Answer | None:
+        """Return the answer of a key or a button, if an event is one."""
+        if event.type == pygame.KEYDOWN:
+            name = chord(event.key, event.mod).replace("enter", "return")
+            return next((each for each in self._answers if each.key == name), None)
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
+            places = self.places
+            hit = (a for a in self._answers if places[a.words].collidepoint(event.pos))
+            return next(hit, None) if places else None
+        return None
 
-def draw_prompt(
-    surface: pygame.Surface, layout: Layout, painter: Painter, prompt: Prompt, *, blink: bool
-) -> None:
-    """Draw a prompt in place of the footer."""
-    theme, ui, fonts, bar = painter.theme, painter.ui, painter.fonts, layout.footer
-    surface.fill(theme.waiting.pale, bar)
-    surface.fill(theme.waiting.ink, (bar.left, bar.top, bar.width, max(1, round(2 * ui))))
-    pad = round(20 * ui)
-    hint = fonts.render(prompt.hint, 14 * ui, theme.text)
-    label = fonts.render(prompt.label, 16 * ui, theme.waiting.ink, bold=True)
-    x = bar.left + pad
-    surface.blit(label, label.get_rect(midleft=(x, bar.centery)))
-    x += label.get_width() + round(12 * ui)
-    place = hint.get_rect(midright=(bar.right - pad, bar.centery))
-    if place.left > x + (200 * ui if prompt.field else 0):
-        surface.blit(hint, place)
-    right = place.left - pad
-    if prompt.field:
-        box = pygame.Rect(x, 0, max(right - x, round(160 * ui)), round(30 * ui))
-        box.centery = bar.centery
-        painter.panel(surface, box, theme.paper, 5 * ui, theme.key_edge)
-        room = box.width - round(20 * ui)
-        text = prompt.text
-        while text and fonts.width(text, 16 * ui) > room:
-            text = text[1:]
-        words = fonts.render(text, 16 * ui, theme.ink)
-        at = words.get_rect(midleft=(box.left + round(9 * ui), box.centery))
-        surface.blit(words, at)
-        if blink:
-            cursor = (
-                at.right + 1,
-                box.top + round(6 * ui),
-                max(1, round(1.5 * ui)),
-                round(18 * ui),
-            )
-            surface.fill(theme.ink, cursor)
-    if prompt.error:
-        above = pygame.Rect(bar.left, bar.top - round(34 * ui), bar.width, round(34 * ui))
-        surface.fill(theme.error.pale, above)
-        short = fonts.shorten(prompt.error, 15 * ui, above.width - 2 * pad, bold=True)
-        words = fonts.render(short, 15 * ui, theme.error.ink, bold=True)
-        surface.blit(words, words.get_rect(midleft=(above.left + pad, above.centery)))
+    def draw(self, surface: pygame.Surface, layout: Layout, painter: Painter) -> None:
+        """Draw it in place of the footer, and a veil over all above."""
+        theme, ui, fonts = painter.theme, painter.ui, painter.fonts
+        pad, row = round(20 * ui), round(40 * ui)
+        plate = pygame.Rect(0, 0, surface.get_width(), (3 if self.error else 2) * row)
+        plate.bottom = layout.footer.bottom
+        veil = pygame.Surface((plate.width, plate.top), 0, 32)
+        veil.fill(theme.veil)
+        veil.set_alpha(150 if theme.dark else 70)
+        surface.blit(veil, (0, 0))
+        surface.fill(theme.waiting.pale, plate)
+        surface.fill(theme.waiting.ink, (plate.left, plate.top, plate.width, max(1, round(2 * ui))))
+        if self.error:
+            above = pygame.Rect(plate.topleft, (plate.width, row))
+            surface.fill(theme.error.pale, above)
+            short = fonts.shorten(self.error, 15 * ui, plate.width - 2 * pad, bold=True)
+            words = fonts.render(short, 15 * ui, theme.error.ink, bold=True)
+            surface.blit(words, words.get_rect(midleft=(pad, above.centery)))
+        label = fonts.render(self.label, 16 * ui, theme.waiting.ink, bold=True)
+        middle = plate.bottom - row - row // 2
+        place = surface.blit(label, label.get_rect(midleft=(pad, middle)))
+        if self.field is not None:
+            box = pygame.Rect(place.right + pad // 2, 0, 0, round(30 * ui))
+            box.width, box.centery = max(plate.right - pad - box.left, row), middle
+            painter.panel(surface, box, theme.paper, 5 * ui, theme.selected)
+            self.field.draw(surface, box.inflate(-round(18 * ui), 0), painter, 16 * ui)
+        right = self._draw_buttons(surface, plate.right - pad, plate.bottom - row // 2, painter)
+        doc = fonts.render(fonts.shorten(self.doc, 14 * ui, right - 2 * pad), 14 * ui, theme.text)
+        surface.blit(doc, doc.get_rect(midleft=(pad, plate.bottom - row // 2)))
+
+    def _draw_buttons(
+        self, surface: pygame.Surface, right: int, middle: int, painter: Painter
+    ) -> int:
+        """Draw the answers with their keys, up to a pixel at the right; return where they begin."""
+        ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+        self.places = {}
+        for _, label, words, _ in reversed(self._answers):
+            image = fonts.render(words, 14 * ui, theme.ink)
+            caps = sum(cap_width(fonts, each, ui) for each in label.split())
+            place = pygame.Rect(0, 0, image.get_width() + caps + round(16 * ui), round(34 * ui))
+            place.midright = right, middle
+            painter.panel(surface, place, theme.plate, 6 * ui, theme.key_edge)
+            x = place.left + round(5 * ui)
+            for each in label.split():
+                x = draw_cap(surface, painter, each, x, middle, ui)
+            surface.blit(image, image.get_rect(midleft=(x + round(2 * ui), middle)))
+            self.places[words] = place
+            right = place.left - round(8 * ui)
+        return right
 
 
 def draw_plate(

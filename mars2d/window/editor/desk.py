@@ -10,7 +10,7 @@ from mars2d.core.plane import Point, grid_step
 from mars2d.output.raster.camera import Camera
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, Motion, tidy
-from mars2d.window.viewpoint import Viewpoint
+from mars2d.window.screen.viewpoint import Viewpoint
 
 MIN_GRID_STEP = 9.0
 """The smallest step of the grid on the screen, points."""

@@ -7,13 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+import pygame
+
 from mars2d.core.errors import InputError
 from mars2d.scenario.changes import check_same
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.chrome import Prompt
+from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.verdict import Judge
+from mars2d.window.widgets.text_field import TextField
 
 
 @dataclass(frozen=True)
@@ -50,9 +53,9 @@ class Dialogs:
         self._desk, self._document, self._judge = desk, document, judge
         self._before, self._live, self._complete = before, live, complete
 
-    def press(self, prompt: Prompt, name: str, character: str) -> None:
-        """Give a key to a prompt; close it when it has its answer, unless that opens another."""
-        prompt.press(name, character)
+    def handle(self, prompt: Prompt, event: pygame.Event) -> None:
+        """Give an event to a prompt; close it when it is answered, unless that opens another."""
+        prompt.handle(event)
         if not prompt.open and self.prompt is prompt:
             self.prompt = None
 
@@ -72,10 +75,10 @@ class Dialogs:
             return
         if self._document.path is None:
             self.prompt = Prompt(
-                "Save as", "Enter saves   Esc cancels",
-                {"return": lambda text: self._save_as(text, then)},
-                text=self._document.proposal, field=True,
-            )  # fmt: skip
+                "Save as",
+                Answer("return", "Enter", "save", lambda text: self._save_as(text, then)),
+                field=TextField(self._document.proposal, opened_by_key=True),
+            )
         elif self._document.new:
             self._save_as(str(self._document.path), then)
         else:
@@ -87,9 +90,9 @@ class Dialogs:
             self._write(path, then)
             return
         self.prompt = Prompt(
-            f"{path} is there already.", "Enter overwrites it   Esc cancels",
-            {"return": lambda _: self._write(path, then)},
-        )  # fmt: skip
+            f"{path} is there already.",
+            Answer("return", "Enter", "overwrite it", lambda _: self._write(path, then)),
+        )
 
     def _write(self, path: Path, then: Callable[[], None] | None = None) -> None:
         scenario = self._valid("Not saved")
@@ -147,16 +150,15 @@ class Dialogs:
         if not self._desk.history.changed:
             self._discard()
             return
-        discard: dict[str, Callable[[str], None]] = {"backspace": lambda _: self._discard()}
+        discard = Answer("backspace", "Backspace", "discard", lambda _: self._discard())
         if self._live:
-            hint = "Enter goes on from now   Shift+Enter from the start   Backspace discards"
-            answers = {"return": lambda _: self.apply("now")}
-            answers["shift+return"] = lambda _: self.apply("start")
-            self.prompt = Prompt("Use what was drawn?", f"{hint}   Esc stays", answers | discard)
+            now = Answer("return", "Enter", "from now", lambda _: self.apply("now"))
+            start = "shift+return", "Shift Enter", "from the start"
+            anew = Answer(*start, lambda _: self.apply("start"))
+            self.prompt = Prompt("Use what was drawn?", now, anew, discard, escape="stay")
         else:
-            hint = "Enter saves   Backspace discards   Esc stays"
-            answers = {"return": lambda _: self.save(then=self._discard)}
-            self.prompt = Prompt("Not saved yet.", hint, answers | discard)
+            save = Answer("return", "Enter", "save", lambda _: self.save(then=self._discard))
+            self.prompt = Prompt("Not saved yet.", save, discard, escape="stay")
 
     def _discard(self) -> None:
         self.done = True

@@ -11,7 +11,7 @@ from typing import Any
 from mars2d.core.errors import InputError
 from mars2d.scenario import toml_file
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.saving import free_name
+from mars2d.window.screen.saving import free_name
 
 UNTITLED = Scenario.__dataclass_fields__["title"].default
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -21,12 +20,12 @@ from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.chrome import (
+    Answer,
     Button,
     Header,
     Prompt,
     draw_footer,
     draw_plate,
-    draw_prompt,
 )
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
@@ -45,11 +44,12 @@ from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.toolbar import WIDTH, Toolbar
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
-from mars2d.window.help import Help
-from mars2d.window.keys import chord
-from mars2d.window.looks import Looks
-from mars2d.window.menu import Menu
-from mars2d.window.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.widgets.help import Help
+from mars2d.window.widgets.keys import chord
+from mars2d.window.widgets.menu import Menu
+from mars2d.window.widgets.text_field import TextField
 
 TOOLS: dict[str, type[Tool]] = {
     "select": Select,
@@ -64,6 +64,11 @@ TOOLS: dict[str, type[Tool]] = {
     "workspace": Workspace,
 }
 NUDGES = {"left": (-1, 0), "right": (1, 0), "up": (0, 1), "down": (0, -1)}
+ASKED = frozenset({
+    pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING, pygame.MOUSEBUTTONDOWN,
+    pygame.MOUSEWHEEL,
+})  # fmt: skip
+"""The events that are for a prompt alone."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
 MAX_NAMED = 40
 """With more robots and props than this, names are hidden at first."""
@@ -130,7 +135,8 @@ class Editor:
             "dark": looks.actions["dark"],
             "text": looks.actions["text"],
             "help": self.help.turn,
-            "leave": self._leave,
+            "escape": self._escape,
+            "leave": self.dialogs.leave,
             "save": self.dialogs.save,
             "run": self.dialogs.run,
             "now": lambda: self.dialogs.apply("now"),
@@ -151,7 +157,12 @@ class Editor:
 
     def handle(self, event: pygame.Event) -> None:
         """Handle an event of pygame."""
-        if event.type == pygame.KEYDOWN:
+        prompt = self.dialogs.prompt
+        if prompt is not None:
+            self.dialogs.handle(prompt, event)
+        if (prompt is not None and event.type in ASKED) or self._choose_in_menu(event):
+            pass
+        elif event.type == pygame.KEYDOWN:
             self._press_key(event)
         elif event.type == pygame.KEYUP:
             self._held.discard(event.key)
@@ -171,15 +182,16 @@ class Editor:
         elif event.type == pygame.MOUSEBUTTONUP:
             self._release(event)
 
+    def _choose_in_menu(self, event: pygame.Event) -> bool:
+        """Give an event to the open menu; return whether it took it."""
+        try:
+            return self.menu.handle(event)
+        except InputError as error:  # a value that does not go with the others
+            self.desk.say(str(error), warns=True)
+            return True
+
     def _press_key(self, event: pygame.Event) -> None:
         name = chord(event.key, event.mod)
-        if self.dialogs.prompt is not None:
-            self.dialogs.press(self.dialogs.prompt, name, event.unicode)
-            return
-        if self.menu.is_open:
-            self.menu.close()
-            if event.key == pygame.K_ESCAPE:
-                return
         if event.key == pygame.K_SPACE:
             self._space = True
             return
@@ -191,7 +203,7 @@ class Editor:
         key = action_of(name, event.unicode, live=self.live)
         if self._dragging or (again and not (key is not None and key.repeats)):
             return
-        if key is None or key.action not in ("help", "leave"):
+        if key is None or key.action not in ("help", "escape"):
             self.help.close()
         if event.key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.tool.confirm():
             return
@@ -207,15 +219,11 @@ class Editor:
             self._actions[key.action]()
 
     def _press(self, event: pygame.Event) -> None:
-        if self.dialogs.prompt is not None:
-            return
         if self.help.is_open:
             self.help.close()
             return
         self._pointer = event.pos
         try:
-            if self.menu.handle(event):
-                return
             if self.panel.area.collidepoint(event.pos):
                 self.desk.say("")
                 self.panel.click(event.pos)
@@ -299,8 +307,10 @@ class Editor:
         if not (self.desk.selection or self.tool.puts):
             self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
-        label, hint = "x y [degrees] =", "for example 1.5 2 90   Enter applies it   Esc cancels"
-        self.dialogs.prompt = Prompt(label, hint, {"return": self._put}, field=True)
+        enter = Answer("return", "Enter", "apply", self._put)
+        self.dialogs.prompt = Prompt(
+            "x y [degrees] =", enter, field=TextField(opened_by_key=True), doc="such as 1.5 2 90"
+        )
 
     def _put(self, text: str) -> None:
         """Put the selection, or a new item, at typed numbers."""
@@ -341,8 +351,8 @@ class Editor:
         if layout != self.layout:  # it does not follow the workspace while that is drawn
             self.viewpoint.arrange(layout, self.desk.draft.sketch)
 
-    def _leave(self) -> None:
-        """Close the help, leave the tool, select nothing, or leave."""
+    def _escape(self) -> None:
+        """Close the help, leave the tool, select nothing, or go back to the paused run."""
         if self.help.is_open:
             self.help.close()
         elif self.tool.cancel():
@@ -352,8 +362,10 @@ class Editor:
             self.desk.select()
         elif self.desk.selection:
             self.desk.select()
-        else:
+        elif self.live:
             self.dialogs.leave()
+        else:
+            self.desk.say("Ctrl Q closes the editor")
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -375,11 +387,10 @@ class Editor:
         if self.dialogs.prompt is None:
             self._draw_foot(surface)
         else:
-            blink = time.monotonic() % 1.0 < 0.6
-            draw_prompt(surface, self.layout, self.painter, self.dialogs.prompt, blink=blink)
+            self.dialogs.prompt.draw(surface, self.layout, self.painter)
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self._pointer, surface.get_rect())
-        self.menu.draw(surface, surface.get_rect(), self.painter, self._pointer)
+        self.menu.draw(surface, surface.get_rect(), self.painter)
         self.help.draw(surface, self.layout, self.painter, groups(live=self.live))
 
     def _draw_plot(self, surface: pygame.Surface) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mars2d.window.keys import Key
+from mars2d.window.widgets.keys import Key
 
 TOOLS = (
     Key("select", ("v",), ("V",), "select and move"),
@@ -38,12 +38,15 @@ VIEW = (
     Key("names", ("i",), ("I",), "names on and off"),
     Key("fit", ("f",), ("F",), "fit the workspace into the window"),
     Key("help", ("f1",), ("F1",), "all keys on and off"),
-    Key("leave", ("escape",), ("Esc",), "leave the tool, deselect, leave"),
+    Key("escape", ("escape",), ("Esc",), "leave the tool, deselect"),
     Key("dark", ("d",), ("D",), "dark or light"),
     Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
 )
 
-FILE = (Key("save", ("ctrl+s",), ("Ctrl S",), "save as a scenario file (TOML)"),)
+FILE = (
+    Key("save", ("ctrl+s",), ("Ctrl S",), "save as a scenario file (TOML)"),
+    Key("leave", ("ctrl+q", "ctrl+w"), ("Ctrl Q",), "leave; asks first if something would be lost"),
+)
 
 RUN = (Key("run", ("ctrl+r", "f5"), ("F5",), "save and run; closing the run returns here"),)
 

@@ -10,7 +10,7 @@ import numpy as np
 from mars2d.core.plane import Outline, Point, edges_of, inside_polygon
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.item import Item
-from mars2d.window.picking import body_at
+from mars2d.window.screen.picking import body_at
 
 NEAR = 6.0
 """A point this far from a line or body still hits it, points of the screen."""

@@ -24,7 +24,7 @@ from mars2d.scenario.options import parse_option
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.sensors.base import Sensor
-from mars2d.window.editor.chrome import Prompt
+from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
@@ -32,7 +32,8 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.panel import Row
 from mars2d.window.editor.readout import described
-from mars2d.window.menu import Entry, Menu
+from mars2d.window.widgets.menu import Entry, Menu
+from mars2d.window.widgets.text_field import TextField
 
 Pixel = tuple[int, int]
 
@@ -222,14 +223,18 @@ class Properties:
             change(field.name, not value)
         elif choices:
             entries = [
-                Entry(_in_words(each), partial(change, field.name, each), CHOSEN * (each == value))
+                Entry(
+                    _in_words(each),
+                    partial(change, field.name, each),
+                    value=CHOSEN * (each == value),
+                )
                 for each in choices
             ]
             self._open(_title(field.name), entries, pixel)
         else:
             unit = field.metadata.get("unit", "")
             label = f"{_title(field.name)}{f' [{unit}]' if unit else ''} ="
-            text = f"{value:.15g}" if isinstance(value, float) else _in_words(value)
+            text = repr(value) if isinstance(value, float) else _in_words(value)
             self._type(label, field.metadata.get("doc", ""), text, field.name, change)
 
     def _choices(self, field: dataclasses.Field[Any], part: Any) -> Sequence[Any]:
@@ -252,8 +257,10 @@ class Properties:
             change(name, None if value in ("", "none") else value)
             self._prompted()
 
-        hint = f"{doc}   Enter applies it   Esc cancels"
-        self._dialogs.prompt = Prompt(label, hint, {"return": answer}, text=text, field=True)
+        field = TextField(text)
+        field.select_all()
+        enter = Answer("return", "Enter", "apply", answer)
+        self._dialogs.prompt = Prompt(label, enter, field=field, doc=doc)
 
     def _prompted(self) -> None:
         """Clear the last message."""
@@ -288,11 +295,12 @@ class Properties:
             assert issubclass(kind, Controller)
             mark = CHOSEN if now == {kind} else ""
             act = partial(self._give_law, robots, kind, pixel)
-            entries.append(Entry(kind.title, act, mark))
+            entries.append(Entry(kind.title, act, value=mark))
         entries.append(Entry("from a file …", partial(self._ask_for_file, robots)))
         without = "as the team's law says" if self._document.control is not None else NO_LAW
         mark = CHOSEN if now == {type(None)} else ""
-        entries.append(Entry(without, partial(self._set_bodies, robots, "controller", None), mark))
+        stop = partial(self._set_bodies, robots, "controller", None)
+        entries.append(Entry(without, stop, value=mark))
         self._open("Law", entries, pixel)
 
     def _give_law(self, robots: tuple[Item, ...], kind: type[Controller], pixel: Pixel) -> None:
@@ -345,7 +353,7 @@ class Properties:
             self._desk.put(self._desk.draft.with_members(robots, change))
 
         entries = [
-            Entry(name, partial(take, kind), CHOSEN * (kinds == {kind}))
+            Entry(name, partial(take, kind), value=CHOSEN * (kinds == {kind}))
             for name, kind in members("bodies").items()
         ]
         if len(kinds) == 1:
@@ -360,11 +368,11 @@ class Properties:
         for field in dataclasses.fields(parts[0]):
             row = self._row(field, parts, change)
             if row.act is not None and _is_plain(getattr(parts[0], field.name)):
-                yield Entry(row.title, partial(row.act, pixel), row.value)
+                yield Entry(row.title, partial(row.act, pixel), value=row.value)
 
     def _offer_colors(self, bodies: tuple[Item, ...], pixel: Pixel) -> None:
         entries = [
-            Entry(words, partial(self._set_bodies, bodies, "color", color), color=color)
+            Entry(words, partial(self._set_bodies, bodies, "color", color), colors=[color])
             for words, color in zip(COLORS, PALETTE, strict=True)
         ]
         field = self._desk.draft.member(bodies[0]).__dataclass_fields__["color"]

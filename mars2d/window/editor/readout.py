@@ -10,7 +10,7 @@ from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, angle_of
-from mars2d.window.readout import in_both_units
+from mars2d.window.panels.readout import in_both_units
 
 
 def described(desk: Desk) -> list[str]:

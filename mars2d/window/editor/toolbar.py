@@ -15,7 +15,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.window.editor.chrome import draw_plate
 from mars2d.window.editor.handles import MARK, PAPER
 from mars2d.window.editor.keys import TOOLS, VIEW
-from mars2d.window.keys import Key
+from mars2d.window.widgets.keys import Key
 
 WIDTH = 58.0
 """The toolbar's width, points."""

@@ -43,7 +43,7 @@ OF_OTHERS = [
     ("three people", "mars2d play sumo --role red,blue,red", "two people at most"),
     (
         "a law for a role that is not there",
-        "mars2d check corner_pursuers/ahead.py --for corner_game --role pursuers",
+        "mars2d check pursuers/ahead.py --for corner_game --role pursuers",
         "did you mean 'pursuer'?",
     ),
     (
@@ -64,7 +64,6 @@ OF_OTHERS = [
     ("a check of a CAD file", "mars2d check plan.dwg", "plan.dwg", ".py", ".dxf"),
     ("a paper without a folder", "mars2d paper", "OUT"),
     ("a paper over a file", "mars2d paper /dev/null --only 2", "/dev/null", "folder"),
-    ("a bench into a text", "mars2d bench S1 --save a.txt", "a.txt", ".json"),
 ]
 
 OF_SWEEP = [
@@ -87,10 +86,10 @@ OF_SWEEP = [
 OF_TOURNAMENT = [
     ("a tournament of nothing", "", "SCENARIO"),
     ("a tournament of nobody", "sumo", "--players"),
-    ("a role that is none", "sumo --role green=sumo_players", "green", "red"),
-    ("a tournament of no workers", "sumo --players sumo_players --workers 0", "workers=0"),
-    ("a tick of no time", "sumo --players sumo_players --tick-limit 0", "tick", "0"),
-    ("a match of NaN seconds", "sumo --players sumo_players --match-limit nan", "match", "nan"),
+    ("a role that is none", "sumo --role green=players", "green", "red"),
+    ("a tournament of no workers", "sumo --players players --workers 0", "workers=0"),
+    ("a tick of no time", "sumo --players players --tick-limit 0", "tick", "0"),
+    ("a match of NaN seconds", "sumo --players players --match-limit nan", "match", "nan"),
     ("a match's record without a match", "sumo --record a.npz", "--record", "--match"),
 ]
 

@@ -129,6 +129,16 @@ def test_a_csv_that_was_rounded_or_cut_is_refused(tmp_path):
     refused(path, "damaged")
 
 
+@each_case("column, value", [("proximity", "2"), ("command_0", "0.5"), ("body", "puck1")])
+def test_a_cell_that_is_not_what_a_record_reads_is_refused_with_its_line(tmp_path, column, value):
+    path = everything().save(tmp_path / "run.csv")
+    table = pd.read_csv(path, dtype=str, keep_default_na=False)
+    puck = table.index[table["body"] == "puck0"][3]
+    table.loc[puck, column] = value
+    table.to_csv(path, index=False)
+    refused(path, f"damaged: line {puck + 2} was changed since it was saved")
+
+
 # -- xarray and netCDF ----------------------------------------------------------------------
 
 

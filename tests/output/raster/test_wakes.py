@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pygame
 import pytest
@@ -95,18 +93,36 @@ def test_dragging_back_draws_few_rows_anew(run):
 
 def test_a_picture_that_is_moved_by_whole_pixels_is_what_it_would_be_drawn_anew(run, monkeypatch):
     monkeypatch.setattr("mars2d.output.raster.stage.PATIENCE", 0.0)  # as if all were slow
+    monkeypatch.setattr("mars2d.output.raster.stage.MAX_AGE", 0.0)
     stage, frame = Stage(Painter(), MEMORY), frame_at(run, 1500)
     drawn(stage, frame)
     surface = pygame.Surface(SIZE, 0, 32)
-    for k in range(1, 40):
-        stage.draw(surface, frame, CAMERA.panned(2 * k, -k), Layers(), hurried=True)
-        time.sleep(0.002)
-    assert stage._canvas.still.get_width() > SIZE[0], "more is drawn than is seen"
-    camera = CAMERA.panned(78, -39)
-    stage.draw(surface, frame, camera, Layers(), hurried=True)
-    fresh = pygame.Surface(SIZE, 0, 32)
-    Stage(Painter()).draw(fresh, frame, camera, Layers())
-    seen, wanted = (pygame.surfarray.array3d(each).astype(int) for each in (surface, fresh))
-    assert np.abs(seen - wanted).mean() < 0.25
+    stage.draw(surface, frame, CAMERA.panned(2, -1), Layers(), hurried=True)
+    kept = stage._canvas
+    assert kept.still.get_width() > SIZE[0], "more is drawn than is seen"
+    for k, later in ((20, 1500), (39, 1600)):
+        frame, camera = frame_at(run, later), CAMERA.panned(2 * k, -k)
+        stage.draw(surface, frame, camera, Layers(), hurried=True)
+        assert stage._canvas is kept
+        fresh = pygame.Surface(SIZE, 0, 32)
+        Stage(Painter()).draw(fresh, frame, camera, Layers())
+        seen, wanted = (pygame.surfarray.array3d(each).astype(int) for each in (surface, fresh))
+        assert np.abs(seen - wanted).mean() < 0.25
     stage.draw(surface, frame, camera, Layers())
     assert np.abs(pygame.surfarray.array3d(surface).astype(int) - wanted).mean() < 0.25
+
+
+@pytest.mark.parametrize("age", [0.0, np.inf])
+def test_while_the_scale_changes_floor_and_paths_are_old_for_a_moment_only(run, monkeypatch, age):
+    monkeypatch.setattr("mars2d.output.raster.stage.PATIENCE", 0.0)
+    monkeypatch.setattr("mars2d.output.raster.stage.MAX_AGE", age)
+    stage, surface = Stage(Painter(), MEMORY), pygame.Surface(SIZE, 0, 32)
+    drawn(stage, frame_at(run, 1500))
+    first = stage._canvas
+    for k in range(1, 6):
+        camera, frame = CAMERA.zoomed((320, 180), 1.05**k), frame_at(run, 1500 + 20 * k)
+        stage.draw(surface, frame, camera, Layers(), hurried=True)
+        assert (stage._canvas is first) == (age > 0)
+        assert stage._canvas.wakes.trails[1].drawn == len(frame.path), "up to the newest row"
+        if age == 0:
+            assert stage._canvas.camera.scale == camera.scale

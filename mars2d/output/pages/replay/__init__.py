@@ -6,6 +6,7 @@ import base64
 import hashlib
 import html
 import json
+import re
 import zlib
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -80,6 +81,8 @@ def replay_data(record: Rows) -> str:
     Raises InputError for a record without rows.
     """
     content, columns = content_of(record)
+    colors = set(re.findall(r"\"(#[0-9a-f]{6})", json.dumps(content)))
+    content["dark"] = {color: DARK.shade(color) for color in sorted(colors)}
     text = json.dumps(content, separators=(",", ":"), allow_nan=False).encode()
     packed = (zlib.compress(text, 6), columns.packed())
     return " ".join(base64.b64encode(part).decode() for part in packed)
@@ -109,7 +112,7 @@ def player(title: str, data: str, first: str = "") -> str:
 def page_script() -> str:
     """Return the script of the page."""
     parts = "\n".join(_read(f"{name}.js") for name in SCRIPTS)
-    return f'(() => {{\n"use strict";\nconst PAPER = "{DARK.paper}";\n{parts}}})();'
+    return f'(() => {{\n"use strict";\n{parts}}})();'
 
 
 @cache

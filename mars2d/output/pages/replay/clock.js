@@ -1,20 +1,13 @@
-// The time that is shown: a position between the rows, which runs on while it plays.
+// The time that is shown: a position between the rows of the file, which runs on while it plays.
 
 const SPEEDS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
 
 class Clock {
   constructor(record) {
-    const last = record.columns.places.rows - 1, spacing = record.stride * record.step;
-    const end = (record.rows - 1) * record.step;
-    this.last = last;
-    this.end = end;
-    record.timeOf = (position) => {
-      const row = Math.min(Math.floor(position), last), share = position - row;
-      const time = (k) => Math.min(k * spacing, end);
-      return time(row) + share * (time(row + 1) - time(row));
-    };
-    this.record = record;
-    this.spacing = spacing;
+    this.step = record.step;
+    this.rows = record.columns.rows.values; // the rows of the run that the file has
+    this.last = this.rows.length - 1;
+    this.end = this.rows[this.last] * this.step;
     this.position = 0;
     this.playing = false;
     this.loop = false;
@@ -30,8 +23,25 @@ class Clock {
       Math.abs(Math.log(each / near)) < Math.abs(Math.log(best / near)) ? each : best);
   }
 
+  // The row of the run at a position, with its fraction.
+  rowAt(position) {
+    const row = Math.floor(position), next = Math.min(row + 1, this.last);
+    return this.rows[row] + (position - row) * (this.rows[next] - this.rows[row]);
+  }
+
+  timeOf(position) {
+    return this.rowAt(position) * this.step;
+  }
+
+  // The position of a row of the run; it may have a fraction.
+  positionOf(row) {
+    const before = Math.min(Math.max(countUpTo(this.rows, row + 1e-9) - 1, 0), Math.max(this.last - 1, 0));
+    const first = this.rows[before];
+    return this.last ? before + (row - first) / (this.rows[before + 1] - first) : 0;
+  }
+
   get time() {
-    return this.record.timeOf(this.position);
+    return this.timeOf(this.position);
   }
 
   get atEnd() {
@@ -43,7 +53,7 @@ class Clock {
   }
 
   // Whole rows on or back; from between two rows, to the nearer one on that side first.
-  step(rows) {
+  move(rows) {
     const from = rows > 0 ? Math.floor(this.position + 1e-9) : Math.ceil(this.position - 1e-9);
     this.playing = false;
     this.go(from + rows);
@@ -58,11 +68,8 @@ class Clock {
   pass(seconds) {
     if (!this.playing) return;
     const time = this.time + seconds * this.speed;
-    if (time < this.end) {
-      const row = Math.min(Math.floor(time / this.spacing), this.last - 1);
-      const begin = this.record.timeOf(row), next = this.record.timeOf(row + 1);
-      this.go(row + (time - begin) / (next - begin));
-    } else if (this.loop) this.go(0);
+    if (time < this.end) this.go(this.positionOf(time / this.step));
+    else if (this.loop) this.go(0);
     else {
       this.go(this.last);
       this.playing = false;

@@ -82,15 +82,17 @@ def rounded(values: NDArray[Any], step: float) -> Int:
 
 
 def fitted(
-    room: int, pack: Callable[[int], tuple[Columns, int]], every: int = 1
+    room: int, pack: Callable[[int], tuple[Columns, int]], stride: int = 1
 ) -> tuple[Columns, int]:
     """Return columns that take at most `room` bytes, and the stride of rows at which they fit.
 
-    pack: returns the columns of one row in `every`, and the number of their rows. every: the first
-    stride to try; it is doubled until they fit, or until one row is left.
+    pack: returns the columns of one row in so many, and the number of their rows. stride: the first
+    to try; its multiples follow until the columns fit, or until one row is left.
     """
+    every = 1
     while True:
-        columns, rows = pack(every)
-        if columns.size + columns.beside <= room or rows <= 1:
-            return columns, every
-        every *= 2
+        columns, rows = pack(every * stride)
+        size = columns.size + columns.beside
+        if size <= room or rows <= 1:
+            return columns, every * stride
+        every = max(every + 1, int(every * size / max(room, 1)))

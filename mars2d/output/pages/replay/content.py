@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
-from mars2d.core.errors import ordinal
-from mars2d.core.quantity import UNKNOWN, Quantity
+from mars2d.core.quantity import ANGLE, DISTANCE, UNKNOWN, Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.forces import (
@@ -20,7 +19,6 @@ from mars2d.output.layers.forces import (
     SLIPPING,
     as_read,
     force_scale,
-    mean_forces,
 )
 from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
 from mars2d.output.layers.rings import RING, has_ring
@@ -45,18 +43,15 @@ from mars2d.output.pages.replay.drawings import (
     shapes_of,
 )
 from mars2d.output.pages.replay.sensors import Carried
+from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.robot import Robot
-from mars2d.sensors.base import Sensor
 
 if TYPE_CHECKING:
     from mars2d.record.rows import Rows
-
-MAX_ROWS = 20_000
-"""The most rows of a replay."""
 
 ROOM = 1_380_000
 """The most bytes of all columns; as text they take a third more."""
@@ -75,8 +70,11 @@ OTHER_ROWS = 2000
 CROWD = 100_000
 """The most rows times bodies at which a layer of a crowd is drawn."""
 
-FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-18
-"""Steps of positions and of moving shapes, in shares of the view; of headings, radians."""
+FINE, TURN, COARSE, OF_SENSORS = 2**-20, 2 * np.pi / 2**16, 2**-18, 2**-14
+"""Steps of positions, of headings [rad], of moving shapes, and of what sensors draw.
+
+Those of lengths are shares of the view.
+"""
 
 LEAP = 0.12
 """The share of the view beyond which a shape leaps between rows, rather than moving evenly."""
@@ -101,17 +99,15 @@ class _Content:
         self.size = max(view.width, view.height)
         self.columns = Columns()
         self.notes: list[str] = []
-        self.stride = 1
         self.kept = np.empty(0, dtype=np.int64)
-        self.fans: list[sensors.Carried] = []
-        self.others: list[sensors.Carried] = []
+        self.poses = np.empty((0, 3, 0))
+        self.carried: list[Carried] = []
 
     def made(self) -> tuple[dict[str, Any], Columns]:
         """Return the data and the columns."""
         self._add_poses()
         header = self._about()
         header["bodies"] = self._bodies()
-        header["leaps"] = self._leaps()
         header["readings"] = self._add_panel()
         header["marks"] = self._add_marks()
         header["layers"] = _table(self.scenario.animation)
@@ -120,7 +116,7 @@ class _Content:
         header["drawn"] = self._add_layers()
         if self.record.drawn.shapes:
             self.notes.append("what add-ons drew while they ran is shown at the end alone")
-        header |= self._add_sensors(header["drawn"])
+        self._add_sensors(header["drawn"])
         header["notes"] = self.notes
         header["columns"] = self.columns.index
         return header, self.columns
@@ -130,7 +126,7 @@ class _Content:
         bounded = scenario.workspace is not None and scenario.on_exit != "ignore"
         return {
             "title": scenario.title,
-            "file": Path(record.filename).name,
+            "file": record.filename,
             "seed": record.seed,
             "digest": record.digest,
             "versions": dict(record.versions),
@@ -138,7 +134,6 @@ class _Content:
             "finished": record.finished,
             "changed": len(record.interventions),
             "step": scenario.sampling_time,
-            "stride": self.stride,
             "rows": len(record),
             "view": [view.xmin, view.xmax, view.ymin, view.ymax],
             "grid": list(scenario.bounds) if bounded else None,
@@ -152,39 +147,41 @@ class _Content:
 
     def _add_poses(self) -> None:
         """Add the poses of all bodies at as many rows as fit, and remember these rows."""
-        record = self.record
-        step = self.size * FINE
+        record, step = self.record, self.size * FINE
         low = np.array([self.view.xmin, self.view.ymin])
-        turned = (record.pose[:, 2], record.prop_pose[:, 2])
-        most = max(max(part.max(initial=0.0), -part.min(initial=0.0)) for part in turned)
-        turn = max(TURN, float(most) * 2**-27)
+        poses = np.concatenate([record.pose, record.prop_pose], axis=2)
+        turn = max(TURN, float(np.abs(poses[:, 2]).max()) * 2**-27)
+        ways = _ways(poses)
+        progress = _progress(ways)
 
-        def packed(every: int) -> tuple[Columns, int]:
-            rows = _rows(len(record), every)
+        at_all, count = np.arange(len(record)), len(record)
+        while True:
+            at = np.linspace(0.0, progress[-1], count)
+            kept = np.unique(np.searchsorted(progress, at)) if count < len(record) else at_all
             columns = Columns()
-            poses = self._poses(rows)
-            places = rounded(poses[:, :2] - low[:, None], step)
+            columns.add("rows", kept, order=1)
+            places = rounded(poses[kept, :2] - low[:, None], step)
             columns.add("places", places, order=2, step=step, low=low.tolist())
-            columns.add("headings", rounded(poses[:, 2], turn), order=2, step=turn)
-            return columns, len(rows)
-
-        first = 1
-        while len(record) / first > MAX_ROWS:
-            first *= 2
-        columns, self.stride = fitted(POSES, packed, first)
-        self.kept = _rows(len(record), self.stride)
+            columns.add("headings", rounded(poses[kept, 2], turn), order=2, step=turn)
+            if columns.size <= POSES or count <= 2:
+                break
+            count = max(2, int(count * min(0.9, POSES / columns.size)))
+        gaps = np.argwhere(_gaps(ways, poses, kept, self.size))
+        leaps = [
+            (int(np.searchsorted(kept, row)), body) for row, body in leaps_of(record.interventions)
+        ]
+        rows, bodies = np.array([*leaps, *gaps.tolist()], dtype=int).reshape(-1, 2).T
+        columns.add("leaps:row", rows)
+        columns.add("leaps:body", bodies)
         self.columns.take(columns)
-        carried = list(sensors.carried(record, self.kept))
-        self.fans = [each for each in carried if each.is_fan]
-        self.others = [each for each in carried if not each.is_fan]
-        if self.stride > 1:
-            which = f"every {ordinal(self.stride)} row of {len(record)}"
-            self.notes.append(f"{which} is in this file, and the last one")
-
-    def _poses(self, rows: Int) -> Float:
-        """Return the poses of all bodies at some rows, (R, 3, n + p)."""
-        record = self.record
-        return np.concatenate([record.pose[rows], record.prop_pose[rows]], axis=2)
+        self.kept, self.poses = kept, poses[kept]
+        self.carried = list(sensors.carried(record, self.kept))
+        if len(self.kept) < len(record):
+            self.notes.append(
+                f"{len(self.kept)} of {len(record)} rows are in this file, more where bodies move"
+            )
+        if len(gaps):
+            self.notes.append("paths have gaps where a body goes round a bend between two rows")
 
     def _bodies(self) -> list[dict[str, Any]]:
         """Return the robots and props: their names, their sizes, and how their paths look."""
@@ -220,11 +217,6 @@ class _Content:
         ]
         return robots + props
 
-    def _leaps(self) -> list[list[int]]:
-        """Return where bodies were put elsewhere: the first kept row after it, and the body."""
-        leaps = leaps_of(self.record.interventions)
-        return [[int(np.searchsorted(self.kept, row)), body] for row, body in leaps]
-
     # -- the panel ----------------------------------------------------------------------------
 
     def _add_panel(self) -> list[dict[str, Any]]:
@@ -238,7 +230,7 @@ class _Content:
             columns = Columns()
             columns.add("command", rounded(command[::every], step), order=1, step=step, every=every)
             columns.add("effort", rounded(effort[::every], 1e-3), order=1, step=1e-3, every=every)
-            readings, words[:] = pack_readings(self.others, every)
+            readings, words[:] = pack_readings(self.carried, every)
             columns.take(readings)
             return columns, len(command[::every])
 
@@ -311,23 +303,23 @@ class _Content:
                 continue
             stride = -(-len(self.kept) // OTHER_ROWS)
             rows = range(0, len(self.kept), stride)
-            headings = self._poses(self.kept[rows])[:, 2, body].tolist()
+            headings = self.poses[rows, 2, body].tolist()
             scenes = [at(body, np.array([0.0, 0.0, theta])) for theta in headings]
             found.append(Drawing(rows, scenes, body, upright=True))
         return found
 
     def _add_moving(self, layers: list[Layer]) -> dict[str, dict[str, Any]]:
         """Add layers that are drawn row by row, at as many rows as there is room for."""
-        last = len(self.kept) - 1
+        count = len(self.kept)
         crowd = CROWD // len(self.scenario.bodies)
         most = {each.name: min(LAYER_ROWS.get(each.name, OTHER_ROWS), crowd) for each in layers}
-        strides = {name: -(-len(self.kept) // max(rows, 1)) for name, rows in most.items()}
+        strides = {name: -(-count // max(rows, 1)) for name, rows in most.items()}
         scenes: dict[str, dict[int, Flat]] = {layer.name: {} for layer in layers}
-        for row in range(last + 1):
-            due = [each for each in layers if row % strides[each.name] == 0 or row == last]
-            if due:
-                frame = self.record.frame(int(self.kept[row]))
-                for layer in due:
+        rows = {count - 1, *(k for stride in strides.values() for k in range(0, count, stride))}
+        for row in sorted(rows):
+            frame = self.record.frame(int(self.kept[row]))
+            for layer in layers:
+                if row % strides[layer.name] == 0 or row == count - 1:
                     scenes[layer.name][row] = _drawn(layer, frame)
         headers = {}
         for layer in layers:
@@ -357,34 +349,25 @@ class _Content:
             self._note(layer.title.lower(), every)
         return {**headers[-1], "every": every, "leap": LEAP * self.size}
 
-    def _add_sensors(self, drawn: dict[str, Any]) -> dict[str, Any]:
-        """Add the sensors: distances along beams as such, the shapes of others to `drawn`."""
-        record = self.record
-        fans, others = self.fans, self.others
-        if record.missing:
-            listed = ", ".join(record.missing)
+    def _add_sensors(self, drawn: dict[str, Any]) -> None:
+        """Add what sensors draw to `drawn`, at as many rows as there is room for."""
+        if self.record.missing:
+            listed = ", ".join(self.record.missing)
             self.notes.append(f"not drawn, since their code is not in the record: {listed}")
-        drawings, stride = sensors.drawings(others, self._poses(self.kept), self.scenario.colors)
+        if not self.carried:
+            return
+        drawings, stride = sensors.drawings(self.carried, self.poses, self.scenario.colors)
         headers: list[dict[str, Any]] = []
 
         def packed(every: int) -> tuple[Columns, int]:
-            columns, header, most = pack("sensors", drawings, every, self.size * COARSE)
+            columns, header, most = pack("sensors", drawings, every, self.size * OF_SENSORS)
             headers.append(header)
             return columns, most
 
-        room = ROOM - self.columns.size - self.columns.beside
-        if others:
-            columns, every = fitted(room // 2 if fans else room, packed)
-            self.columns.take(columns)
-            self._note("what sensors draw", max(every, stride))
-            drawn["sensors"] = headers[-1]
-        if fans:
-            room = ROOM - self.columns.size - self.columns.beside
-            columns, every = fitted(room, lambda every: sensors.pack_fans(fans, every))
-            self.columns.take(columns)
-            self._note("distances of scanners", every)
-            self.notes += sensors.beams_left_out(fans)
-        return {"fans": sensors.fans_of(fans, self.scenario.colors)}
+        columns, every = fitted(ROOM - self.columns.size - self.columns.beside, packed, stride)
+        self.columns.take(columns)
+        self._note("what sensors draw", every)
+        drawn["sensors"] = {**headers[-1], "held": every}
 
     def _note(self, what: str, every: int) -> None:
         if every > 1:
@@ -415,11 +398,10 @@ def _place_of(mark: Mark) -> dict[str, Any]:
 def _legend(legend: Legend) -> dict[str, Any]:
     """Return a legend for the page: its arrow at all round numbers, and its signs."""
     ruler = legend.ruler
-    numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
     return {
         "layer": legend.layer,
         "arrow": ruler and ["arrow", ruler.color, None, ruler.width],
-        "lengths": [[ruler.unit * each, ruler.in_words(each)] for each in numbers] if ruler else [],
+        "lengths": ruler.lengths if ruler else [],
         "signs": [
             {"room": sign.room, "meaning": sign.meaning, "shapes": shapes_of(sign.scene)}
             for sign in legend.signs
@@ -437,9 +419,28 @@ def _in_words(part: object) -> str:
     return snake_case(type(part).__name__).replace("_", " ")
 
 
-def _rows(count: int, every: int) -> Int:
-    """Return one row in `every`, and the last one."""
-    return np.unique(np.append(np.arange(0, count, every), count - 1))
+def _ways(poses: Float) -> Float:
+    """Return how far each body has gone up to each row, (T, n): metres."""
+    steps = np.hypot(*np.diff(poses[:, :2], axis=0).swapaxes(0, 1))
+    return np.concatenate([np.zeros((1, poses.shape[2])), np.cumsum(steps, axis=0)])
+
+
+def _progress(ways: Float) -> Float:
+    """Return how far the run has got at each row, half by time and half by what moves, (T,)."""
+    time = np.linspace(0.0, 1.0, len(ways))
+    moved = np.concatenate([[0.0], np.cumsum(np.diff(ways, axis=0).max(axis=1, initial=0.0))])
+    return time + moved / max(float(moved[-1]), 1e-300)
+
+
+def _gaps(ways: Float, poses: Float, kept: Int, size: float) -> NDArray[np.bool_]:
+    """Return on the way to which kept rows a line would not do for a body's path, (R, n).
+
+    A line does for a path that is less than a tenth longer, as an arc of less than 90 degrees is,
+    or by less than a five hundredth of the view's size.
+    """
+    gone = np.diff(ways[kept], axis=0, prepend=ways[:1])
+    line = np.hypot(*np.diff(poses[kept, :2], axis=0, prepend=poses[:1, :2]).swapaxes(0, 1))
+    return np.asarray(gone - line > np.maximum(0.1 * gone, size / 500))
 
 
 # -- the numbers in the panel ---------------------------------------------------------------------
@@ -488,7 +489,7 @@ def pack_readings(sensors: list[Carried], every: int) -> tuple[Columns, list[dic
     columns = Columns()
     found: list[dict[str, Any]] = []
     for each in sensors:
-        values = each.readings[::every].reshape(len(each.readings[::every]), -1).astype(float)
+        title, values, quantities = _said(each, each.readings[::every])
         if not 0 < values.shape[1] <= MAX_NUMBERS:
             continue
         finite = values[np.isfinite(values)]
@@ -496,24 +497,31 @@ def pack_readings(sensors: list[Carried], every: int) -> tuple[Columns, list[dic
         name = f"reading{len(found)}"
         columns.add(name, rounded(values, step), order=1, step=step, every=every)
         found.append({
-            "name": each.name,
+            "name": title,
             "robot": each.robot,
             "column": name,
-            "parts": [_part(q) for q in _quantities(each.sensor, values.shape[1])],
+            "parts": [[q.name, q.unit, q.kind] for q in quantities],
         })  # fmt: skip
     return columns, found
 
 
-def _quantities(sensor: Sensor, count: int) -> list[Quantity]:
-    """Return the quantity of each number of a reading."""
+def _said(each: Carried, readings: NDArray[Any]) -> tuple[str, Float, list[Quantity]]:
+    """Return a sensor's title, and its readings as numbers (R, m) to be read, with what each is.
+
+    Of distances along many beams, the nearest and its direction.
+    """
+    sensor, values = each.sensor, readings.reshape(len(readings), -1).astype(float)
+    fan, count = sensor.fan, values.shape[1]
+    if fan is not None and count == len(fan.angles) > MAX_NUMBERS:
+        near = values.argmin(axis=1)
+        angles = sensor.mount[2] + np.asarray(fan.angles)[near]
+        nearest = np.column_stack([values[np.arange(len(values)), near], angles])
+        return f"{each.name}, nearest", nearest, [DISTANCE, ANGLE]
     stated = list(sensor.quantities) or [Quantity("value")]
     if count % len(stated) == 0 and len(stated) > 1:
-        return stated * (count // len(stated))
+        return each.name, values, stated * (count // len(stated))
     first = stated[0]
     if count == 1:
-        return [first]
-    return [Quantity(f"{first.name} {k}", first.unit, first.kind) for k in range(count)]
-
-
-def _part(quantity: Quantity) -> list[str]:
-    return [quantity.name, quantity.unit, quantity.kind]
+        return each.name, values, [first]
+    each_one = [Quantity(f"{first.name} {k}", first.unit, first.kind) for k in range(count)]
+    return each.name, values, each_one

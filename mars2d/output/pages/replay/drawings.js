@@ -2,7 +2,7 @@
 
 class Drawings {
   constructor(header, columns) {
-    Object.assign(this, { styles: header.styles, step: header.step, every: header.every, leap: header.leap });
+    Object.assign(this, { styles: header.styles, step: header.step, every: header.every, leap: header.leap, held: header.held });
     this.between = [];
     this.known = new Map();
     this.orders = header.orders.map((flat) => {
@@ -41,6 +41,11 @@ class Drawings {
   sceneAt({ first, end }, row) {
     const found = countUpTo(this.rows, row, first, end) - 1;
     return found < first ? -1 : found;
+  }
+
+  // The row at which what is seen at a row was so; of each `held` rows, the file has the last one.
+  rowOf(scene, row) {
+    return Math.max(this.rows[scene], Math.floor((row + 1) / this.held) * this.held - 1);
   }
 
   paint(painter, scene) {
@@ -89,19 +94,17 @@ class Drawings {
   }
 }
 
-// The images of a record, light and dark, made when they are first seen.
+// The images of a record, made when they are first seen.
 function imagesOf(columns) {
   const made = new Map();
-  return (name, dark) => {
-    const key = `${name} ${dark}`;
-    if (!made.has(key)) {
+  return (name) => {
+    if (!made.has(name)) {
       const { entry, values } = columns[name], [height, width] = entry.shape;
       const canvas = document.createElement("canvas");
       Object.assign(canvas, { width, height });
-      const pixels = dark ? shadePixels(values) : new Uint8ClampedArray(values);
-      canvas.getContext("2d").putImageData(new ImageData(pixels, width, height), 0, 0);
-      made.set(key, canvas);
+      canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(values), width, height), 0, 0);
+      made.set(name, canvas);
     }
-    return made.get(key);
+    return made.get(name);
   };
 }

@@ -149,8 +149,8 @@ def pack(
 ) -> tuple[Columns, dict[str, Any], int]:
     """Return drawings as columns, their header, and the most scenes of one of them.
 
-    every: of each `every` rows, the last scene is kept. step: metres. A shape is written as the
-    difference from the last one at its place with as many numbers.
+    every: of each `every` rows, the last scene is kept, and the first of all. step: metres. A shape
+    is written as the difference from the last one at its place with as many numbers.
     """
     columns, book = Columns(), Book()
     rows: list[int] = []
@@ -201,8 +201,8 @@ def kept_rows(drawing: Drawing, every: int) -> list[int]:
 
 
 def _last_of_each(drawing: Drawing, every: int) -> list[tuple[int, Flat]]:
-    """Return the last row and scene of each `every` rows."""
-    kept = {
-        row // every: (row, scene) for row, scene in zip(drawing.rows, drawing.scenes, strict=True)
-    }
-    return list(kept.values())
+    """Return the first row and scene, and the last ones of each `every` rows."""
+    pairs = list(zip(drawing.rows, drawing.scenes, strict=True))
+    last = {row // every: (row, scene) for row, scene in pairs}
+    first = [pairs[0]] if pairs and pairs[0][0] < last[pairs[0][0] // every][0] else []
+    return first + list(last.values())

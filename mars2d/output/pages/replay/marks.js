@@ -14,7 +14,7 @@ class Marks {
     }
   }
 
-  draw(last, dark) {
+  draw(clock, dark) {
     const { canvas, record } = this, { width, height } = canvas.getBoundingClientRect();
     const ratio = window.devicePixelRatio || 1, state = [width, height, ratio, dark].join();
     if (state === this.drawn) return;
@@ -26,7 +26,7 @@ class Marks {
       context.fillStyle = style.getPropertyValue(`--mark-${kind}`).trim();
       const top = height / 2 - (above ? AWAY + TICK : -AWAY), bottom = height / 2 + (below ? AWAY + TICK : -AWAY);
       for (const row of record.columns[`marks:${kind}`].values) {
-        const x = THUMB / 2 + (width - THUMB) * row / Math.max(last, 1);
+        const x = THUMB / 2 + (width - THUMB) * clock.rows[row] / Math.max(clock.rows[clock.last], 1);
         context.fillRect(Math.round(x - 0.75), top, 1.5, bottom - top);
       }
     }

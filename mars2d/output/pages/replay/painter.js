@@ -180,12 +180,14 @@ class Painter {
   }
 
   image([, name], n, k, count, step) {
-    const picture = this.images(name, this.dark);
+    const picture = this.images(name);
     const left = this.across(n[k] * step, 0), right = this.across(n[k + 1] * step, 0);
     const bottom = this.down(0, n[k + 2] * step), top = this.down(0, n[k + 3] * step);
     const context = this.context;
     context.imageSmoothingEnabled = (right - left) / picture.width < 6; // large pixels are sharp
+    if (this.dark) context.filter = "invert(0.92) hue-rotate(180deg)";
     context.drawImage(picture, left, top, right - left, bottom - top);
+    context.filter = "none";
   }
 }
 

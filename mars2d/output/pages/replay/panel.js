@@ -58,12 +58,6 @@ class Panel {
         const column = record.columns[reading.column];
         row(reading.name, () => this.reading(reading.parts, (k) => column.at(picture.row, k)));
       }
-      let first = 0;
-      for (const fan of record.fans) {
-        const begin = first;
-        first += fan.beams;
-        if (fan.robot === body) row(fan.name, () => this.nearest(fan, begin));
-      }
     }
     if (record.columns["contacts:row"]) row("contacts", () => this.contacts(body));
   }
@@ -77,14 +71,6 @@ class Panel {
     }
     if (parts.length === 1) return [say(parts[0], 0)];
     return parts.map((part, k) => `${part[0]} ${say(part, k)}`);
-  }
-
-  nearest(fan, first) {
-    const { far } = this.picture.distances(fan, first);
-    const best = far.reduce((least, each, k) => (each < far[least] ? k : least), 0);
-    if (!Number.isFinite(far[best])) return ["nothing within range"];
-    const bearing = fan.mount[2] + fan.first + best * fan.apart;
-    return [`nearest ${inWords(far[best], "m")}`, `at ${inWords(bearing, "", "angle")}`];
   }
 
   contacts(body) {

@@ -4,9 +4,8 @@
 const LEAST_GRID = 42; // pixels between its lines
 
 class Picture {
-  constructor(canvas, record) {
-    this.canvas = canvas;
-    this.record = record;
+  constructor(canvas, record, clock) {
+    Object.assign(this, { canvas, record, clock });
     this.columns = record.columns;
     this.bodies = record.bodies;
     this.robots = record.bodies.filter((body) => body.robot).length;
@@ -22,7 +21,9 @@ class Picture {
     this.stillKey = this.pathsKey = "";
     this.pathRow = 0;
     this.ends = [];
-    this.leaps = record.bodies.map((_, i) => new Set(record.leaps.filter(([, body]) => body === i).map(([row]) => row)));
+    this.leaps = record.bodies.map(() => new Set()); // the rows on the way to which there is no line
+    const { values: rows } = record.columns["leaps:row"], { values: leapt } = record.columns["leaps:body"];
+    rows.forEach((row, k) => this.leaps[leapt[k]].add(row));
     this.namePlaces = new Map(); // of the names in the last picture
     this.ui = 1; // pixels of the page for one of the picture
   }
@@ -88,7 +89,7 @@ class Picture {
     const { row } = this;
     if (row < 1 || this.leaps[i].has(row)) return [0, 0];
     const before = this.placeAt(row - 1, i), after = this.placeAt(row, i);
-    const spent = this.record.timeOf(row) - this.record.timeOf(row - 1);
+    const spent = this.clock.timeOf(row) - this.clock.timeOf(row - 1);
     const speed = Math.hypot(after[0] - before[0], after[1] - before[1]) / spent;
     return [speed, (after[2] - before[2]) / spent];
   }
@@ -267,9 +268,7 @@ class Picture {
 
   // As it looks with its opacity on the paper: pieces of a path overlap.
   trailColor(i, look) {
-    const [color] = this.bodies[i].trail, share = parseInt(color.slice(7), 16) / 255;
-    const ink = numbersOf(shade(color, look.dark)), paper = numbersOf(look.colors.paper);
-    return colorOf(ink.map((value, k) => paper[k] + share * (value - paper[k])));
+    return laidOver(shade(this.bodies[i].trail[0], look.dark), look.colors.paper);
   }
 
   // Prolong the paths on their own canvas up to the row, or draw them from the start.
@@ -379,7 +378,7 @@ class Picture {
     if (scene < 0) return;
     if (each.body !== null) {
       const i = each.body;
-      if (each.stays) painter.at(...this.placeAt(this.row, i));
+      if (each.stays) painter.at(...this.placeAt(drawings.rowOf(scene, this.row), i));
       else if (each.upright) painter.at(this.x[i], this.y[i], 0);
       else painter.at(this.x[i], this.y[i], this.theta[i]);
     }
@@ -390,57 +389,10 @@ class Picture {
 
   // Of a robot that is picked its own sensors alone, of which it has some.
   drawSensors(painter, look) {
-    const own = (robot) => robot === look.picked;
-    const { fans } = this.record, { sensors } = this.drawn, drawn = sensors ? sensors.drawings : [];
-    const alone = fans.some((fan) => own(fan.robot)) || drawn.some((each) => own(each.body));
-    for (const each of drawn) {
-      if (!alone || own(each.body)) this.paintDrawing(painter, sensors, each);
-    }
-    let first = 0;
-    for (const fan of fans) {
-      if (!alone || own(fan.robot)) this.drawFan(painter, fan, first);
-      first += fan.beams;
-    }
-  }
-
-  // The distances of a scanner at the row, and the row at which they were read.
-  distances(fan, first) {
-    const column = this.columns.fans, row = Math.floor(this.row / column.every);
-    const start = row * column.width + first, far = new Float64Array(fan.beams);
-    for (let k = 0; k < fan.beams; k++) {
-      const level = column.values[start + k];
-      far[k] = level > 254 ? Infinity : level / 254 * fan.range;
-    }
-    return { far, row: row * column.every };
-  }
-
-  // Paint the shapes that the sensor draws of these distances, in the frame of its robot.
-  drawFan(painter, fan, first) {
-    const { far, row } = this.distances(fan, first), [ahead, left, turned] = fan.mount;
-    const reach = (k) => Math.min(far[k], fan.range);
-    const end = (k, aside) => {
-      const angle = turned + fan.first + k * fan.apart + aside;
-      return [ahead + reach(k) * Math.cos(angle), left + reach(k) * Math.sin(angle)];
-    };
-    const [area, hits] = fan.styles;
-    const paint = (style, numbers) => {
-      if (numbers.length) painter.shape(style, numbers, 0, numbers.length, 1);
-    };
-    painter.at(...this.placeAt(row, fan.robot));
-    if (fan.cone) {
-      const count = Math.max(2, Math.trunc(fan.cone / 0.1) + 2);
-      const asides = Array.from({ length: count }, (_, k) => fan.cone * (k / (count - 1) - 0.5));
-      for (let k = 0; k < far.length; k++) {
-        const arc = asides.flatMap((aside) => end(k, aside));
-        paint(area, area[0] === "circle" ? [ahead, left, reach(k)] : [ahead, left, ...arc]);
-        if (far[k] <= fan.range) paint(hits, arc);
-      }
-    } else {
-      const ends = Array.from(far, (_, k) => end(k, 0));
-      paint(area, [...(fan.closed ? [] : [ahead, left]), ...ends.flat()]);
-      paint(hits, ends.filter((_, k) => far[k] <= fan.range).flat());
-    }
-    painter.world();
+    const { sensors } = this.drawn;
+    if (!sensors) return;
+    const own = sensors.drawings.filter((each) => each.body === look.picked);
+    for (const each of own.length ? own : sensors.drawings) this.paintDrawing(painter, sensors, each);
   }
 
   drawPicked(context, look) {

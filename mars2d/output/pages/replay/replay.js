@@ -25,7 +25,7 @@ class Replay {
     this.record = record;
     this.clock = new Clock(record);
     this.canvas = find("picture");
-    this.picture = new Picture(this.canvas, record);
+    this.picture = new Picture(this.canvas, record, this.clock);
     this.panel = new Panel(find("panel"), this.picture);
     this.legend = new Legend(find("legend"), record);
     this.marks = new Marks(find("marks"), record, find("ticks"));
@@ -48,7 +48,6 @@ class Replay {
   // Whether there is something to see on a layer.
   has(name) {
     const { record } = this;
-    if (name === "sensors" && record.fans.length) return true;
     return name in record.drawn || name === "grid" || name === "trails";
   }
 
@@ -73,7 +72,7 @@ class Replay {
     option(find("bodies"), -1, "Pick a robot");
     bodies.forEach((body, i) => option(find("bodies"), i, body.name));
     for (const speed of SPEEDS) option(find("speed"), speed, `${speed}×`);
-    find("slider").max = this.clock.last;
+    find("slider").max = this.record.rows - 1;
     for (const { name, title, key } of this.layers) {
       const button = document.createElement("button"), words = key ? `${title} (${key.toUpperCase()})` : title;
       Object.assign(button, { id: `layer-${name}`, textContent: title, title: words });
@@ -163,7 +162,7 @@ class Replay {
     on("show", () => this.openLayers(!find("layers").classList.contains("open")));
     find("slider").addEventListener("input", (event) => {
       clock.playing = false;
-      this.goTo(Number(event.target.value));
+      this.goTo(clock.positionOf(Number(event.target.value)));
     });
     find("speed").addEventListener("change", (event) => {
       clock.speed = Number(event.target.value);
@@ -321,7 +320,7 @@ class Replay {
   }
 
   step(rows) {
-    this.clock.step(rows);
+    this.clock.move(rows);
   }
 
   faster(steps) {
@@ -429,10 +428,10 @@ class Replay {
     picture.draw(look);
     this.drawn = state();
     this.legend.draw(look, camera, picture.ratio, picture.ui, this.layers.map(({ name }) => name));
-    this.marks.draw(clock.last, look.dark);
+    this.marks.draw(clock, look.dark);
     this.panel.write(look.dark);
     this.panel.stepAside();
-    const row = Math.floor(clock.position + 1e-9), time = `${this.seconds(clock.time)} / ${this.seconds(clock.end)} s`;
+    const row = Math.floor(clock.rowAt(clock.position) + 1e-9), time = `${this.seconds(clock.time)} / ${this.seconds(clock.end)} s`;
     find("slider").value = row;
     if (find("time").textContent !== time) find("time").textContent = time;
     if (document.body.classList.toggle("playing", clock.playing)) find("play").setAttribute("aria-label", "Pause");

@@ -1,4 +1,4 @@
-"""The readings of a record's sensors, as columns of a replay."""
+"""What a record's sensors draw of their readings."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
-from mars2d.output.pages.replay.columns import Columns, Int
+from mars2d.output.pages.replay.columns import Int
 from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows
-from mars2d.sensors.base import Fan, Sensor
+from mars2d.sensors.base import Sensor
 
 if TYPE_CHECKING:
     from mars2d.record.rows import Rows
@@ -20,14 +20,8 @@ if TYPE_CHECKING:
 FEW_SCENES = 8
 """The most scenes of a sensor that is never thinned."""
 
-MAX_BEAMS = 360
-"""The most beams of a sensor that are drawn."""
-
-MAX_DRAWN = 5000
+MAX_DRAWN = 10_000
 """The most readings that are drawn."""
-
-LEVELS = 254
-"""The levels to which distances are rounded; one more level means that nothing is there."""
 
 ELSEWHERE = np.array([0.7, -0.4, 1.1])
 """A pose that tells drawings in a robot's frame from drawings in that of the world."""
@@ -39,21 +33,6 @@ class Carried:
     def __init__(self, name: str, robot: int, sensor: Sensor, readings: NDArray[Any]) -> None:
         """Keep them together."""
         self.name, self.robot, self.sensor, self.readings = name, robot, sensor, readings
-
-    @property
-    def beams(self) -> Fan:
-        """The beams of a sensor that has some."""
-        fan = self.sensor.fan
-        assert fan is not None
-        return fan
-
-    @property
-    def is_fan(self) -> bool:
-        """Whether its readings are distances along beams, and drawn as such."""
-        fan, kind = self.sensor.fan, type(self.sensor)
-        if fan is None or _definer(kind, "draw") is not _definer(kind, "fan"):
-            return False  # a class of the user's may draw something else
-        return self.readings.shape[1:] == np.shape(fan.angles) and self.readings.dtype.kind == "f"
 
     def changes(self) -> Int:
         """Return the rows at which its reading changes."""
@@ -73,61 +52,6 @@ def carried(record: Rows, kept: Int) -> Iterator[Carried]:
                 yield Carried(name, robot, sensor, record.sensors[name][kept, k])
 
 
-def fans_of(fans: list[Carried], colors: tuple[str, ...]) -> list[dict[str, Any]]:
-    """Return the beams of sensors, and the styles in which `draw` draws their area and hits."""
-    found = []
-    for each in fans:
-        fan = each.beams
-        skip = _skip(len(fan.angles))
-        sample = _drawn(
-            each, np.zeros(3), np.full(len(fan.angles), fan.range / 2), colors[each.robot]
-        )
-        area, hits = sample.styles[:2]
-        found.append({
-            "name": each.name,
-            "robot": each.robot,
-            "range": fan.range,
-            "mount": list(each.sensor.mount),
-            "first": float(fan.angles[0]),
-            "apart": float(fan.angles[1] - fan.angles[0]) * skip if len(fan.angles) > 1 else 0.0,
-            "beams": len(fan.angles[::skip]),
-            "cone": fan.cone,
-            "closed": fan.closed,
-            "styles": [list(area), list(hits)],
-        })  # fmt: skip
-    return found
-
-
-def pack_fans(fans: list[Carried], every: int) -> tuple[Columns, int]:
-    """Return the distances of all fans at one row in `every`, a byte each."""
-    columns = Columns()
-    rows = np.arange(0, len(fans[0].readings), every)
-    levels = []
-    for each in fans:
-        far = each.readings[rows][:, :: _skip(each.readings.shape[1])]
-        share = far / each.beams.range
-        near = np.isfinite(far)
-        level = np.rint(LEVELS * np.clip(np.where(near, share, 0.0), 0, 1)).astype(np.uint8)
-        levels.append(np.where(near, level, LEVELS + 1).astype(np.uint8))
-    columns.add_bytes("fans", np.concatenate(levels, axis=1), every=every)
-    return columns, len(rows)
-
-
-def beams_left_out(fans: list[Carried]) -> list[str]:
-    """Return for each kind of scanner of too many beams, in words, how many of them are drawn."""
-    skips = {each.name: _skip(each.readings.shape[1]) for each in fans}
-    return [f"beams of {name}: one in {skip}" for name, skip in skips.items() if skip > 1]
-
-
-def _definer(kind: type, name: str) -> type | None:
-    """Return the class in which an attribute of a class is defined."""
-    return next((each for each in kind.__mro__ if name in vars(each)), None)
-
-
-def _skip(beams: int) -> int:
-    return -(-beams // MAX_BEAMS)
-
-
 def drawings(
     sensors: list[Carried], pose: Float, colors: tuple[str, ...]
 ) -> tuple[list[Drawing], int]:
@@ -136,11 +60,8 @@ def drawings(
     pose: (R, 3, n), of the rows of a replay.
     """
     changes = [each.changes() for each in sensors]
-    stride = 1
-    while (
-        sum(len(np.unique(rows // stride)) for rows in changes if len(rows) > FEW_SCENES)
-        > MAX_DRAWN
-    ):
+    stride, many = 1, [rows for rows in changes if len(rows) > FEW_SCENES]
+    while sum(len(np.unique(rows // stride)) for rows in many) > MAX_DRAWN:
         stride *= 2
     found = [
         _drawing(each, rows if len(rows) <= FEW_SCENES else _last(rows, stride), pose, colors)
@@ -150,8 +71,9 @@ def drawings(
 
 
 def _last(rows: Int, stride: int) -> Int:
-    """Return the last row of each `stride` rows."""
-    return np.array([*{row // stride: row for row in rows.tolist()}.values()], dtype=np.int64)
+    """Return the first row, and the last of each `stride` rows."""
+    last = {row // stride: row for row in rows.tolist()}
+    return np.array(sorted({int(rows[0]), *last.values()}), dtype=np.int64)
 
 
 def _drawing(each: Carried, rows: Int, pose: Float, colors: tuple[str, ...]) -> Drawing:

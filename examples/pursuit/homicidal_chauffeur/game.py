@@ -1,0 +1,69 @@
+"""Homicidal chauffeur: a fast car that can't turn tightly, and a slow pedestrian that can.
+
+Question: from which width on does the car win from any start?
+Setting: distributed, partial information: each knows its own pose and that of the other. The car
+goes at 1 m/s always and steers; the pedestrian asks for a velocity. A touch is a capture: their
+middles are `reach` apart. Play: mars2d run homicidal_chauffeur --human pedestrian
+Source: R. Isaacs, Differential Games, 1965; A. W. Merz, The Homicidal Chauffeur, Stanford, 1971.
+Prediction: for a radius R, l = reach / R and g < 1, the ratio of the speeds, the car wins from
+everywhere in the endless plane if and only if l > sqrt(1 - g^2) + g asin(g) - 1. That is how far,
+in radii, the pedestrian gets clear that steps aside when the car is g R ahead of it.
+"""
+
+from math import asin, cos, pi, sin, sqrt
+
+import numpy as np
+
+from mars2d import Animation, Dubins, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d.addons import Game, Theory
+
+SPEED, RADIUS, PERSON = 1.0, 2.0, 0.2  # m/s and m, of the car; m, the pedestrian's diameter
+
+
+def least(ratio):
+    return RADIUS * (sqrt(1 - ratio**2) + ratio * asin(ratio) - 1)
+
+
+def scenario(
+    ratio: float = 0.5,
+    reach: float = 0.2,
+    car: str = "cars/swerve.py",
+    pedestrian: str = "pedestrians/matador.py",
+    accel: float = 0.0,  # m/s^2, what tyres and feet hold, 0: any
+    seed: int = 0,
+):
+    def barrier(scene, frame):  # where the pedestrian is lost, in the frame of the car
+        (x, y, theta), tau = frame.pose[:, 0], np.linspace(0, pi / 2, 200)
+        s, left = np.arccos(ratio) + tau, reach / RADIUS - ratio * tau
+        across, ahead = left * np.sin(s) + 1 - np.cos(tau), left * np.cos(s) + np.sin(tau)
+        across = across[: np.argmax(np.append(across, -1) < 0)]
+        for side in (1, -1):
+            at = RADIUS * (ahead[: len(across)] + side * 1j * across) * np.exp(1j * theta)
+            scene.line(np.transpose([x + at.real, y + at.imag]), stroke="#7b3294", width=3)
+            middle = x - side * RADIUS * sin(theta), y + side * RADIUS * cos(theta)
+            scene.circle(middle, RADIUS, stroke="#7b329480")
+
+    way, heading = np.random.default_rng(seed).uniform(0, 2 * pi, 2)
+    hold = {"force_limited": accel > 0, "max_force": accel or 1.0, "max_torque": 100.0}
+    drive = Dubins(max_linear_speed=SPEED, max_angular_speed=SPEED / RADIUS, **hold)
+    red = Robot(name="car", sees="partial", diameter=2 * reach - PERSON, drive=drive)
+    feet = Holonomic(max_linear_speed=ratio * SPEED, **hold)
+    blue = red.replace(name="pedestrian", diameter=PERSON, drive=feet).at(0, 0)
+    red = red.replace(controller=load_law(car)).at(5 * cos(way), 5 * sin(way), heading)
+    return Scenario(
+        title="Homicidal chauffeur", robots=[red, blue.replace(controller=load_law(pedestrian))],
+        workspace=[(-12, -12), (12, -12), (12, 12), (-12, 12)], on_exit="ignore",
+        sampling_time=0.02, stop_time=40.0,
+        addons=[Game({"car": ["car"], "pedestrian": ["pedestrian"]}), Theory(barrier)],
+        animation=Animation(base_colors=("red", "blue"), playback_speed=5),
+    )  # fmt: skip
+
+
+def checks(record):
+    apart = np.hypot(*np.diff(record.pose[:, :2], axis=2)[..., 0].T)
+    (red, blue), stood = record.scenario.robots, not np.ptp(record.pose[:20, :2, 1], axis=0).any()
+    passed = np.flatnonzero((np.diff(apart) > 0) & (apart[:-1] < RADIUS))
+    if stood and (len(passed) or len(record.contacts)):  # a matador
+        first = apart[: passed[0] + 1].min() if len(passed) else apart[-1]
+        wins = max(least(blue.drive.max_linear_speed / SPEED), red.radius + blue.radius)
+        yield Prediction("distance at the first pass", wins, first, 0.04, "m")

@@ -1,0 +1,70 @@
+"""Round a pillar: the oldest way to stay free is to run around something.
+
+Question: which pursuer catches an evader that runs round a pillar, and when? Try your own laws:
+mars2d run round_a_pillar --set evader=my_law.py --set mu=1 --seed 3
+Setting: distributed, partial information: each knows its own pose and where the other is. The
+evader goes 0.5 m/s, the pursuer mu times that. A distance of 0.7 m is a capture.
+Law: the evader runs along a circle of the radius h to keep opposite; the pursuer comes after it.
+Source: obstacle tag: Isaacs, Differential Games, Wiley, 1965, problem 6.10.1. The formula is ours.
+Prediction: on the circle the angle a between them falls by (mu - 1) v / h a second. Equals run for
+ever; a chord of the capture distance l ends it, so t = (a h - 2 h asin(l / 2 h)) / ((mu - 1) v).
+"""
+
+from math import acos, asin, atan2, cos, pi, sin
+
+import numpy as np
+
+from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d.addons import Game, Map, Theory
+from mars2d.geometry import wrap
+
+SPEED, PILLAR, RADIUS, CAPTURE, VIOLET = 0.5, 1.5, 1.75, 0.7, "#7b3294"  # m/s, of the evader; m
+PURSUER, EVADER = "pursuers/shortest.py", "evaders/opposite.py"
+
+
+def circle(angle, radius):
+    return radius * cos(angle), radius * sin(angle)
+
+
+def shortest(start, end):
+    """The shortest way between two places that keeps out of the circle, as points."""
+    angle, last = (atan2(y, x) for x, y in (start, end))
+    out = [acos(min(1, RADIUS / np.hypot(*place))) for place in (start, end)]
+    side, rest = np.sign(turn := wrap(last - angle)), abs(turn) - sum(out)  # between tangents
+    arc = [angle + side * (out[0] + part * rest) for part in np.linspace(0, 1, 50)]
+    return [start, *(circle(each, RADIUS) for each in arc * int(rest > 0)), end]
+
+
+def scenario(mu: float = 1.25, pursuer: str = PURSUER, evader: str = EVADER, seed: int = 0):
+    def way(scene, frame):
+        scene.line(shortest(*frame.pose[:2].T), stroke=VIOLET, width=2)
+
+    robot, rng = Robot(diameter=0.4, sees="positions"), np.random.default_rng(seed)
+    slow, quick = (Holonomic(max_linear_speed=speed) for speed in (SPEED, mu * SPEED))
+    red = robot.replace(name="red", drive=quick, controller=load_law(pursuer))
+    blue = robot.replace(name="blue", drive=slow, controller=load_law(evader))
+    game = Game({"pursuer": ["red"], "evader": ["blue"]}, capture=CAPTURE)
+    return Scenario(
+        title="Round a pillar",
+        robots=[red.at(RADIUS, 0), blue.at(*circle(rng.uniform(2, 3.1), RADIUS))],
+        on_exit="wall",
+        stop_time=60.0,
+        addons=[Map([[circle(k * pi / 24, PILLAR) for k in range(48)]]), game, Theory(way)],
+        animation=Animation(base_colors=("red", "blue"), playback_speed=4),
+    )
+
+
+def times(record):
+    """When the evader is caught by the formula, at most the stop time, and in the run [s]."""
+    red, blue = (robot.drive.max_linear_speed for robot in record.scenario.robots)
+    (x, y), end = record.pose[0, :2, 1], record.scenario.stop_time
+    way = RADIUS * (atan2(y, x) - 2 * asin(CAPTURE / 2 / RADIUS))
+    return min(end, way / (red - blue)) if red > blue else end, record.time[-1]
+
+
+def miss(record):
+    return -np.subtract(*times(record))
+
+
+def checks(record):
+    yield Prediction("the evader is free for", *times(record), 1.0, "s")

@@ -1,0 +1,224 @@
+"""A recorder of what ezdxf draws: it resolves layers, blocks, clips, hatches and multilines."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from math import ceil, pi, sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from ezdxf.addons.drawing.backend import Backend
+from ezdxf.addons.drawing.config import (
+    Configuration,
+    HatchPolicy,
+    ImagePolicy,
+    LinePolicy,
+    TextPolicy,
+)
+from ezdxf.addons.drawing.frontend import UniversalFrontend
+from ezdxf.addons.drawing.pipeline import RenderPipeline2d
+from ezdxf.addons.drawing.properties import RenderContext
+from ezdxf.math import bulge_radius
+from ezdxf.path import Path, from_vertices
+from numpy.typing import NDArray
+
+from mars2d.addons.maps.curves import cubic
+from mars2d.addons.maps.drawing import Piece, check_finite, layer_name, wall
+from mars2d.addons.maps.regions import region
+
+if TYPE_CHECKING:
+    from ezdxf.addons.drawing.properties import BackendProperties, LayerProperties, Properties
+    from ezdxf.document import Drawing as Document
+
+Float = NDArray[np.float64]
+
+READ = {
+    "LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE", "HELIX", "MLINE",
+    "SOLID", "TRACE", "HATCH", "MPOLYGON", "INSERT", "ACAD_PROXY_ENTITY",
+}  # fmt: skip
+"""The kinds of entities that are read."""
+
+FRAME = 16
+"""The flag of a vertex of a polyline that only shapes its spline."""
+
+CONFIGURATION = Configuration(
+    line_policy=LinePolicy.SOLID,
+    hatch_policy=HatchPolicy.SHOW_SOLID,
+    text_policy=TextPolicy.IGNORE,
+    image_policy=ImagePolicy.IGNORE,
+)
+
+
+def recorded(
+    document: Document, name: str, metres: float, within: float
+) -> tuple[list[Piece], dict[str, int]]:
+    """Return the pieces of the model space of a document, and what was not read, by kind.
+
+    name: of the file, for errors. metres: the length of a unit. within: the largest distance of
+    curves from their polylines, metres.
+    """
+    recorder = _Recorder(name, metres)
+    frontend = _Frontend(document, recorder, within / metres)
+    document.header["$XCLIPFRAME"] = 0  # the frame of a clip is no wall
+    frontend.draw_layout(document.modelspace())
+    return recorder.pieces, dict(frontend.skipped)
+
+
+def _show(layers: Sequence[LayerProperties]) -> None:
+    """Make all layers visible: those that are hidden are left out later."""
+    for layer in layers:
+        layer.is_visible = True
+
+
+class _Frontend(UniversalFrontend):
+    """Walks the entities, and counts those that are not read."""
+
+    def __init__(self, document: Document, recorder: _Recorder, within: float) -> None:
+        super().__init__(RenderContext(document), _Pipeline(recorder, within), CONFIGURATION)
+        self.ctx.set_layer_properties_override(_show)
+        self._document, self._recorder, self._within = document, recorder, within
+        self.skipped: Counter[str] = Counter()
+
+    def draw_entity(self, entity: Any, properties: Properties) -> None:
+        """Draw an entity, if its kind is read."""
+        kind = entity.dxftype()
+        block = entity.block() if kind == "INSERT" else None
+        if kind not in READ or _is_mesh(entity):
+            self.skipped[kind] += 1
+        elif kind == "INSERT" and block is None:
+            self.skipped["INSERT of a missing block"] += 1
+        elif block is not None and block.block is not None and block.block.is_xref:
+            self.skipped["INSERT of another file"] += 1
+        else:
+            super().draw_entity(entity, properties)
+
+    def draw_composite_entity(self, entity: Any, properties: Properties) -> None:
+        """Draw what an entity consists of; a block on a frozen layer is hidden as a whole."""
+        outer, layers = self._recorder.frozen, self._document.layers
+        name = properties.layer
+        if entity.dxftype() == "INSERT" and name in layers and layers.get(name).is_frozen():
+            self._recorder.frozen = outer or name
+        super().draw_composite_entity(entity, properties)
+        self._recorder.frozen = outer
+
+    def draw_curve_entity(self, entity: Any, properties: Properties) -> None:
+        """Draw a curve; a spline by its own points, since not all of them are Bezier curves."""
+        if entity.dxftype() in ("SPLINE", "HELIX"):
+            self.pipeline.draw_path(from_vertices(entity.flattening(self._within)), properties)
+        else:
+            super().draw_curve_entity(entity, properties)
+
+    def draw_polyline_entity(self, entity: Any, properties: Properties) -> None:
+        """Draw a polyline without the frame of its spline; a wide one is an area."""
+        if entity.dxftype() == "POLYLINE":
+            entity.vertices[:] = [v for v in entity.vertices if not v.dxf.flags & FRAME]
+        if entity.has_width:
+            is_light = entity.dxftype() == "LWPOLYLINE"
+            points = (
+                entity.get_points("xyb")
+                if is_light
+                else [vertex.format("xyb") for vertex in entity.vertices]
+            )
+            radii = [
+                abs(bulge_radius(start[:2], end[:2], start[2]))
+                for start, end in zip(points, points[1:] + points[:1], strict=True)
+                if start[2] and start[:2] != end[:2]
+            ]
+            count = ceil(pi * sqrt(max(radii, default=0.0) / self._within)) + 4
+            self.config = self.config.with_changes(circle_approximation_count=2 * count)
+        super().draw_polyline_entity(entity, properties)
+
+    def skip_entity(self, entity: Any, msg: str) -> None:
+        """Count what is invisible or can't be drawn."""
+        self.skipped["invisible " * (msg == "invisible") + entity.dxftype()] += 1
+
+
+def _is_mesh(entity: Any) -> bool:
+    """Return whether a POLYLINE is a mesh of faces, not a line."""
+    is_line = entity.dxftype() != "POLYLINE" or entity.is_2d_polyline or entity.is_3d_polyline
+    return not is_line
+
+
+class _Pipeline(RenderPipeline2d):
+    """Makes polylines of paths, before they are clipped."""
+
+    def __init__(self, recorder: _Recorder, within: float) -> None:
+        super().__init__(recorder)
+        self._within = within
+
+    def draw_path(self, path: Path, properties: Properties) -> None:
+        """Draw the parts of a path."""
+        for part in path.sub_paths():
+            super().draw_path(self._flat(part), properties)
+
+    def draw_filled_paths(self, paths: Iterable[Path], properties: Properties) -> None:
+        """Fill what paths surround."""
+        parts = [self._flat(part) for path in paths for part in path.sub_paths()]
+        super().draw_filled_paths(parts, properties)
+
+    def _flat(self, path: Path) -> Path:
+        """Return a path without curves."""
+        points = [np.array((path.start.x, path.start.y))]
+        for command in path.commands():
+            end, *arms = (np.array((place.x, place.y)) for place in command)
+            if len(arms) == 1:  # a quadratic curve
+                arms = [points[-1] + 2 / 3 * (arms[0] - points[-1]), end + 2 / 3 * (arms[0] - end)]
+            if arms:
+                points += [*cubic(np.array([points[-1], *arms, end]), self._within, arcs=True)]
+            else:
+                points.append(end)
+        return from_vertices(points)
+
+
+class _Recorder(Backend):
+    """Takes the lines and areas that are drawn. frozen: the layer that hides all of them."""
+
+    def __init__(self, name: str, metres: float) -> None:
+        super().__init__()
+        self._name, self._metres = name, metres
+        self.pieces: list[Piece] = []
+        self.frozen: str | None = None
+
+    def draw_line(self, start: Any, end: Any, properties: BackendProperties) -> None:
+        """Take a line."""
+        self._wall(np.array([(start.x, start.y), (end.x, end.y)]), properties)
+
+    def draw_path(self, path: Any, properties: BackendProperties) -> None:
+        """Take a polyline."""
+        self._wall(np.array([(v.x, v.y) for v in path.control_vertices()]), properties)
+
+    def draw_filled_paths(self, paths: Iterable[Any], properties: BackendProperties) -> None:
+        """Take the area between rings."""
+        self._area([path.control_vertices() for path in paths], properties)
+
+    def draw_filled_polygon(self, points: Any, properties: BackendProperties) -> None:
+        """Take an area."""
+        self._area([points.vertices()], properties)
+
+    def _wall(self, points: Float, properties: BackendProperties) -> None:
+        piece = wall(self._name, self._layer(properties), points, self._metres)
+        if piece is not None:
+            self.pieces.append(piece)
+
+    def _area(self, rings: Sequence[Any], properties: BackendProperties) -> None:
+        edges = [np.array([(v.x, v.y) for v in ring]).reshape(-1, 2) for ring in rings]
+        for edge in edges:
+            check_finite(self._name, edge)
+        areas = region([edge * self._metres for edge in edges], even_odd=True)
+        self.pieces += [Piece(self._layer(properties), area) for area in areas]
+
+    def _layer(self, properties: BackendProperties) -> str:
+        return layer_name(self.frozen or properties.layer)
+
+    def set_background(self, color: str) -> None:
+        """Do nothing, as for all that is no wall and no area."""
+
+    def draw_point(self, pos: Any, properties: BackendProperties) -> None:
+        """Do nothing."""
+
+    def draw_image(self, image_data: Any, properties: BackendProperties) -> None:
+        """Do nothing."""
+
+    def clear(self) -> None:
+        """Do nothing."""

@@ -1,1 +1,0 @@
-"""The speed bench of ``mars2d bench``: scenes that other simulators are given as well."""

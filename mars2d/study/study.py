@@ -1,0 +1,180 @@
+"""Studies: what is to be run, after finding out before the first run whether it can be."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import inspect
+import os
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from mars2d.core.description import real, wrong
+from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
+from mars2d.scenario.examples import examples
+from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.roles import contests_of
+from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.serialize import from_description
+from mars2d.study.job import CODE_DIGITS, Job, code_of, measures_of, name_in, probed
+from mars2d.study.measures import Measure
+from mars2d.study.plan import Plan
+from mars2d.study.table import FIRST, LAST, SEED, cells_of
+from mars2d.study.units import checked_units
+
+MAX_PROBES = 100
+"""How many points are opened before the first run, at most, if one of them can be."""
+
+MAX_TRIALS = 1000
+"""How many points are opened, at most, to find one that can be."""
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study that can be run.
+
+    title: the experiment's name in the table. blank: a job without row, options and seed.
+    troubles: the errors at single points, whose runs will fail. codes: the code of the runs at some
+    points, by the points' cells. written: when the files that were read had been written, ns.
+    units: those that were stated.
+    """
+
+    title: str
+    plan: Plan
+    blank: Job
+    troubles: tuple[str, ...]
+    codes: dict[tuple[str, ...], str]
+    written: Mapping[Path, int]
+    units: Mapping[str, str]
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """The names of the measures."""
+        return tuple(name_in(measure) for measure in self.blank.measures)
+
+
+def prepared(
+    experiment: str | Path | ModuleType | Scenario,
+    plan: Plan,
+    measures: tuple[str | Measure, ...] = (),
+    *,
+    control: Callable[[Any], Any] | None = None,
+    time_limit: float | None = None,
+    units: Mapping[str, str] | None = None,
+) -> Study:
+    """Return the study of a plan, after opening its experiment at points that cover all values.
+
+    Without measures, those that suit any run are taken. Raises InputError if no point can be
+    opened, and for unknown names.
+    """
+    if time_limit is not None and real("time_limit", time_limit, "a number > 0 [s]") <= 0:
+        raise wrong("time_limit", time_limit, "a number > 0 [s]")
+    _check_columns(plan, measures)
+    title, source = _source(experiment)
+    code = _code_of(source) if isinstance(source, Scenario) else ""
+    folder = os.getcwd()  # noqa: PTH109
+    blank = Job(0, source, {}, plan.seeds[0], measures, folder, control, time_limit, code)
+    first, troubles, codes, written = None, [], {}, dict[Path, int]()
+    for point, found in _probes(plan, blank):
+        if isinstance(found, Mars2dError):
+            troubles.append(_trouble(point, found))
+            continue
+        first = first or found
+        codes[cells_of(point)] = code_of(found, code)
+        written |= found.source.written
+    assert first is not None  # or `_probes` has raised
+    chosen = measures or _sensible(first.scenario)
+    measures_of(chosen, first, first.scenario)
+    _check_columns(plan, chosen)
+    stated = checked_units(units, [*plan.settings, *map(name_in, chosen)])
+    blank = dataclasses.replace(blank, measures=chosen)
+    return Study(title, plan, blank, tuple(troubles), codes, written, stated)
+
+
+def _probes(plan: Plan, blank: Job) -> Iterator[tuple[dict[str, Any], Experiment | Mars2dError]]:
+    """Yield points with their experiments or errors; raise the first error if all points fail."""
+    first: Mars2dError | None = None
+    sound = False
+    for point in islice(plan.probes(), MAX_PROBES):
+        found = _probed(blank, point)
+        if isinstance(found, Mars2dError):
+            first = first or found
+        else:
+            sound = True
+        yield point, found
+    if sound or first is None:
+        return
+    for point in islice(plan.points(), MAX_TRIALS):
+        found = _probed(blank, point)
+        if not isinstance(found, Mars2dError):
+            yield point, found
+            return
+    raise first
+
+
+def _probed(blank: Job, point: dict[str, Any]) -> Experiment | Mars2dError:
+    try:
+        return probed(dataclasses.replace(blank, options=point))
+    except MissingExtraError:
+        raise
+    except Mars2dError as error:
+        return error
+
+
+def _trouble(point: dict[str, Any], error: Mars2dError) -> str:
+    """Return the error at a point, preceded by those settings that it does not mention."""
+    text = str(error)
+    named = [f"{name} = {shown(value)}" for name, value in point.items()]
+    unsaid = [each for each in named if not re.search(rf"\b{re.escape(each)}", text)]
+    return ": ".join(filter(None, [", ".join(unsaid), text]))
+
+
+def _sensible(scenario: Scenario) -> tuple[str, ...]:
+    capture_time = ["capture_time"] if len(contests_of(scenario)) == 1 else []
+    return (*capture_time, "end_time", "collisions")
+
+
+def _check_columns(plan: Plan, measures: tuple[str | Measure, ...]) -> None:
+    """Raise InputError for a name that two columns of the table would have."""
+    if SEED in plan.settings:
+        raise InputError("setting 'seed': seeds are not a setting; say how many, with --seeds N")
+    taken = dict.fromkeys((*FIRST, SEED, *LAST), "a column of each table")
+    kinds = [(name, "a setting") for name in plan.settings]
+    kinds += [(name_in(measure), "a measure") for measure in measures]
+    for name, kind in kinds:
+        if name in taken:
+            twice = "is there twice" if taken[name] == kind else f"is {taken[name]} as well"
+            raise InputError(f"{kind.partition(' ')[2]} {name!r}: {twice}")
+        taken[name] = kind
+
+
+def _source(experiment: str | Path | ModuleType | Scenario) -> tuple[str, str | Scenario]:
+    """Return the experiment's name in the table, and the source that workers open."""
+    if isinstance(experiment, Scenario):
+        return experiment.title or "Scenario", experiment
+    if isinstance(experiment, ModuleType):
+        file = inspect.getsourcefile(experiment) if hasattr(experiment, "__file__") else None
+        if file is None:
+            raise InputError(
+                f"experiment = {shown(experiment)}: a module without a file; give a file, the name "
+                "of an example, or a Scenario"
+            )
+        experiment = Path(file)
+    if not isinstance(experiment, (str, Path)):
+        expected = "a file, the name of an example, or a Scenario"
+        raise wrong("experiment", experiment, expected)
+    path = Path(experiment)
+    if not path.is_file() and str(experiment) in examples():
+        return str(experiment), str(experiment)
+    title = path.as_posix()
+    return title, str(path.absolute()) if path.is_file() else str(experiment)
+
+
+def _code_of(scenario: Scenario) -> str:
+    """Return the first digits of a hash of a scenario; laws count by their names alone."""
+    return hashlib.sha256(repr(from_description(scenario)).encode()).hexdigest()[:CODE_DIGITS]

@@ -1,0 +1,457 @@
+"""The panel of parameters: a slider for each number of the experiment that can be set."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from math import floor, log10
+from typing import Literal, NamedTuple
+
+import pygame
+
+from mars2d.core.errors import InputError, Mars2dError
+from mars2d.output.controls import CONTROLS
+from mars2d.output.raster.painter import Painter
+from mars2d.record.frame import Frame
+from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.parameters import PREFIX, Parameter
+from mars2d.window.widgets.buttons import draw_icon
+from mars2d.window.widgets.dock import Panel
+from mars2d.window.widgets.slider import ValueSlider
+from mars2d.window.widgets.text_field import TextField
+
+Pixel = tuple[int, int]
+Say = Literal["info", "error"]
+
+Set = Callable[[str, float, bool], str]
+"""Sets a parameter: its name, its value, and whether the run may start again for it. Returns why it
+does or would, or ""; raises InputError for values that it can't have."""
+
+ROW, HEADING, SIZE = 38.0, 24.0, 13.0
+"""The heights of a row, of a heading and of letters, points."""
+NAME, PAD = 20.0, 6.0
+"""The height of a row's name, above its slider, and the gap beside both, points."""
+RESET = 18.0
+"""The side of the button at the end of a row that puts it back, points."""
+WORDS, LINES, MAX_LINES = 17.0, 2, 4
+"""The height of a line of the panel's message, points; how many have room, and how many there are
+at most."""
+LEAST_ROWS = 3
+"""The rows that are seen at least."""
+DOUBLE = 0.4
+"""The longest time between the clicks of a double click, seconds."""
+EVERY = 0.1
+"""The least time between two settings during a drag, seconds."""
+SHARE = 0.25
+"""The largest share of the time that settings may take during a drag."""
+FAST = 10
+"""How many steps an arrow key goes with Shift."""
+TYPED = "0123456789.-e"
+"""The characters of a number."""
+MAX_TYPED, TYPED_WIDTH = 12, 104.0
+"""The longest number that can be typed, and the width of its field, points."""
+
+
+class Line(NamedTuple):
+    """A line of the panel: a heading, or a parameter with its name in words."""
+
+    text: str
+    parameter: Parameter | None = None
+
+    @property
+    def height(self) -> float:
+        """Points."""
+        return HEADING if self.parameter is None else ROW
+
+
+class ParameterPanel(Panel):
+    """Shows the parameters of an experiment, and of the body that is selected, as sliders.
+
+    A slider is dragged, or moved by arrow keys once it was clicked; a number that is typed then is
+    taken by Enter. A double click, or the button at its right, puts it back as the file has it.
+
+    experiment: returns it as it is now; None for a recording. selected: returns the selected body.
+    set_to: sets a parameter. plays: whether time passes, so that a drag is to be felt at once.
+    """
+
+    name, title = "parameters", "Parameters"
+
+    def __init__(
+        self,
+        painter: Painter,
+        experiment: Callable[[], Experiment | None],
+        selected: Callable[[], int | None],
+        set_to: Set,
+        plays: Callable[[], bool],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Start with nothing drawn and nothing said."""
+        self.painter = painter
+        self._experiment, self._selected = experiment, selected
+        self._set_to, self._plays, self._clock = set_to, plays, clock
+        self._known: tuple[Experiment | None, int | None] | None = None
+        self._lines: list[Line] = []
+        self._sliders: dict[str, ValueSlider] = {}
+        self.places: dict[str, pygame.Rect] = {}  # of rows, by the names of parameters
+        self.resets: dict[str, pygame.Rect] = {}
+        self.focus: str | None = None  # the parameter that keys go to
+        self.typed = TextField(accepts=TYPED, most=MAX_TYPED)  # a number
+        self.said: tuple[str, Say] = "", "info"
+        self._held: str | None = None
+        self._value = 0.0  # of what is held
+        self._waits = False  # whether it is to be set
+        self._anew = ""  # why it needs a new start
+        self._next = self._clicked = 0.0  # when it may be set; when the last click was
+        self._scroll = 0.0  # points
+        self._room = 0.0
+        self._cut = False  # whether there is no room for all lines
+        self._image: pygame.Surface | None = None
+        self._drawn: tuple[object, ...] = ()
+
+    # -- what there is ------------------------------------------------------------------------
+
+    def parameters(self) -> dict[str, Parameter]:
+        """Return the parameters by name."""
+        return {line.parameter.name: line.parameter for line in self._look() if line.parameter}
+
+    def _look(self) -> list[Line]:
+        """Return the lines; the parameters are read again where something was set or selected."""
+        experiment, body = self._experiment(), self._selected()
+        if experiment is not None and body is not None:
+            body = body if body < len(experiment.scenario.bodies) else None
+        if self._known is None or self._known[0] is not experiment or self._known[1] != body:
+            selected = body is not None and (self._known is None or self._known[1] != body)
+            self._known = experiment, body
+            try:
+                self._lines = [] if experiment is None else list(_lines(experiment, body))
+            except InputError as error:  # of a Range of a law
+                self._lines, self.said = [Line("No parameters")], (str(error), "error")
+            if selected:  # let its sliders be seen
+                heading = max(k for k, line in enumerate(self._lines) if line.parameter is None)
+                self._scroll = sum(line.height for line in self._lines[:heading])
+            if self.focus not in {line.parameter.name for line in self._lines if line.parameter}:
+                self.leave()
+        return self._lines
+
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
+        """Return the least and the wanted height of the content at a width, points."""
+        below = LINES * WORDS + 4
+        wanted = sum(line.height for line in self._look())
+        return min(wanted, LEAST_ROWS * ROW + HEADING) + below, wanted + below
+
+    # -- drawing ------------------------------------------------------------------------------
+
+    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
+        """Draw the content within a rectangle; the picture is kept until it changes."""
+        lines, painter = self._look(), self.painter
+        state = (
+            rect.copy(), painter.ui, painter.theme, lines, self.focus, self._typing, self._words(),
+            self._held, self._value, self._scroll,
+        )  # fmt: skip
+        if self._image is None or state != self._drawn:
+            self._draw(surface, rect, lines)
+            self._drawn = *state[:-1], self._scroll
+            self._image = surface.subsurface(rect.clip(surface.get_rect())).copy()
+        else:
+            surface.blit(self._image, rect)
+
+    def _draw(self, surface: pygame.Surface, rect: pygame.Rect, lines: list[Line]) -> None:
+        ui = self.painter.ui
+        below = self._draw_words(surface, rect)
+        room = pygame.Rect(rect.left, rect.top, rect.width, rect.height - below)
+        whole = sum(line.height for line in lines)
+        self._room = room.height / ui
+        self._cut = whole > self._room + 2
+        self._scroll = min(max(self._scroll, 0.0), max(0.0, whole - self._room))
+        self.places, self.resets = {}, {}
+        clip = surface.get_clip()
+        surface.set_clip(room.clip(clip))
+        top = room.top - self._scroll * ui
+        bar = round(8 * ui) if self._cut else 0
+        for line in lines:
+            place = pygame.Rect(room.left, round(top), room.width - bar, round(line.height * ui))
+            top += line.height * ui
+            if place.bottom <= room.top or place.top >= room.bottom:
+                continue
+            if line.parameter is None:
+                self._draw_heading(surface, place, line.text)
+            else:
+                self.places[line.parameter.name] = place.clip(room)
+                self._draw_row(surface, place, line.text, line.parameter)
+        if bar:
+            self._draw_scrollbar(surface, room, whole)
+        surface.set_clip(clip)
+
+    def _draw_heading(self, surface: pygame.Surface, place: pygame.Rect, text: str) -> None:
+        ui, fonts = self.painter.ui, self.painter.fonts
+        word = fonts.shorten(text, 12.5 * ui, place.width, bold=True)
+        image = fonts.render(word, 12.5 * ui, self.painter.theme.muted, bold=True)
+        surface.blit(image, image.get_rect(midleft=(place.left, place.centery)))
+
+    def _draw_row(
+        self, surface: pygame.Surface, place: pygame.Rect, text: str, parameter: Parameter
+    ) -> None:
+        """Draw a name, its value, the button that puts it back, and below them the slider."""
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        name, held = parameter.name, parameter.name == self._held
+        if name == self.focus:
+            self.painter.panel(surface, place, theme.key, 5 * ui, theme.selected)
+        value = self._value if held else parameter.value
+        inner = place.inflate(-2 * round(PAD * ui), 0)
+        above = pygame.Rect(inner.topleft, (inner.width, round(NAME * ui)))
+        right = above.right
+        if value != parameter.default and not held:
+            reset = pygame.Rect(0, 0, round(RESET * ui), round(RESET * ui))
+            reset.midright = above.right + round(PAD / 2 * ui), above.centery
+            draw_icon(surface, CONTROLS["restart"].icon, theme.muted, reset.inflate(8, 8))
+            self.resets[name] = reset
+            right = reset.left - round(PAD / 2 * ui)
+        left = self._draw_value(surface, (right, above.centery), parameter, value)
+        word = fonts.shorten(text, SIZE * ui, left - 2 * round(PAD * ui) - above.left)
+        image = fonts.render(word, SIZE * ui, theme.text)
+        surface.blit(image, image.get_rect(midleft=above.midleft))
+        line = pygame.Rect(inner.left, above.bottom, inner.width, place.bottom - above.bottom)
+        line = line.inflate(-round(12 * ui), -round(4 * ui))
+        slider = self._sliders.setdefault(name, ValueSlider())
+        ends = parameter.low, parameter.high
+        slider.draw(surface, line, self.painter, value, parameter.default, ends, held=held)
+
+    def _draw_value(
+        self, surface: pygame.Surface, end: Pixel, parameter: Parameter, value: float
+    ) -> int:
+        """Draw a value with its unit, or the number that is typed, up to `end` at the right.
+
+        Returns where it begins, pixels from the left.
+        """
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        right, middle = end
+        if parameter.name == self.focus and self.typed.text:
+            box = pygame.Rect(0, 0, round(TYPED_WIDTH * ui), round((NAME - 3) * ui))
+            box.midright = end
+            self.painter.panel(surface, box, theme.paper, 4 * ui, theme.selected)
+            inner = box.inflate(-round(10 * ui), 0)
+            self.typed.draw(surface, inner, self.painter, SIZE * ui)
+            return box.left
+        if parameter.unit:
+            unit = fonts.render(f" {parameter.unit}", 0.9 * SIZE * ui, theme.muted)
+            right -= unit.get_width()
+            surface.blit(unit, unit.get_rect(midleft=(right, middle)))
+        word = _number(parameter, value)
+        number = fonts.render(word, SIZE * ui, theme.ink, bold=value != parameter.default)
+        return surface.blit(number, number.get_rect(midright=(right, middle))).left
+
+    def _draw_scrollbar(self, surface: pygame.Surface, room: pygame.Rect, whole: float) -> None:
+        ui, theme = self.painter.ui, self.painter.theme
+        height = max(round(20 * ui), round(room.height * self._room / whole))
+        thumb = pygame.Rect(0, 0, round(4 * ui), height)
+        share = self._scroll / (whole - self._room)
+        thumb.topright = room.right, room.top + round(share * (room.height - height))
+        self.painter.panel(surface, thumb, theme.track, thumb.width / 2)
+
+    def _draw_words(self, surface: pygame.Surface, rect: pygame.Rect) -> int:
+        """Write the effect of the last setting, or else about the slider that has the focus.
+
+        Returns the height of the words, pixels.
+        """
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        text, kind = self._words()
+        color = theme.error.ink if kind == "error" else theme.muted
+        lines = fonts.wrap(text, 12.5 * ui, rect.width, MAX_LINES)
+        below = round((max(len(lines), LINES) * WORDS + 4) * ui)
+        top = rect.bottom - below + round(4 * ui)
+        for k, line in enumerate(lines):
+            image = fonts.render(line, 12.5 * ui, color)
+            surface.blit(image, (rect.left, top + round(k * WORDS * ui)))
+        return below
+
+    def _words(self) -> tuple[str, Say]:
+        if self._held is not None and self._anew:
+            return f"let go to start again: {self._anew}", "info"
+        if self.said[0]:
+            return self.said
+        focused = self.parameters().get(self.focus or "")
+        if focused is not None:
+            unit = f" {focused.unit}" if focused.unit else ""
+            between = f"{focused.low:g} to {focused.high:g}{unit}"
+            return f"{focused.name}: {between}; {focused.default:.6g} in the file", "info"
+        if self._selected() is None:
+            return "select a robot or prop for its mass, friction and drive", "info"
+        more = "; turn the wheel for more" if self._cut else ""
+        return f"drag a slider, or click it and type a number{more}", "info"
+
+    # -- the mouse ----------------------------------------------------------------------------
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Handle an event of the mouse within the panel; return whether a drag has begun."""
+        if event.type == pygame.MOUSEWHEEL:
+            self._scroll -= event.y * ROW
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
+            return self._press(event.pos)
+        elif event.type == pygame.MOUSEMOTION and self._held is not None:
+            self._drag(event.pos[0])
+        elif event.type == pygame.MOUSEBUTTONUP and self._held is not None:
+            self._drop()
+        return False
+
+    def _press(self, pixel: Pixel) -> bool:
+        """Press a button or a slider; return whether a slider is held."""
+        name = next((n for n, place in self.places.items() if place.collidepoint(pixel)), None)
+        before, now = self._clicked, self._clock()
+        again = name is not None and name == self.focus and now - before < DOUBLE
+        self.leave()
+        self.focus, self.said, self._clicked = name, ("", "info"), now
+        if name is None:
+            return False
+        if again or (name in self.resets and self.resets[name].collidepoint(pixel)):
+            self._clicked = 0.0
+            self._set(name, self.parameters()[name].default)
+            return False
+        if not self._sliders[name].hit(pixel):
+            return False
+        self._held, self._value = name, self.parameters()[name].value
+        self._waits, self._anew, self._next = False, "", now
+        self._drag(pixel[0])
+        return True
+
+    def _drag(self, x: float) -> None:
+        """Move the handle that is held to a pixel from the left."""
+        assert self._held is not None
+        parameter = self.parameters().get(self._held)
+        if parameter is None:  # the file was saved, and has it no more
+            self._held = None
+            return
+        value = parameter.nearest(self._sliders[self._held].value_at(x))
+        if value != self._value:
+            self._value, self._waits = value, True
+
+    def tick(self) -> None:
+        """While time passes, set the dragged value as often as that is quick; call it often."""
+        if self._held is None or not self._waits or self._anew or not self._plays():
+            return
+        start = self._clock()
+        if start < self._next:
+            return
+        self._waits = False
+        self._set(self._held, self._value, restart=False)
+        taken = self._clock() - start
+        self._next = start + max(EVERY, taken / SHARE)
+
+    def _drop(self) -> None:
+        """Let go of the handle, and set its value."""
+        assert self._held is not None
+        name, self._held = self._held, None
+        if self._waits or self._anew:
+            self._set(name, self._value)
+
+    def _set(self, name: str, value: float, *, restart: bool = True) -> None:
+        """Set a parameter, and report the effect."""
+        parameter = self.parameters()[name]
+        unit = f" {parameter.unit}" if parameter.unit else ""
+        try:
+            reason = self._set_to(name, value, restart)
+        except Mars2dError as error:  # of the value, or of a law that is asked again
+            self.said = str(error), "error"
+            return
+        if reason and not restart:
+            self._anew, self._waits = reason, True
+            return
+        what = f"{name.removeprefix(PREFIX)} = {_number(parameter, value)}{unit}"
+        effect = f"started again: {reason}" if reason else "in effect from now on"
+        self.said = f"{what}: {effect}", "info"
+
+    # -- keys ---------------------------------------------------------------------------------
+
+    def leave(self) -> None:
+        """Take the focus from all sliders."""
+        self.focus = None
+        self.typed.clear()
+
+    @property
+    def _typing(self) -> tuple[object, ...]:
+        """All of what is typed that is drawn."""
+        return self.typed.text, self.typed.caret, self.typed.selected, self.typed.composed
+
+    def press(self, event: pygame.Event) -> bool:
+        """Give an event of the keyboard to the slider that has the focus; return if it took it."""
+        parameter = self.parameters().get(self.focus or "") if self.is_open else None
+        if parameter is None:
+            return False
+        begins = event.type != pygame.KEYDOWN or event.unicode != "e" or self.typed.text
+        if begins and self.typed.handle(event):
+            self.said = "", "info"
+            return True
+        name = pygame.key.name(event.key) if event.type == pygame.KEYDOWN else ""
+        if name in ("left", "right"):
+            fast = FAST if event.mod & pygame.KMOD_SHIFT else 1
+            step = parameter.step * fast * (1 if name == "right" else -1)
+            self._set(parameter.name, parameter.nearest(parameter.value + step))
+        elif name in ("up", "down"):
+            self._focus_next(parameter.name, 1 if name == "down" else -1)
+        elif name in ("return", "enter") and self.typed.text:
+            self._take(parameter)
+        elif name == "escape" and self.typed.text:
+            self.typed.clear()
+        elif name == "escape":
+            self.leave()
+        else:
+            return False
+        return True
+
+    def _focus_next(self, name: str, way: int) -> None:
+        """Let the next slider, or the one before, have the focus, and be seen."""
+        names = [*self.parameters()]
+        self.leave()
+        self.focus, self.said = names[(names.index(name) + way) % len(names)], ("", "info")
+        top = 0.0
+        for line in self._lines:
+            if line.parameter is not None and line.parameter.name == self.focus:
+                self._scroll = min(max(self._scroll, top + ROW - self._room), top)
+            top += line.height
+
+    def _take(self, parameter: Parameter) -> None:
+        """Set the number that was typed."""
+        typed = self.typed.text
+        self.typed.clear()
+        try:
+            value = int(typed) if parameter.whole else float(typed)
+        except ValueError:
+            kind = "a whole number" if parameter.whole else "a number"
+            self.said = f"{typed}: expected {kind}", "error"
+            return
+        self._set(parameter.name, value)
+
+
+def _lines(experiment: Experiment, body: int | None) -> Iterator[Line]:
+    """Yield the lines of a panel: the parameters, under headings."""
+    heading = ""
+    found: Sequence[Parameter] = experiment.parameters()
+    for parameter in found:
+        above = "Scenario"
+        if parameter.name.startswith(PREFIX):
+            above = f"Law {parameter.name.removeprefix(PREFIX).rpartition('.')[0]}"
+        if above != heading:
+            yield Line(above)
+        heading = above
+        yield Line(parameter.name.rpartition(".")[2], parameter)
+    if not found:
+        yield Line("No parameters in this file")
+    if body is not None:
+        yield Line(experiment.scenario.bodies[body].name)
+        for parameter in experiment.parameters(body):
+            yield Line(_short(parameter.name), parameter)
+
+
+def _short(name: str) -> str:
+    """Return the last part of the name of a body's field, in words.
+
+    >>> _short("robots.red.drive.max_force")
+    'max force'
+    """
+    return name.rpartition(".")[2].replace("_", " ")
+
+
+def _number(parameter: Parameter, value: float) -> str:
+    """Return a value with the decimals of its slider's steps, unless it lies between two."""
+    decimals = max(0, -floor(log10(parameter.step)))
+    short = f"{value:.{decimals}f}"
+    return short if float(short) == value else f"{value:.6g}"

@@ -1,0 +1,232 @@
+"""A panel that compares the predictions of the experiment's `checks` with measurements."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+import pygame
+
+from mars2d.core.errors import LawError, counted
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import Theme
+from mars2d.record.frame import Frame
+from mars2d.scenario.prediction import Prediction, number
+from mars2d.window.widgets.dock import Panel
+from mars2d.world.timeline import Timeline
+from mars2d.world.world import World
+
+OFTEN = 0.2
+"""The shortest time between two readings while the run goes on, seconds."""
+SHARE = 0.04
+"""The largest share of the time that `checks` may take."""
+DEAR = 0.1
+"""Where `checks` takes longer, the numbers are read only when time stands still, seconds."""
+
+TITLES, ROW, LINE, LEAST = 22.0, 40.0, 17.0, 110.0
+"""The heights of the columns' titles, of a prediction, of a line of words, and the least height of
+the panel, points."""
+NUMBER = 13.0
+"""The height of numbers, points."""
+UNIT, MARK = 58.0, 8.0
+"""The room for a unit, and the diameter of the mark before a name, points."""
+MAX_WORDS = 6
+"""The most lines of words about values that could not be read."""
+
+
+class Reading(NamedTuple):
+    """What `checks` made of a run so far.
+
+    time: of the run, seconds. finished: whether it had come to its end. error: what ended `checks`.
+    """
+
+    time: float
+    finished: bool
+    predictions: tuple[Prediction, ...]
+    error: LawError | None
+
+
+class Predictions(Panel):
+    """Shows predictions as a table: predicted, measured, tolerance, and whether they agree.
+
+    `checks` is written for a run that has ended. While one goes on, it is asked a few times a
+    second, as far as it costs little; what it can't find yet, or has found too little of, is "not
+    yet". Its errors are shown here, and never end the run.
+    """
+
+    name, title = "predictions", "Predictions"
+
+    def __init__(
+        self,
+        painter: Painter,
+        timeline: Timeline | None,
+        clock: Callable[[], float] = time.perf_counter,
+    ) -> None:
+        """Start with nothing read."""
+        self.painter, self.reading = painter, Reading(0.0, False, (), None)
+        self._timeline, self._clock, self._wanted = timeline, clock, False
+        self._read: tuple[World, int] | None = None
+        self._next, self._cost = -math.inf, 0.0
+        self._image: pygame.Surface | None = None
+        self._image_of: tuple[object, ...] = ()
+        self._first = 0  # the prediction at the top, if there is no room for all
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is wanted, and the experiment has checks."""
+        return self._wanted and self.offered
+
+    @is_open.setter
+    def is_open(self, wanted: bool) -> None:
+        self._wanted = wanted
+
+    @property
+    def offered(self) -> bool:
+        """Whether the experiment has checks."""
+        return self._timeline is not None and self._timeline.experiment.source.checks is not None
+
+    def look(self, *, playing: bool) -> bool:
+        """Read the run again if it has gone on; return whether there is something new to see."""
+        timeline, now = self._timeline, self._clock()
+        if timeline is None or not self.is_open or not self.offered:
+            return False
+        world = timeline.world
+        of = world, world.iteration
+        same = self._read is not None and self._read == of
+        if same or (playing and not world.over and (now < self._next or self._cost > DEAR)):
+            return False
+        self._read = of
+        record = world.record
+        found, error = timeline.experiment.predictions_so_far(record)
+        self._cost = self._clock() - now
+        self._next = now + max(OFTEN, self._cost / SHARE)
+        at = float(record.time[-1]) if len(record) else 0.0
+        self.reading = Reading(at, record.finished, found, error)
+        return True
+
+    # -- the panel --------------------------------------------------------------------------------
+
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
+        """Return the least and the wanted height at a width, points."""
+        lines = len(self._words(width * self.painter.ui))
+        rows = max(len(self.reading.predictions), 1)
+        return LEAST, max(LEAST, TITLES + rows * ROW + lines * LINE)
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Scroll by the wheel where there is no room for all predictions."""
+        if event.type == pygame.MOUSEWHEEL:
+            self._first -= event.y
+        return False
+
+    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
+        """Draw the table, and below it the values that could not be read."""
+        theme, words = self.painter.theme, self._words(rect.width)
+        of = rect.size, self.reading, self._first, words, theme, self.painter.ui
+        if self._image is None or self._image_of != of:
+            self._image = pygame.Surface(rect.size, 0, 32)
+            self._image.fill(theme.plate)
+            self._draw(self._image, words)
+            self._image_of = of
+        surface.blit(self._image, rect)
+
+    def _draw(self, surface: pygame.Surface, words: list[str]) -> None:
+        """Draw the whole content on a surface of its own."""
+        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
+        rows, (width, height) = self.reading.predictions, surface.get_size()
+        top, foot = 0, height - round(len(words) * LINE * ui) if rows else 0
+        each = self._column(width)
+        columns = [round(width - UNIT * ui - k * each) for k in (2, 1, 0)]
+        titles = ("predicted", "measured", "tolerance") if rows else ()
+        for title, right in zip(titles, columns, strict=False):
+            image = fonts.render(title, 11.5 * ui, theme.muted)
+            surface.blit(image, image.get_rect(topright=(right, top)))
+        top += round(TITLES * ui) if rows else 0
+        room = max(1, int((foot - top) / (ROW * ui)))
+        self._first = min(max(self._first, 0), max(0, len(rows) - room))
+        for prediction in rows[self._first : self._first + room]:
+            self._draw_row(surface, top, prediction, columns)
+            top += round(ROW * ui)
+        for k, line in enumerate(words):
+            color = theme.error.ink if self._failed else theme.muted
+            image = fonts.render(line, 12 * ui, color)
+            surface.blit(image, (0, foot + round(k * LINE * ui)))
+        if len(rows) > room:
+            more = fonts.render(f"wheel: {len(rows) - room} more", 12 * ui, theme.muted)
+            surface.blit(more, more.get_rect(bottomright=(width, height)))
+
+    def _column(self, width: float) -> float:
+        """Return the width of a column of numbers, pixels, given that of the panel's content."""
+        return (width - UNIT * self.painter.ui) / 3.1
+
+    def _draw_row(
+        self,
+        surface: pygame.Surface,
+        top: int,
+        prediction: Prediction,
+        columns: list[int],
+    ) -> None:
+        """Draw a prediction: its name and how it stands, and below that its numbers."""
+        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
+        width = surface.get_width()
+        said, color = self._verdict(prediction, theme)
+        state = fonts.render(said, 12 * ui, color, bold=True)
+        surface.blit(state, state.get_rect(topright=(width, top)))
+        mark = pygame.Rect(0, top + round(3 * ui), round(MARK * ui), round(MARK * ui))
+        self.painter.panel(surface, mark, color, mark.width / 2)
+        left = mark.right + round(7 * ui)
+        room = width - state.get_width() - round(10 * ui) - left
+        name = fonts.render(
+            fonts.shorten(prediction.name, 13 * ui, room), 13 * ui, theme.ink
+        )  # fmt: skip
+        surface.blit(name, (left, top - round(ui)))
+        low, p = top + round(17 * ui), prediction
+        measured = p.measured if math.isfinite(p.measured) else None
+        tolerance = f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}"
+        each = self._column(width) - 8 * ui
+        cells = [self._fitted(value, p.tolerance, each) for value in (p.predicted, measured)]
+        for k, (cell, right) in enumerate(zip((*cells, tolerance), columns, strict=True)):
+            ink = color if k == 1 and self.reading.finished else theme.text
+            image = fonts.render(cell, NUMBER * ui, ink, bold=k == 1)
+            surface.blit(image, image.get_rect(topright=(right, low)))
+        unit = fonts.shorten(prediction.unit, 12 * ui, (UNIT - 6) * ui)
+        image = fonts.render(unit, 12 * ui, theme.muted)
+        surface.blit(image, (columns[-1] + round(6 * ui), low + round(ui)))
+
+    def _fitted(self, value: float | None, tolerance: float, room: float) -> str:
+        """Return a number with the digits that its tolerance needs, or as many as there is room."""
+        if value is None:
+            return "-"
+        texts = [number(value, tolerance), *(f"{value:.{digits}g}" for digits in (8, 6, 4))]
+        size = NUMBER * self.painter.ui
+        fits = (text for text in texts if self.painter.fonts.width(text, size, bold=True) <= room)
+        return next(fits, texts[-1])
+
+    def _verdict(self, prediction: Prediction, theme: Theme) -> tuple[str, str]:
+        """Return how a prediction stands, in words, and their colour."""
+        if prediction.ok:
+            return ("ok" if self.reading.finished else "ok so far"), theme.running.ink
+        if self.reading.finished:
+            return "NOT OK", theme.error.ink
+        return "not yet", theme.waiting.ink
+
+    @property
+    def _failed(self) -> bool:
+        """Whether an error of `checks` is no matter of time."""
+        return self.reading.error is not None and self.reading.finished
+
+    def _words(self, width: float) -> list[str]:
+        """Return lines about the run, and about values that could not be read; width: pixels."""
+        timeline, reading, ui = self._timeline, self.reading, self.painter.ui
+        if timeline is not None and timeline.world.operator.log:
+            text = "A hand has changed this run; the predictions are for one without."
+        elif not reading.predictions and reading.error is None:
+            text = "Nothing is measured yet."
+        elif reading.error is not None:
+            text = f"{'Failed' if reading.finished else 'Not yet'}: {reading.error}"
+        else:
+            held = sum(each.ok for each in reading.predictions)
+            when = "at the end" if reading.finished else f"at {reading.time:.4g} s"
+            text = f"{held} of {counted(len(reading.predictions), 'prediction')} ok {when}"
+        return self.painter.fonts.wrap(text, 12 * ui, width, MAX_WORDS)

@@ -1,0 +1,159 @@
+"""Facts about a body in words: its state, command, contacts and messages."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from typing import Any
+
+import numpy as np
+
+from mars2d.bodies.drives.base import Drive
+from mars2d.core.description import snake_case
+from mars2d.core.plane import wrap
+from mars2d.core.quantity import UNKNOWN
+from mars2d.output.layers.forces import in_newtons
+from mars2d.record.contact import pair_forces
+from mars2d.record.frame import Frame
+
+MAX_MESSAGES = 3
+"""How many messages of the inbox are listed."""
+
+BLOCK = 65_536
+"""How many messages are searched at a time, from the last one backwards."""
+
+MINUS = "\N{MINUS SIGN}"
+
+LONG_NUMBER = re.compile(r"(?<![\w.])-?\d+\.\d{3,}(e[+-]?\d+)?")
+
+Row = tuple[str, list[tuple[str, str]]]
+"""A label, and the names and values of up to three numbers."""
+
+
+def kind_of(frame: Frame, body: int) -> str:
+    """Return the kind of a body: its drive, or the kind of prop."""
+    n = len(frame.scenario.robots)
+    if body >= n:
+        return snake_case(type(frame.scenario.props[body - n]).__name__).replace("_", " ")
+    return snake_case(type(frame.scenario.robots[body].drive).__name__).replace("_", " ")
+
+
+def state_of(frame: Frame, body: int) -> list[Row]:
+    """Return a body's rows of numbers."""
+    n = len(frame.scenario.robots)
+    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
+    vx, vy, omega = frame.velocity[:, body].tolist()
+    place = [("x", _number(x, "m")), ("y", _number(y, "m"))]
+    heading = [("θ", _degrees(theta)), ("", _number(float(wrap(theta)), "rad"))]
+    pose: list[Row] = [("pose", place), ("heading", heading)]
+    moves = [("v", _number(float(np.hypot(vx, vy)), "m/s")), ("ω", _number(omega, "rad/s"))]
+    if body >= n:
+        return [*pose, ("moves", moves)]
+    drive = frame.scenario.robots[body].drive
+    command = np.zeros(2)
+    if len(frame.command_path):
+        command = frame.command_path[-1][:, body]
+    rows: list[Row] = [*pose, ("command", command_words(drive, command)), ("moves", moves)]
+    if drive.wheel_names is not None:
+        speeds = drive.actuators(command[:, None])[:, 0].tolist()
+        pairs = zip(drive.wheel_names, speeds, ("", "m/s"), strict=True)
+        rows.append(("wheels", [(name, _number(speed, unit)) for name, speed, unit in pairs]))
+    radius = drive.turning_radius(float(np.hypot(vx, vy)))
+    if radius:
+        rows.append(("turns", [("least radius", _number(radius, "m"))]))
+    return rows
+
+
+def dynamics_of(frame: Frame, body: int) -> list[Row]:
+    """Return a body's energy and momentum beside those of all bodies, where they are known."""
+    energy, momentum = frame.energy, frame.momentum
+    if energy is None or momentum is None:
+        return []
+    own, whole = float(energy.kinetic[body]), float(energy.total)
+    p, total = np.hypot(*momentum.linear[:, body]), np.hypot(*momentum.total)
+    return [
+        ("energy", [("E", _digits(own, "J")), ("of all", _digits(whole, "J"))]),
+        ("momentum", [("p", _digits(float(p), "N s")), ("of all", _digits(float(total), "N s"))]),
+    ]
+
+
+def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
+    """Return the names and values of a command (2,); a common unit is written once."""
+    first, second = drive.quantities or UNKNOWN
+    units = "" if first.unit == second.unit else first.unit, second.unit
+    pairs = zip((first, second), np.asarray(command).tolist(), units, strict=True)
+    return [
+        (each.symbol, _degrees(value) if each.kind == "angle" else _number(value, unit))
+        for each, value, unit in pairs
+    ]
+
+
+def _number(value: float, unit: str = "") -> str:
+    """Return a number in words, with its unit."""
+    text = f"{value + 0.0:.2f}" if abs(value) < 1000 else f"{value:.3g}"
+    text = "0.00" if text == "-0.00" else text
+    return f"{text} {unit}".strip().replace("-", MINUS)
+
+
+def _digits(value: float, unit: str) -> str:
+    """Return a number of three digits, with its unit; below a millionth it is 0."""
+    return f"{value if value >= 1e-6 else 0.0:.3g} {unit}".replace("-", MINUS)
+
+
+def _degrees(angle: float) -> str:
+    turned = (np.degrees(angle) + 180.0) % 360.0 - 180.0
+    return f"{round(turned) + 0:d}°".replace("-", MINUS)
+
+
+def in_both_units(angle: float) -> str:
+    """Return a heading in degrees, and in radians as laws have it: ``90° (1.571 rad)``."""
+    return f"{np.degrees(angle) + 0.0:.4g}° ({angle + 0.0:.4g} rad)".replace("-", MINUS)
+
+
+def touching(frame: Frame, body: int) -> frozenset[int]:
+    """Return the things that a body touches: indices of bodies, or -1 - k for obstacle k."""
+    rows = frame.contacts
+    others = np.where(rows["a"] == body, rows["b"], rows["a"])
+    return frozenset(others[(rows["a"] == body) | (rows["b"] == body)].tolist())
+
+
+def contacts_of(frame: Frame, body: int) -> list[str]:
+    """Return the names and forces of a body's contacts, the strongest first."""
+    rows = frame.contacts
+    mine = rows[(rows["a"] == body) | (rows["b"] == body)]
+    mine = pair_forces(mine, np.zeros(len(mine), dtype=int), frame.scenario.sampling_time)
+    size = np.hypot(*mine["force"].T)
+    lines = []
+    for k in np.argsort(-size, kind="stable").tolist():
+        a, b = int(mine["a"][k]), int(mine["b"][k])
+        other = b if a == body else a
+        lines.append(f"{frame.scenario.body_name(other)}  {in_newtons(float(size[k]))}")
+    return lines
+
+
+def rounded(text: str) -> str:
+    """Return a message with its numbers rounded to three digits.
+
+    >>> rounded('[0.1558127,-12.5,{"a": 1e-17}]')
+    '[0.156,-12.5,{"a": 1e-17}]'
+    """
+    return LONG_NUMBER.sub(lambda found: f"{float(found[0]):.3g}", text)
+
+
+def inbox(frame: Frame, robot: int, most: int = MAX_MESSAGES) -> list[tuple[str, float, str]]:
+    """Return a robot's last messages: the sender's name, the time of sending [s], the content."""
+    rows, contents = frame.message_log()
+    now = frame.time + 1e-6 * frame.scenario.sampling_time
+    end = bisect_right(rows["time"], now)
+    found: list[tuple[str, float, str]] = []
+    while end > 0 and len(found) < most:
+        begin = max(0, end - BLOCK)
+        block = rows[begin:end]
+        for k in np.flatnonzero((block["receiver"] == robot) & (block["arrival"] <= now))[::-1]:
+            row = block[k]
+            name = str(frame.scenario.robots[int(row["sender"])].name)
+            found.append((name, float(row["time"]), contents[int(row["content"])]))
+            if len(found) == most:
+                break
+        end = begin
+    return found

@@ -1,0 +1,444 @@
+"""Scopes: a panel of plots over time that follow a run, of several bodies each."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.bodies.colors import prop_colors
+from mars2d.core.errors import InputError
+from mars2d.core.scene import PALETTE
+from mars2d.core.usercode import name_of
+from mars2d.output.controls import CONTROLS
+from mars2d.output.raster.painter import Painter
+from mars2d.output.signals import Signal, as_csv, without_nothing
+from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.panels.forcemeter import span_of
+from mars2d.window.panels.trace import Trace, What
+from mars2d.window.screen.saving import Saver
+from mars2d.window.screen.viewpoint import wheel_notches
+from mars2d.window.widgets.buttons import Buttons, draw_icon
+from mars2d.window.widgets.dock import Panel
+from mars2d.window.widgets.plot import (
+    Limits,
+    as_number,
+    draw_axes,
+    draw_crowd,
+    draw_curve,
+    limits_of,
+    polylines,
+)
+from mars2d.world.record import Record
+
+Float = NDArray[np.float64]
+
+TITLE, LEFT, FOOT, GAP = 19.0, 52.0, 17.0, 7.0
+"""The room for a plot's title, the numbers of its axis and those of the time axis, and the gap to
+the next plot, points."""
+LEAST, WANTED = 56.0, 124.0
+"""The least and the wanted height of a plot with its title, points."""
+HIGH = 86.0
+"""The height from which on a plot has a line for the names of its curves, points."""
+SHARING = 2
+"""From how many plots on the least height of the panel does not grow."""
+BAR, LINE = 30.0, 16.0
+"""The heights of the buttons and of a line of text, points."""
+NAMED = 6
+"""The most curves of a plot whose names and numbers are written."""
+WIDTH, CROWD = 2.0, 12
+"""The width of a curve, points, and the most curves of a plot that are drawn with care."""
+REMOVE = 18.0
+"""The side of the button that removes a plot, points."""
+
+INTERVAL, LONGEST, SHARE = 1 / 15, 0.25, 0.1
+"""The shortest and the longest time between two drawings while time passes, seconds, and the
+largest share of the time that they take."""
+SHORTEST = 10
+"""The least time that is shown, control steps."""
+
+
+class _Plot(NamedTuple):
+    """A plot that was drawn: whose it is, where its curves lie and what the axes mean there.
+
+    remove: where a press removes it, in pixels of the panel, as `area` is. colors, names: of the
+    curves. below: whether the names have a line of their own below the title.
+    """
+
+    trace: Trace
+    signal: Signal
+    area: pygame.Rect
+    limits: Limits
+    colors: Sequence[str]
+    remove: pygame.Rect
+    names: Sequence[str]
+    below: bool
+
+
+class Scopes(Panel):
+    """Plots of columns of the record over all that was run, with the time shown as a cursor.
+
+    recorded: returns the record so far. go: goes to a row. actions: what the buttons do: "scopes",
+    which chooses what is plotted, "figure" and "table". clock: seconds.
+
+    traces: what is plotted, one below the other. span: the time shown, seconds; None: all.
+    """
+
+    name, title = "scopes", "Scopes"
+
+    def __init__(
+        self,
+        painter: Painter,
+        recorded: Callable[[], Record],
+        go: Callable[[int], None],
+        actions: Mapping[str, Callable[[], None]],
+        clock: Callable[[], float] = time.perf_counter,
+    ) -> None:
+        """Start closed, and with nothing chosen."""
+        self.painter, self._recorded, self._go, self._clock = painter, recorded, go, clock
+        self.traces: list[Trace] = []
+        self.span: float | None = None
+        self._buttons = Buttons([("scopes", "figure", "table")], actions, lambda _: False)
+        self._plots: list[_Plot] = []
+        self._image: pygame.Surface | None = None
+        self._place = pygame.Rect(0, 0, 0, 0)
+        self._of: tuple[object, ...] = ()
+        self._frame: Frame | None = None
+        self._drawn_at, self._cost = 0.0, 0.0
+        self._end = 0.0  # of the time that is shown
+        self._held: _Plot | None = None
+
+    # -- what is plotted ----------------------------------------------------------------------
+
+    def open(self) -> None:
+        """Open it; where nothing is plotted, the robots' speeds are."""
+        self.is_open = True
+        if not self.traces:
+            robots = len(self._recorded().scenario.robots)
+            self.traces.append(Trace("speed", tuple(range(robots))))
+
+    def shows(self, what: What, bodies: tuple[int, ...]) -> bool:
+        """Return whether something is plotted for all of some bodies."""
+        trace = self._trace(what)
+        return self.is_open and trace is not None and set(bodies) <= set(trace.bodies)
+
+    def switch(self, what: What, bodies: tuple[int, ...]) -> None:
+        """Plot something for some bodies, beside others for which it is plotted, or no longer."""
+        if not self.is_open:
+            self.traces = []
+        trace, shown = self._trace(what), self.shows(what, bodies)
+        if trace is None:
+            self.traces.append(Trace(what, bodies))
+        elif shown:
+            trace.bodies = tuple(body for body in trace.bodies if body not in bodies)
+            if not trace.bodies or not bodies:
+                self.traces.remove(trace)
+        else:
+            trace.bodies = (*trace.bodies, *(b for b in bodies if b not in trace.bodies))
+        self.is_open = bool(self.traces)
+        self._image = None
+
+    def renew(self, functions: Sequence[Callable[[Any], Any]]) -> None:
+        """Take functions, of a file that was read again, in place of those of the same names."""
+        named = {name_of(function): function for function in functions}
+        for trace in self.traces:
+            if not isinstance(trace.what, str):
+                trace.what = named.get(trace.name, trace.what)
+
+    def meet(self, scenario: Scenario) -> None:
+        """Forget the bodies that a scenario does not have."""
+        count = len(scenario.bodies)
+        for trace in [*self.traces]:
+            bodies = tuple(body for body in trace.bodies if body < count)
+            if trace.bodies and not bodies:
+                self.traces.remove(trace)
+            trace.bodies = bodies
+        self.is_open = self.is_open and bool(self.traces)
+
+    def _trace(self, what: What) -> Trace | None:
+        return next((trace for trace in self.traces if trace.what == what), None)
+
+    # -- saving -------------------------------------------------------------------------------
+
+    def save_figure(self, frame: Frame, saver: Saver) -> None:
+        """Save what is plotted as a figure, of all that was run."""
+
+        def draw() -> Any:
+            from mars2d.output.figures.signals import draw_signals
+
+            record, signals = self._signals(frame)
+            return draw_signals(record, signals)[0].figure
+
+        saver.figure(draw)
+
+    def save_table(self, frame: Frame, saver: Saver) -> None:
+        """Save the numbers of what is plotted, of all that was run."""
+        saver.table(lambda: as_csv(*self._signals(frame)))
+
+    def _signals(self, frame: Frame) -> tuple[Record, list[Signal]]:
+        """Return the record, and all signals in each of its rows."""
+        record = self._recorded()
+        found = [signal for trace in self.traces for signal in trace.read(record, frame)]
+        if not found or not len(record):
+            raise InputError("there is nothing to save: no step was run yet, or nothing is plotted")
+        return record, [replace(each, values=each.values[: len(record)]) for each in found]
+
+    # -- drawing ------------------------------------------------------------------------------
+
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
+        """Return the least and the wanted height, points."""
+        count = max(len(self.traces), 1)
+        plots = max(count, len(self._plots))
+        return LEAST * min(count, SHARING) + FOOT + BAR, WANTED * plots + FOOT + BAR
+
+    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
+        """Draw the plots, and over them the cursor."""
+        ui, theme = self.painter.ui, self.painter.theme
+        of = rect.size, ui, theme, self.span, len(self.traces), frame.scenario
+        interval = min(max(INTERVAL, self._cost / SHARE), LONGEST)
+        late = frame is not self._frame and self._clock() - self._drawn_at >= interval
+        if self._image is None or of != self._of or late:
+            begin = self._clock()
+            self._image = pygame.Surface(rect.size, 0, 32)
+            self._image.fill(theme.plate)
+            self._draw_plots(self._image, frame)
+            self._of, self._frame, self._drawn_at = of, frame, self._clock()
+            self._cost = self._drawn_at - begin
+        self._place = rect
+        surface.blit(self._image, rect)
+        for plot in self._plots:
+            self._draw_cursor(surface, plot, frame)
+        bar = pygame.Rect(rect.left, 0, rect.width, round(BAR * ui))
+        bar.bottom = rect.bottom
+        self._buttons.draw(surface, bar, self.painter, self.pointer)
+        shown = (
+            "all that was run" if self.span is None else f"{self.span:.3g} s; wheel out for more"
+        )
+        image = self.painter.fonts.render(
+            self.painter.fonts.shorten(shown, 11.5 * ui, 0.55 * rect.width), 11.5 * ui, theme.muted
+        )
+        surface.blit(image, image.get_rect(midright=bar.midright))
+        self._buttons.draw_tip(surface, self.painter, self.pointer)
+
+    def _draw_plots(self, surface: pygame.Surface, frame: Frame) -> None:
+        """Draw the plots for which there is room, and say what is missing."""
+        ui, record, fonts = self.painter.ui, self._recorded(), self.painter.fonts
+        read = [
+            (trace, without_nothing(signal))
+            for trace in self.traces
+            for signal in trace.read(record, frame)
+        ]
+        texts = [
+            line
+            for trace in self.traces
+            if trace.error
+            for line in fonts.wrap(f"{trace.name}: {trace.error}", 12 * ui, surface.get_width(), 4)
+        ]
+        height = surface.get_height() - round((FOOT + BAR) * ui)
+        fit = max(1, int((height / ui - LINE * len(texts)) // LEAST))
+        if len(read) > fit:
+            names = ", ".join(dict.fromkeys(signal.name for _, signal in read[fit:]))
+            texts.append(fonts.shorten(f"no room for {names}", 12 * ui, surface.get_width()))
+        for k, text in enumerate(texts):
+            image = fonts.render(text, 12 * ui, self.painter.theme.error.ink)
+            surface.blit(image, (0, round(k * LINE * ui)))
+        top, read = round(LINE * len(texts) * ui), read[:fit]
+        start, end = self._shown(frame, max(len(record) - 1, frame.iteration))
+        high, self._plots = (height - top) // max(1, len(read)), []
+        for k, (trace, signal) in enumerate(read):
+            place = pygame.Rect(0, top + k * high, surface.get_width(), high)
+            last = k == len(read) - 1
+            self._plots.append(
+                self._draw_plot(surface, place, trace, signal, frame, (start, end), last=last)
+            )
+
+    def _shown(self, frame: Frame, newest: int) -> tuple[float, float]:
+        """Return the time that is shown, seconds."""
+        dt = frame.scenario.sampling_time
+        if self.span is None:
+            return 0.0, max(newest * dt, span_of(dt))
+        if not self._end - self.span <= frame.time <= self._end:
+            self._end = frame.time if frame.time > self._end else frame.time + self.span
+        self._end = max(self._end, self.span)
+        return self._end - self.span, self._end
+
+    def _draw_plot(
+        self,
+        surface: pygame.Surface,
+        place: pygame.Rect,
+        trace: Trace,
+        signal: Signal,
+        frame: Frame,
+        shown: tuple[float, float],
+        *,
+        last: bool,
+    ) -> _Plot:
+        """Draw the axes and the curves of a signal; last: numbers of time stand below it."""
+        (start, end), ui, dt = shown, self.painter.ui, frame.scenario.sampling_time
+        names = self._names(frame.scenario, signal)
+        words = f"{signal.name} [{signal.unit}]  " + "   ".join(f"{name} 0.0000" for name in names)
+        below = (
+            1 < len(names) <= NAMED
+            and place.height >= HIGH * ui
+            and self.painter.fonts.width(words, 12 * ui) + (REMOVE + 10) * ui > place.width
+        )
+        head = TITLE + LINE if below else TITLE
+        top, left = place.top + round(head * ui), place.left + round(LEFT * ui)
+        area = pygame.Rect(left, top, place.right - left - 2, place.bottom - round(GAP * ui) - top)
+        times = np.arange(len(signal.values), dtype=float) * dt
+        seen = slice(max(int(start / dt), 0), int(end / dt) + 2)
+        limits = limits_of(start, end, signal.values[seen])
+        draw_axes(surface, area, self.painter, limits, times=last)
+        colors = self._colors(frame.scenario, signal)
+        before = surface.get_clip()
+        surface.set_clip(area.inflate(2, 4).clip(before))
+        if len(colors) > CROWD:
+            draw_crowd(surface, area, limits, times, signal.values, colors)
+        else:
+            for k, color in enumerate(colors):
+                lines = polylines(
+                    area, limits, times, signal.values[:, k], held=signal.held, wraps=signal.wraps
+                )
+                draw_curve(surface, self.painter, lines, color, WIDTH)
+        surface.set_clip(before)
+        remove = pygame.Rect(0, 0, round(REMOVE * ui), round(REMOVE * ui))
+        remove.midright = place.right, place.top + round(TITLE / 2 * ui)
+        draw_icon(surface, CONTROLS["close"].icon, self.painter.theme.muted, remove)
+        return _Plot(trace, signal, area, limits, colors, remove, names, below)
+
+    def _colors(self, scenario: Scenario, signal: Signal) -> list[str]:
+        """Return the colour of each curve: that of its body, if it tells the bodies apart."""
+        theme, count = self.painter.theme, signal.values.shape[1]
+        if signal.bodies:
+            own = (*scenario.colors, *prop_colors(scenario.props))
+            each = count // len(signal.bodies)
+            found = [own[body] for body in signal.bodies for _ in range(each)]
+            if len(set(found)) == count or count > len(PALETTE):
+                return [theme.shade(color) for color in found]
+        found = [PALETTE[k % len(PALETTE)] for k in range(count)]
+        return [theme.shade(color) for color in found]
+
+    def _draw_cursor(self, surface: pygame.Surface, plot: _Plot, frame: Frame) -> None:
+        """Draw where the time shown lies in a plot, and write the values there."""
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        area, signal = plot.area.move(self._place.topleft), plot.signal
+        row = min(frame.iteration, len(signal.values) - 1)
+        values = signal.values[row] if row >= 0 else np.full(len(plot.colors), np.nan)
+        if plot.limits.start <= frame.time <= plot.limits.end:
+            ((x, _),) = plot.limits.pixels(area, np.array([frame.time]), np.zeros(1)).tolist()
+            surface.fill(theme.selected, (round(x), area.top, max(1, round(ui)), area.height))
+        head = TITLE / 2 + (LINE if plot.below else 0)
+        middle = area.top - round(head * ui)
+        x = self._place.left
+        right = plot.remove.left + self._place.left - round(4 * ui)
+        unit = f" [{signal.unit}]" if signal.unit else ""
+        image = fonts.render(f"{signal.name}{unit}", 12 * ui, theme.ink, bold=True)
+        surface.blit(image, image.get_rect(midleft=(x, middle)))
+        x += image.get_width() + round(10 * ui)
+        left = x
+        if plot.below:
+            left, middle = area.left, middle + round(LINE * ui)
+        self._write_values(surface, plot, values, (left, right), middle)
+
+    def _write_values(
+        self, surface: pygame.Surface, plot: _Plot, values: Float, room: tuple[int, int], y: int
+    ) -> None:
+        """Write the names and values of curves at the right of some room, as far as they fit."""
+        ui, fonts = self.painter.ui, self.painter.fonts
+        left, right = room
+        if len(plot.names) > NAMED:
+            image = fonts.render(f"{len(plot.names)} curves", 12 * ui, self.painter.theme.muted)
+            surface.blit(image, image.get_rect(midright=(right, y)))
+            return
+        numbers = [as_number(float(value)) for value in values]
+        both = [f"{name} {one}".strip() for name, one in zip(plot.names, numbers, strict=True)]
+        gap = round(9 * ui)
+        short = (numbers, plot.names) if plot.signal.bodies else (plot.names, numbers)
+        for words in (both, *short):
+            widths = [fonts.width(word, 12 * ui) + gap for word in words]
+            if left + sum(widths) <= right:
+                break
+        else:
+            return
+        x = right - sum(widths)
+        for word, width, color in zip(words, widths, plot.colors, strict=True):
+            image = fonts.render(word, 12 * ui, color)
+            surface.blit(image, image.get_rect(midright=(x + width, y)))
+            x += width
+
+    def _names(self, scenario: Scenario, signal: Signal) -> Sequence[str]:
+        """Return the names of the curves; none of a single one that is of all bodies."""
+        count = signal.values.shape[1]
+        if not signal.bodies:
+            return signal.curves if count > 1 else ("",)
+        each = count // len(signal.bodies)
+        names = [str(scenario.bodies[body].name) for body in signal.bodies]
+        return [f"{name} {k}" if each > 1 else name for name in names for k in range(each)]
+
+    @property
+    def areas(self) -> dict[str, pygame.Rect]:
+        """Where the curves of each signal were drawn, by its name."""
+        corner = self._place.topleft
+        return {plot.signal.name: plot.area.move(corner) for plot in self._plots}
+
+    @property
+    def places(self) -> dict[str, pygame.Rect]:
+        """The places of all buttons, those that remove a plot by the name of its signal."""
+        corner = self._place.topleft
+        removes = {plot.signal.name: plot.remove.move(corner) for plot in self._plots}
+        return self._buttons.places | removes
+
+    # -- the mouse ----------------------------------------------------------------------------
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Go to the time of a press, and follow a drag; remove a plot; show more or less time."""
+        if event.type == pygame.MOUSEWHEEL:
+            self._zoom(wheel_notches(event))
+            return False
+        if event.type == pygame.MOUSEMOTION and self._held is not None:
+            self._go_to(self._held, event.pos[0])
+        elif event.type == pygame.MOUSEBUTTONUP:
+            self._held = None
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
+            return self._press(event)
+        return False
+
+    def _press(self, event: pygame.Event) -> bool:
+        x, y = event.pos
+        at = x - self._place.left, y - self._place.top
+        if self._buttons.handle(event):
+            return False
+        for plot in self._plots:
+            if plot.remove.collidepoint(at):
+                self.traces.remove(plot.trace)
+                self.is_open, self._image, self._plots = bool(self.traces), None, []
+                return False
+            if plot.area.collidepoint(at):
+                self._held = plot
+                self._go_to(plot, x)
+                return True
+        return False
+
+    def _go_to(self, plot: _Plot, x: int) -> None:
+        """Go to the row at a pixel from the left."""
+        area, limits = plot.area, plot.limits
+        share = (x - self._place.left - area.left) / area.width
+        if self._frame is not None:
+            when = limits.start + share * (limits.end - limits.start)
+            self._go(max(0, round(when / self._frame.scenario.sampling_time)))
+
+    def _zoom(self, notches: float) -> None:
+        """Show less time by notches of the wheel, or more, until it is all."""
+        if not self._plots or self._frame is None:
+            return
+        dt, limits = self._frame.scenario.sampling_time, self._plots[0].limits
+        whole = max(len(self._plots[0].signal.values) * dt, span_of(dt))
+        span = (limits.end - limits.start) * 1.25**-notches
+        self.span = None if span >= whole else max(span, SHORTEST * dt)
+        self._end = limits.end

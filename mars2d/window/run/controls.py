@@ -1,0 +1,170 @@
+"""The controls below the picture: the time bar with its marks, and the slider of the speed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from math import dist, inf
+
+import pygame
+
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.painter import Painter
+from mars2d.record.marks import MarkKind, marks_of, meetings
+from mars2d.window.run.mouse import Handle, Pixel
+from mars2d.window.run.player import SPEEDS, Player
+from mars2d.window.run.source import Playback, Source
+from mars2d.window.run.timebar import TimeBar, TimeState
+from mars2d.window.screen.viewpoint import wheel_notches
+from mars2d.window.widgets.slider import SpeedSlider
+from mars2d.world.timeline import Timeline
+from mars2d.world.world import World
+
+DOUBLE, NEAR = 0.35, 6
+"""The longest time between two clicks that are one double click, seconds; how far apart, pixels."""
+MARK_INTERVAL = 0.25
+"""How often the log of contacts is read for collisions, seconds."""
+
+
+class Controls:
+    """Shows a player's time and speed, and lets the mouse change them.
+
+    handles: for the mouse.
+    """
+
+    def __init__(self, player: Player, marked: Source) -> None:
+        """Start with nothing drawn; marked: the source whose events are marked."""
+        self._player, self._marks = player, _marks_of(marked)
+        self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
+        self._pressed: tuple[float, Pixel, int, bool] = -inf, (0, 0), 0, False
+        self.handles: list[Handle] = [
+            (self.time_bar.hit, self._scrub),
+            (self.slider.hit, self._choose_speed),
+        ]
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        layout: Layout,
+        painter: Painter,
+        pointer: Pixel | None,
+        drags: Callable[[Callable[[Pixel], None]], bool],
+    ) -> None:
+        """Draw both; drags: whether the mouse drags the handle with a given function."""
+        player = self._player
+        self.time_bar.draw(
+            surface, layout.timebar, painter, self.time_state(), pointer=pointer,
+            held=drags(self._scrub),
+        )  # fmt: skip
+        self.slider.draw(
+            surface, layout.slider, painter, player.speed, player.factor, pointer=pointer,
+            held=drags(self._choose_speed),
+        )  # fmt: skip
+
+    def time_state(self) -> TimeState:
+        """Return the state that the time bar shows."""
+        source = self._player.source
+        live = not isinstance(source, Playback)
+        return TimeState(
+            row=source.row,
+            rows=source.newest,
+            last=source.scenario.last_iteration if live else source.newest,
+            sampling_time=source.scenario.sampling_time,
+            marks=self._marks(),
+            live=live,
+        )
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Zoom the time bar; return whether the event does so.
+
+        The wheel over it zooms, with Shift it shows another part. The button or a double click
+        shows all; the clicks leave the time as it was.
+        """
+        bar = self.time_bar
+        if event.type == pygame.MOUSEWHEEL and bar.covers(pygame.mouse.get_pos()):
+            if pygame.key.get_mods() & pygame.KMOD_SHIFT or event.x:
+                bar.move(event.x or -wheel_notches(event))
+            else:
+                bar.zoom(wheel_notches(event), pygame.mouse.get_pos()[0])
+            return True
+        if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
+            return False
+        if bar.shows_all_at(event.pos):
+            bar.show_all()
+            return True
+        if not bar.hit(event.pos):
+            return False
+        now, player = time.monotonic(), self._player
+        since, where, row, playing = self._pressed
+        if bar.zoomed and now - since < DOUBLE and dist(where, event.pos) < NEAR:
+            self._pressed = -inf, (0, 0), 0, False
+            bar.show_all()
+            player.go(row)
+            player.paused = player.paused and not playing
+            return True
+        self._pressed = now, event.pos, player.source.row, player.playing
+        return False
+
+    def _scrub(self, pixel: Pixel) -> None:
+        """Go to the row at a pixel of the time bar."""
+        row = self.time_bar.row_at(pixel[0])
+        if row is not None:
+            self._player.go(row)
+
+    def _choose_speed(self, pixel: Pixel) -> None:
+        """Play at the speed at a pixel of the slider."""
+        speed = self.slider.speed_at(pixel[0])
+        if speed is not None and speed != self._player.speed:
+            self._player.set_speed(speed)
+
+
+def _marks_of(source: Source) -> Callable[[], Mapping[MarkKind, Sequence[int]]]:
+    """Return a key for the rows with marks, which stay the same in a recording."""
+    if isinstance(source, Timeline):
+        return Marks(source).rows
+    marks = marks_of(source.record) if isinstance(source, Playback) else {}
+    return lambda: marks
+
+
+class Marks:
+    """The rows of a run with collisions, interventions, branches and errors."""
+
+    def __init__(self, timeline: Timeline) -> None:
+        """Start with nothing read."""
+        self._timeline = timeline
+        self._world: World | None = None
+        self._seen = 0  # rows of the contact log
+        self._next = 0.0
+        self._touched: list[int] = []
+        self._handled: tuple[World | None, int, list[int]] = None, 0, []
+
+    def rows(self) -> Mapping[MarkKind, Sequence[int]]:
+        """Return the rows of each kind in ascending order; collisions may lag by a moment."""
+        timeline, world = self._timeline, self._timeline.world
+        self._look(world, time.monotonic())
+        return {
+            "collision": self._touched,
+            "hand": self._by_hand(world),
+            "branch": sorted({timeline.parted(other) for other in timeline.branches}),
+            "error": [world.iteration] if world.over and not world.finished else [],
+        }
+
+    def _by_hand(self, world: World) -> list[int]:
+        """Return the rows at which a person intervened."""
+        log = world.operator.log
+        if self._handled[:2] != (world, len(log)):
+            self._handled = world, len(log), sorted({each.row for each in log})
+        return self._handled[2]
+
+    def _look(self, world: World, now: float) -> None:
+        """Read the contacts that began since the last reading."""
+        if world is not self._world:
+            self._world, self._seen, self._next, self._touched = world, 0, 0.0, []
+        if now < self._next:
+            return
+        self._next = now + MARK_INTERVAL
+        contacts = world.frame.contact_log()
+        new = contacts[self._seen :]
+        self._seen = len(contacts)
+        rows = meetings(new, world.sampling_time)
+        self._touched += [row for row in rows if row not in self._touched[-1:]]

@@ -1,0 +1,344 @@
+"""Changes that a person makes to a run: moving bodies, driving a robot, drawing, branching."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pygame
+
+from mars2d.core.errors import InputError, Mars2dError
+from mars2d.scenario.changes import alike, carried, check_same, with_poses, without_body
+from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.run.driver import ARROWS, LETTERS, Driver
+from mars2d.window.run.player import Player
+from mars2d.window.screen.looks import Looks
+from mars2d.window.widgets.clipboard import copied
+from mars2d.window.widgets.notes import Notes
+from mars2d.world.past import Progress
+from mars2d.world.timeline import Timeline
+from mars2d.world.world import World
+
+if TYPE_CHECKING:
+    from mars2d.window.editor import Editor, Outcome
+
+POSE_DIGITS = 6
+"""The decimals of poses that are saved, of metres and radians."""
+
+RECORDING = "this is a recording: it can be looked at, not changed"
+
+
+class Director:
+    """Changes a player's run at the instant that is shown, or says why it can't be changed.
+
+    A change in the past makes a new branch of the run. show_way_back: shows the progress of going
+    back, and returns whether to continue.
+    """
+
+    def __init__(self, player: Player, notes: Notes, show_way_back: Progress) -> None:
+        self._player, self._notes, self._show_way_back = player, notes, show_way_back
+        self.timeline = player.source if isinstance(player.source, Timeline) else None
+        self.drivers: Sequence[Driver] = (Driver(),)  # one for each person
+        if self.timeline is not None:
+            player.error = self.timeline.error
+
+    def change(self, act: Callable[[World], None]) -> bool:
+        """Do something to the world; return whether it was possible."""
+        timeline = self._live()
+        if timeline is None:
+            return False
+        back, branches = timeline.needs_way_back, len(timeline.branches)
+        try:
+            timeline.change(act, self._show_way_back)
+        except InputError as error:
+            self._notes.say(str(error), "warning")
+            return False
+        finally:
+            if back or not self._player.playing:  # otherwise time goes on from where it is
+                self._player.settle()
+        self._player.error = None
+        if len(timeline.branches) > branches:
+            self._notes.say("a new branch begins here; B shows what was run before")
+        if timeline.remark:
+            self._notes.say(timeline.remark, "warning")
+        return True
+
+    def _live(self) -> Timeline | None:
+        """Return the timeline; None, with a note, for a recording."""
+        if self.timeline is None:
+            self._notes.say(RECORDING, "warning")
+        return self.timeline
+
+    def other_branch(self) -> None:
+        """Show the branch that was run before a change."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        if timeline.others:
+            self.show(timeline.others[0])
+        else:
+            self._notes.say("there is no other branch: change something in the past to make one")
+
+    def show(self, other: World) -> None:
+        """Show another branch, or an earlier run."""
+        timeline = self.timeline
+        assert timeline is not None
+        kind = "another branch" if other in timeline.branches else "an earlier run"
+        timeline.show(other)
+        timeline.world.operator.let_go()
+        self._player.error = timeline.error
+        self._player.settle()
+        end = timeline.newest * timeline.scenario.sampling_time
+        again = "goes back" if len(timeline.others) == 1 else "shows the next one"
+        self._notes.say(f"{kind}, run until {end:.6g} s; B {again}")
+
+    def others(self) -> list[tuple[str, World]]:
+        """Return the other branches and the earlier runs, each in words."""
+        timeline = self.timeline
+        if timeline is None:
+            return []
+        found = []
+        for world in timeline.others:
+            end = f"{world.iteration * world.sampling_time:.6g} s"
+            if world in timeline.branches:
+                parts = timeline.parted(world) * world.sampling_time
+                found.append((f"Branch at {parts:.6g} s, run until {end}", world))
+            else:
+                found.append((f"Earlier run, until {end}", world))
+        return found
+
+    def undo(self) -> None:
+        """Undo the last thing done by hand."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        try:
+            undone = timeline.undo(self._show_way_back)
+        except InputError as error:
+            self._notes.say(str(error), "warning")
+            return
+        self.release()
+        self._player.error = None
+        self._player.pause()
+        at = undone.row * timeline.scenario.sampling_time
+        self._notes.say(f"undone, at {at:.6g} s; B shows the run with it")
+        if timeline.remark:
+            self._notes.say(timeline.remark, "warning")
+
+    def copy(self, text: str) -> None:
+        """Copy text to the clipboard, and say so."""
+        there = copied(text)
+        self._notes.say(f"copied: {text}" if there else f"no clipboard can be reached for {text}")
+
+    # -- one body -----------------------------------------------------------------------------
+
+    def put_back(self, body: int) -> None:
+        """Put a body back to where it was at the start."""
+        if self.timeline is not None:
+            pose = self.timeline.experiment.scenario.bodies[body].pose
+            self.change(lambda world: world.operator.place(body, pose))
+
+    def scale_mass(self, body: int, factor: float) -> None:
+        """Go on with a body that is heavier or lighter by a factor, or start again with it."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        setting, *_ = timeline.experiment.parameters(body)
+        mass, name = setting.value * factor, timeline.scenario.bodies[body].name
+        try:
+            reason = self.set(setting.name, mass)
+        except Mars2dError as error:
+            self._notes.say(str(error), "error")
+            return
+        anew = f"started again, as {reason}: " if reason else ""
+        self._notes.say(f"{anew}{name} with a mass of {mass:.4g} kg")
+
+    def set(self, name: str, value: float, restart: bool = True) -> str:
+        """Set a parameter; return why the run starts again, or "".
+
+        restart: whether it may. Raises InputError where it can't have that value, and for a
+        recording; LawError where a law or a sensor fails with it.
+        """
+        timeline = self.timeline
+        if timeline is None:
+            raise InputError(RECORDING)
+        back, branches = timeline.needs_way_back, len(timeline.branches)
+        try:
+            reason = timeline.set({name: value}, self._show_way_back, restart=restart)
+        except Mars2dError:
+            self._player.error = timeline.error
+            self._player.settle()
+            raise
+        if reason and not restart:
+            return reason
+        self._player.error = None
+        if reason or back or not (self._player.playing and timeline.newest):
+            self._player.settle()
+        if not reason and len(timeline.branches) > branches:
+            self._notes.say("a new branch begins here; B shows what was run before")
+        return reason
+
+    def remove(self, body: int) -> None:
+        """Start again without a body."""
+        name = self._player.source.scenario.bodies[body].name
+        self._begin_anew(lambda drawn: without_body(drawn, body), f"the team without {name}")
+
+    def _begin_anew(self, change: Callable[[Scenario], Scenario], said: str) -> None:
+        """Start again with the scenario of the file changed, or say why it can't be."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        try:
+            experiment = timeline.experiment.redrawn(change(timeline.experiment.scenario))
+        except InputError as error:
+            self._notes.say(str(error), "error")
+            return
+        self._restart(experiment, f"started again: {said}; Space goes on")
+
+    # -- robots driven by hand ----------------------------------------------------------------
+
+    @property
+    def driven(self) -> tuple[int, ...]:
+        """The robots that are driven by hand, by index."""
+        return tuple(driver.robot for driver in self.drivers if driver.robot is not None)
+
+    @property
+    def status(self) -> str:
+        """The driven robots and their controllers, in words; "" without any."""
+        return ", ".join(filter(None, (driver.status for driver in self.drivers)))
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Handle an event; return whether it is for those who drive alone."""
+        taken = [driver.handle(event) for driver in self.drivers]
+        return any(taken)
+
+    def drive(self, robot: int) -> None:
+        """Start to drive a robot by hand."""
+        if self._live() is None:
+            return
+        self.seat((robot,))
+        name = self._player.source.scenario.robots[robot].name
+        self._notes.say(f"arrow keys or WASD drive {name}, Shift slowly; H or Esc lets go")
+
+    def seat(self, robots: Sequence[int]) -> None:
+        """Let one person or two drive these robots from now on, and no others."""
+        self.let_go()
+        one, two = Driver(ARROWS, 0, 2), Driver(LETTERS, 1, 2)
+        self.drivers = (Driver(),) if len(robots) < 2 else (one, two)
+        for driver, robot in zip(self.drivers, robots, strict=False):
+            driver.take(robot, str(self._player.source.scenario.robots[robot].name))
+
+    def release(self) -> None:
+        """Stop driving, as far as keys are concerned."""
+        for driver in self.drivers:
+            driver.release()
+
+    def let_go(self) -> None:
+        """Stop driving by hand: the robots' laws drive them again."""
+        robots = self.driven
+        self.release()
+        if self.timeline is not None:
+            for robot in robots:
+                self.timeline.world.operator.steer(robot, None)
+
+    def steer(self, seconds: float) -> None:
+        """Give the driven robots the commands of the keys.
+
+        In the past only commands other than 0 count, and only while time passes: to look back
+        changes nothing. seconds: since the last call.
+        """
+        timeline = self.timeline
+        if timeline is None or timeline.over:
+            return
+        robots = timeline.scenario.robots
+        commands = {
+            driver.robot: driver.command(robots[driver.robot].drive, seconds)
+            for driver in self.drivers
+            if driver.robot is not None
+        }
+
+        def steer(world: World) -> None:
+            for robot, command in commands.items():
+                world.operator.steer(robot, command)
+
+        passes = self._player.playing or self._player.manual
+        if not timeline.needs_way_back:
+            steer(timeline.world)
+        elif passes and any(map(any, commands.values())) and not self.change(steer):
+            self.let_go()
+
+    # -- drawing ------------------------------------------------------------------------------
+
+    def scenario_now(self) -> Scenario:
+        """Return the scenario with all bodies at their poses of now."""
+        frame = self._player.frame
+        try:
+            return with_poses(frame.scenario, np.hstack([frame.pose, frame.prop_pose]))
+        except InputError as error:  # bodies of a dense crowd may overlap
+            self._notes.say(f"bodies are shown where they were at the start: {error}", "warning")
+            return frame.scenario
+
+    def scenario_to_save(self) -> Scenario:
+        """Return the scenario with all bodies at their poses of now, in short numbers.
+
+        What has moved is rounded to micrometres and microradians, so that what is left by rounding
+        of a 0 is 0 again. Where bodies would then overlap, nothing is rounded.
+        """
+        frame = self._player.frame
+        poses = np.hstack([frame.pose, frame.prop_pose])
+        drawn = np.array([body.pose for body in frame.scenario.bodies]).T
+        short = np.where(poses == drawn, poses, np.round(poses, POSE_DIGITS) + 0.0)
+        try:
+            return with_poses(frame.scenario, short)
+        except InputError:
+            return self.scenario_now()
+
+    def editor(self, looks: Looks) -> Editor | None:
+        """Return an editor of the scenario as it is now."""
+        from mars2d.window.editor import Editor  # few runs need it, and it is slow to import
+
+        timeline = self._live()
+        if timeline is None:
+            return None
+        self._player.pause()
+        self.let_go()
+        path, control = timeline.experiment.source.path, timeline.world.control
+        return Editor(self.scenario_now(), looks, path=path, live=True, control=control)
+
+    def apply(self, outcome: Outcome) -> None:
+        """Continue with the drawn scenario, from now or from the start."""
+        assert self.timeline is not None
+        laws = {robot.name: robot.controller for robot in self._player.frame.scenario.robots}
+        robots = outcome.scenario.robots
+        given = frozenset(
+            r.name for r in robots if r.controller is not laws.get(r.name, r.controller)
+        )
+        if outcome.when == "start":
+            drawn = self.timeline.experiment.redrawn(outcome.scenario, given)
+            self._restart(drawn, "started again with what was drawn; Space goes on")
+            return
+        before = self.scenario_now().bodies
+        bodies = enumerate(outcome.scenario.bodies)
+        moved = {i: body.pose for i, body in bodies if body.pose != before[i].pose}
+
+        def draw(world: World) -> None:
+            check_same(world.scenario, outcome.scenario, alike)
+            # In the past this is another world, whose own laws go on.
+            drawn = carried(world.scenario, outcome.scenario, given)
+            world.operator.change(drawn, world.control, moved, given=given)
+
+        if self.change(draw):
+            self._notes.say("what was drawn holds from now on; Space goes on")
+
+    def _restart(self, experiment: Experiment, said: str) -> None:
+        assert self.timeline is not None
+        try:
+            self.timeline.restart(experiment)
+        except InputError as error:
+            self._notes.say(str(error), "error")
+            return
+        self._player.error = None
+        self._player.settle()
+        self._notes.say(said)

@@ -1,0 +1,302 @@
+"""What a drag of the mouse does to a body: pull it while time passes, else move or turn it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import atan2, cos, hypot, pi, radians, sin
+from typing import Literal, Protocol
+
+import numpy as np
+import pygame
+
+from mars2d.bodies.rigid import Rigid, Triple
+from mars2d.core.plane import Point
+from mars2d.core.scene import Scene, faded
+from mars2d.output.layers.bodies import draw_prop, draw_robot
+from mars2d.output.layers.forces import FORCE, bounding_circle, in_newtons
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.theme import LIGHT
+from mars2d.record.frame import Frame
+from mars2d.scenario.changes import obstruction
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.panels.forcemeter import holding_force
+from mars2d.window.panels.readout import in_both_units
+from mars2d.world.world import World
+
+Act = Callable[[World], None]
+"""Something that is done to a world."""
+
+NOTCH = radians(15)
+"""With Ctrl, angles are multiples of this."""
+CHECK_INTERVAL = 0.05
+"""How often a new place is checked for obstacles at most, seconds."""
+
+PULL_ACCELERATION = 10.0
+"""How strongly a pull accelerates a body, after it has overcome the resistance, m/s^2."""
+MAX_PULL_SPEED = 5.0
+"""m/s."""
+
+GOOD, BAD = LIGHT.selected, LIGHT.error.ink
+HALO = "#ffffff"
+LABEL = 13.0
+"""The size of labels, points."""
+
+
+def pull_of(scenario: Scenario, body: int) -> tuple[float, float]:
+    """Return the largest force [N] and speed [m/s] with which the mouse pulls a body.
+
+    They overcome the body's drive or the floor, and cross the workspace in a few seconds.
+    """
+    xmin, xmax, ymin, ymax = scenario.bounds
+    speed = 0.2 * max(xmax - xmin, ymax - ymin)
+    if body < len(scenario.robots):
+        speed = max(speed, 1.5 * scenario.robots[body].drive.max_linear_speed)
+    force = 1.5 * holding_force(scenario, body)
+    force += PULL_ACCELERATION * scenario.bodies[body].inertia.mass
+    return force, min(speed, MAX_PULL_SPEED)
+
+
+class Drag(Protocol):
+    """A drag of the mouse that has begun on a body."""
+
+    body: int
+    keeps: bool
+    """Whether a drag that is cancelled ends as if it were released."""
+
+    def move(self, frame: Frame, point: Point, mods: int) -> None:
+        """Follow the pointer to a point [m]; mods: the modifier keys held, as pygame's flags."""
+
+    def end(self) -> None:
+        """Release the body."""
+
+    def pose(self, frame: Frame) -> Triple | None:
+        """Return the pose at which the body is shown, None for its own."""
+
+    def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
+        """Draw the effect of the drag."""
+
+
+class Pull:
+    """Pulls a body by a spring from the point where it was gripped to the pointer."""
+
+    keeps = True
+
+    def __init__(
+        self, do: Callable[[Act], bool], scenario: Scenario, body: int, grip: Point, target: Point
+    ) -> None:
+        self.body, self._do = body, do
+        self.grip, self.target = _within(scenario.bodies[body], grip), target
+        self.force, self.speed = pull_of(scenario, body)
+        self.newtons = 0.0
+        self._world: World | None = None  # in which the body is pulled
+
+    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
+        """Pull towards a point."""
+        self.target = point
+
+        def pull(world: World) -> None:
+            self._world = world
+            world.operator.pull(self.body, self.grip, point, self.force, self.speed)
+            self.newtons = world.operator.force(self.body)
+
+        self._do(pull)
+
+    def end(self) -> None:
+        """Release the body in the world in which it is pulled: that makes no branch."""
+        if self._world is not None and not self._world.over:
+            self._world.operator.pull(self.body, self.grip, None)
+
+    def pose(self, frame: Frame) -> Triple | None:
+        """Return None: the body is shown where it is."""
+
+    def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
+        """Draw the spring and its force."""
+        start = _world_point(_pose(frame, self.body), self.grip)
+        draw_ring(scene, frame, self.body, GOOD, 2.0)
+        scene.line([start, self.target], stroke=HALO, width=5.0)
+        scene.line([start, self.target], stroke=FORCE, width=2.5)
+        for point in (start, self.target):
+            scene.circle(point, 0.0, fill=FORCE, stroke=HALO, width=1.5, pixels=3.5)
+        if self.newtons > 0.005:
+            place = self.target[0], self.target[1] + 9 / camera.scale
+            text = in_newtons(self.newtons)
+            scene.text(place, text, color=FORCE, size=LABEL, anchor="above", halo=HALO)
+
+
+class Placement:
+    """The base of drags while time stands still: the body gets its new pose at the end."""
+
+    keeps = False
+
+    def __init__(
+        self,
+        do: Callable[[Act], bool],
+        clock: Callable[[], float],
+        frame: Frame,
+        body: int,
+        point: Point,
+    ) -> None:
+        self.body, self._do, self._clock = body, do, clock
+        self.before = self.now = _pose(frame, body)
+        self.start = point
+        self._fault, self._checked, self._at = "", -1.0, self.before
+
+    def pose(self, frame: Frame) -> Triple | None:  # noqa: ARG002
+        """Return the pose at the pointer."""
+        return self.now
+
+    def end(self) -> None:
+        """Place the body, if its pose has changed."""
+        if self.now != self.before:
+            self._do(lambda world: world.operator.place(self.body, self.now))
+
+    def fault(self, frame: Frame) -> str:
+        """Return why the body can't stay here, "" if it can."""
+        now = self._clock()
+        if self._at != self.now and now - self._checked >= CHECK_INTERVAL:
+            self._checked, self._at = now, self.now
+            there = with_pose(frame, self.body, self.now)
+            poses = np.hstack([there.pose, there.prop_pose])
+            self._fault = obstruction(frame.scenario, poses, self.body)
+        return self._fault
+
+    def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
+        """Draw the former place, and the new one with its fault."""
+        fault = self.fault(frame)
+        color = BAD if fault else GOOD
+        there = with_pose(frame, self.body, self.now)
+        draw_ring(scene, there, self.body, color, 2.5)
+        words = f"would {fault}" if fault else self.words()
+        draw_label(scene, there, camera, self.body, words, color, "below")  # names are above
+        self.draw_way(scene, frame.scenario, color)
+
+    def words(self) -> str:
+        """Return the new pose in words."""
+        raise NotImplementedError
+
+    def draw_way(self, scene: Scene, scenario: Scenario, color: str) -> None:
+        """Draw how the body gets from its former pose to the new one."""
+
+
+class Move(Placement):
+    """Moves a body."""
+
+    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
+        """Move the body by as much as the pointer."""
+        dx, dy = point[0] - self.start[0], point[1] - self.start[1]
+        self.now = self.before[0] + dx, self.before[1] + dy, self.before[2]
+
+    def words(self) -> str:
+        """Return the position."""
+        return _signed(f"({self.now[0]:.2f}, {self.now[1]:.2f}) m")
+
+    def draw_way(self, scene: Scene, scenario: Scenario, color: str) -> None:
+        """Draw the body hollow at its former place, and a line from there."""
+        ghost, n = np.array(self.before), len(scenario.robots)
+        if self.body < n:
+            draw_robot(scene, scenario.robots[self.body], ghost, None, faded(color, 0.6))
+        else:
+            draw_prop(scene, scenario.props[self.body - n], ghost, color, hollow=True)
+        scene.line([self.before[:2], self.now[:2]], stroke=faded(color, 0.5), width=1.2)
+
+
+class Turn(Placement):
+    """Turns a body towards the pointer."""
+
+    pointer: Point | None = None
+
+    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
+        """Turn the body towards a point, the shorter way round."""
+        x, y, theta = self.before
+        self.pointer = point
+        angle = atan2(point[1] - y, point[0] - x)
+        if mods & pygame.KMOD_CTRL:
+            angle = NOTCH * round(angle / NOTCH)
+        self.now = x, y, theta + (angle - theta + pi) % (2 * pi) - pi
+
+    def words(self) -> str:
+        """Return the heading."""
+        return in_both_units((self.now[2] + pi) % (2 * pi) - pi)
+
+    def draw_way(self, scene: Scene, scenario: Scenario, color: str) -> None:  # noqa: ARG002
+        """Draw the new heading."""
+        if self.pointer is not None:
+            x, y, theta = self.now
+            way = hypot(self.pointer[0] - x, self.pointer[1] - y)
+            end = x + way * cos(theta), y + way * sin(theta)
+            scene.line([(x, y), end], stroke=faded(color, 0.7), width=1.5)
+            scene.circle(end, 0.0, fill=color, stroke=HALO, width=1.5, pixels=3.5)
+
+
+# -- poses and points -------------------------------------------------------------------------
+
+
+def _signed(text: str) -> str:
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def _pose(frame: Frame, body: int) -> Triple:
+    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
+    return x, y, theta
+
+
+def with_pose(frame: Frame, body: int, pose: Triple) -> Frame:
+    """Return a frame with one body put at another pose."""
+    robots, props, n = frame.pose.copy(), frame.prop_pose.copy(), frame.pose.shape[1]
+    if body < n:
+        robots[:, body] = pose
+    else:
+        props[:, body - n] = pose
+    sensed = frame.pose if frame.sensed is None else frame.sensed
+    leaps = (*frame.leaps, (len(frame.path), body))
+    return replace(frame, pose=robots, prop_pose=props, sensed=sensed, leaps=leaps)
+
+
+def local_point(frame: Frame, body: int, point: Point) -> Point:
+    """Return a point [m] in a body's own frame."""
+    x, y, theta = _pose(frame, body)
+    dx, dy, c, s = point[0] - x, point[1] - y, cos(theta), sin(theta)
+    return c * dx + s * dy, c * dy - s * dx
+
+
+def _world_point(pose: Triple, local: Point) -> Point:
+    c, s = cos(pose[2]), sin(pose[2])
+    return pose[0] + c * local[0] - s * local[1], pose[1] + s * local[0] + c * local[1]
+
+
+def _within(rigid: Rigid, point: Point) -> Point:
+    """Return the point of a body's bounding circle nearest to a point, both in its frame."""
+    (x, y), radius = rigid.shape.bound
+    dx, dy = point[0] - x, point[1] - y
+    share = min(1.0, radius / max(hypot(dx, dy), 1e-300))
+    return x + share * dx, y + share * dy
+
+
+# -- marks ------------------------------------------------------------------------------------
+
+
+def draw_ring(scene: Scene, frame: Frame, body: int, color: str, width: float) -> None:
+    """Draw a ring round a body; width: of its line, points."""
+    center, radius = bounding_circle(
+        frame.scenario.bodies[body].shape, np.array(_pose(frame, body))
+    )
+    for stroke, more in ((HALO, 2.0), (color, 0.0)):
+        scene.circle(center, radius, stroke=stroke, width=width + more, pixels=6.0)
+
+
+def draw_label(
+    scene: Scene,
+    frame: Frame,
+    camera: Camera,
+    body: int,
+    text: str,
+    color: str,
+    side: Literal["above", "below"] = "above",
+) -> None:
+    """Write a text above or below the ring round a body."""
+    shape, pose = frame.scenario.bodies[body].shape, np.array(_pose(frame, body))
+    (x, y), radius = bounding_circle(shape, pose)
+    off = radius + 12 / camera.scale
+    place = x, y + off if side == "above" else y - off
+    scene.text(place, text, color=color, size=LABEL, anchor=side, halo=HALO)

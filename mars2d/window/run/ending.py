@@ -1,0 +1,48 @@
+"""Why a run has ended, and what a person can do then."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from mars2d.core.errors import Mars2dError
+from mars2d.output.excerpt import Excerpt, excerpt_of
+from mars2d.output.raster.bars import Banner
+from mars2d.window.run.player import Player
+from mars2d.world.timeline import Timeline
+
+HINT = "← looks back   R restarts   Ctrl Q leaves"
+AGAIN = "R plays again   Ctrl Q leaves"
+MEND = "correct the file and save it"
+
+
+class Ending:
+    """Tells why a run has ended.
+
+    The banner of an error shows the lines of code that were run. They are read once, so that edits
+    of the file do not change them.
+    """
+
+    def __init__(self, player: Player, game: Callable[[], object | None] = lambda: None) -> None:
+        """Start without an error. game: returns the game that people play, if they do."""
+        self._player, self._game = player, game
+        self._error: Mars2dError | None = None
+        self._excerpt: Excerpt | None = None
+
+    def banner(self) -> Banner | None:
+        """Return the banner for the window's footer, None while the run goes on."""
+        player = self._player
+        if player.failed and player.error is not None:
+            excerpt = self._excerpt_of(player.error)
+            hint = HINT if excerpt is None else f"{MEND}   {HINT}"
+            return Banner(str(player.error), hint, error=True, excerpt=excerpt)
+        if not player.over:
+            return None
+        hint = HINT if self._game() is None else AGAIN
+        return Banner(player.frame.over_message or "The experiment is over.", hint)
+
+    def _excerpt_of(self, error: Mars2dError) -> Excerpt | None:
+        if error is not self._error:
+            source = self._player.source
+            path = source.experiment.source.path if isinstance(source, Timeline) else None
+            self._error, self._excerpt = error, excerpt_of(error, path)
+        return self._excerpt

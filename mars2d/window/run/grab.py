@@ -1,0 +1,239 @@
+"""The mouse on the bodies of the picture: the one under it, and the one that it grabs."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from math import dist
+
+import pygame
+
+from mars2d.core.errors import InputError, LawError
+from mars2d.core.plane import Point
+from mars2d.core.scene import Anchor, Scene, Shape, faded
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.theme import LIGHT
+from mars2d.record.frame import Frame
+from mars2d.window.run.drags import (
+    GOOD,
+    HALO,
+    LABEL,
+    Act,
+    Drag,
+    Move,
+    Pull,
+    Turn,
+    draw_label,
+    draw_ring,
+    local_point,
+    with_pose,
+)
+from mars2d.window.screen.picking import Finder, Hover
+from mars2d.world.operator import fixed, forceless
+
+Pixel = tuple[int, int]
+
+CLICK = 5.0
+"""A press that moves by less than this is a click, points."""
+LONG = 0.3
+"""A press that lasts longer than this, while time passes, grabs the body, seconds."""
+
+
+class Grab:
+    """The mouse on bodies.
+
+    change: does something to the world and returns whether that was possible; an InputError that it
+    raises is shown. say: shows a text to the person.
+    """
+
+    def __init__(
+        self,
+        change: Callable[[Act], bool],
+        say: Callable[[str], None],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._change, self._say, self._clock = change, say, clock
+        self.click = CLICK  # pixels
+        self._finder = Finder()
+        self._hover: Hover | None = None
+        self._pressed: tuple[Pixel, int, int, float] | None = None  # pixel, body, button, since
+        self._drag: Drag | None = None
+        self._running = False  # when the drag began
+        self._grip: Point = (0.0, 0.0)  # where the body was pressed, in its own frame
+        self._pixel: Pixel = (0, 0)
+        self._inside = False  # the picture
+        self._cursor = pygame.SYSTEM_CURSOR_ARROW
+
+    # -- events ---------------------------------------------------------------------------------
+
+    @property
+    def over(self) -> int | None:
+        """The body under the pointer, by its index in `Scenario.bodies`."""
+        return None if self._hover is None else self._hover.body
+
+    @property
+    def name(self) -> str:
+        """The name of the thing under the pointer, or ""."""
+        return "" if self._hover is None else self._hover.name
+
+    @property
+    def busy(self) -> bool:
+        """Whether a button is held on a body."""
+        return self._pressed is not None or self._drag is not None
+
+    def move(self, frame: Frame, camera: Camera, pixel: Pixel, running: bool) -> None:
+        """Move the pointer to a pixel of the picture."""
+        self._pixel, self._inside = pixel, True
+        if self._pressed is not None and dist(pixel, self._pressed[0]) >= self.click:
+            self._begin(frame, camera, running)
+        point = _world(camera, pixel)
+        if self._drag is not None:
+            self._drag.move(frame, point, _mods())
+        else:
+            self._hover = self._finder.find(frame, point, self.click / camera.scale)
+        self._show_cursor()
+
+    def leave(self) -> None:
+        """Move the pointer out of the picture; a drag goes on."""
+        self._inside = False
+        if not self.busy:
+            self._hover = None
+        self._show_cursor()
+
+    def press(
+        self, frame: Frame, camera: Camera, pixel: Pixel, button: int, mods: int, running: bool
+    ) -> bool:
+        """Press a button; return whether a body is grabbed by it."""
+        self.move(frame, camera, pixel, running)
+        if self.busy:
+            return True
+        turns = button == pygame.BUTTON_RIGHT or bool(mods & pygame.KMOD_SHIFT)
+        mine = button in (pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT) and not (turns and running)
+        if self.over is None or not mine:
+            return False
+        kind = pygame.BUTTON_RIGHT if turns else pygame.BUTTON_LEFT
+        self._pressed = pixel, self.over, kind, self._clock()
+        self._grip = local_point(frame, self.over, _world(camera, pixel))
+        return True
+
+    def release(self, frame: Frame, camera: Camera, pixel: Pixel, running: bool) -> bool:
+        """Release the button; return whether it was more than a click."""
+        self._pixel = pixel
+        clicked = self._pressed is not None
+        self._pressed = None
+        if self._drag is not None:
+            drag, self._drag = self._drag, None
+            drag.move(frame, _world(camera, pixel), _mods())
+            drag.end()
+        self.move(frame, camera, pixel, running)
+        return not clicked
+
+    def tick(self, frame: Frame, camera: Camera, running: bool) -> None:
+        """Go on with a drag, once a picture: bodies may have moved under the pointer."""
+        if self._drag is not None and self._running != running:
+            self.cancel()
+        if self._pressed is not None and running and self._clock() - self._pressed[3] > LONG:
+            self._begin(frame, camera, running)
+        if self._drag is not None:
+            self._drag.move(frame, _world(camera, self._pixel), _mods())
+        elif self._inside:
+            self.move(frame, camera, self._pixel, running)
+
+    def cancel(self) -> None:
+        """End the drag; a body that was moved or turned is back where it was."""
+        drag, self._drag, self._pressed = self._drag, None, None
+        if drag is not None and drag.keeps:
+            drag.end()
+        self._show_cursor()
+
+    def _begin(self, frame: Frame, camera: Camera, running: bool) -> None:
+        """Begin the drag that the held button asks for, if it is possible."""
+        assert self._pressed is not None
+        (pixel, body, button, _), self._pressed = self._pressed, None
+        self._running = running
+        scenario, start = frame.scenario, _world(camera, pixel)
+        if running:
+            fault = forceless(scenario, body)
+            fault = fault and fault.replace("put it elsewhere", "pause, and put it elsewhere")
+        else:
+            fault = fixed(scenario, body)
+        if fault:
+            self._say(fault)
+        elif running:
+            self._drag = Pull(self._do, scenario, body, self._grip, start)
+        else:
+            kind = Move if button == pygame.BUTTON_LEFT else Turn
+            self._drag = kind(self._do, self._clock, frame, body, start)
+
+    def _do(self, act: Act) -> bool:
+        """Do something to the world; show an InputError, and end a pull that is refused."""
+        try:
+            done = self._change(act)
+        except LawError:
+            raise
+        except InputError as error:
+            self._say(str(error))
+            done = False
+        if not done and self._drag is not None and self._drag.keeps:
+            self._drag = None
+        return done
+
+    # -- drawing --------------------------------------------------------------------------------
+
+    def shown(self, frame: Frame) -> Frame:
+        """Return a frame with the dragged body at the pointer."""
+        pose = None if self._drag is None else self._drag.pose(frame)
+        if self._drag is None or pose is None:
+            return frame
+        return with_pose(frame, self._drag.body, pose)
+
+    def marks(self, frame: Frame, camera: Camera, *, named: bool = False) -> list[Shape]:
+        """Return shapes that show the drag, or the thing under the pointer.
+
+        named: whether all bodies are drawn with their names.
+        """
+        scene = Scene()
+        if self._drag is not None:
+            self._drag.draw(scene, frame, camera)
+        elif self._hover is not None:
+            _draw_hover(scene, frame, camera, self._hover, self._pixel, named=named)
+        return scene.shapes
+
+    def _show_cursor(self) -> None:
+        """Set the pointer's shape."""
+        cursor = pygame.SYSTEM_CURSOR_ARROW
+        if self._drag is not None:
+            cursor = pygame.SYSTEM_CURSOR_SIZEALL
+        elif self.over is not None:
+            cursor = pygame.SYSTEM_CURSOR_HAND
+        if cursor != self._cursor and pygame.display.get_init():
+            self._cursor = cursor
+            with suppress(pygame.error):  # not every screen has all cursors
+                pygame.mouse.set_cursor(cursor)
+
+
+def _mods() -> int:
+    """Return the modifier keys that are held; none without a window."""
+    return pygame.key.get_mods() if pygame.display.get_init() else 0
+
+
+def _world(camera: Camera, pixel: Pixel) -> Point:
+    ((x, y),) = camera.to_world([pixel]).tolist()
+    return x, y
+
+
+def _draw_hover(
+    scene: Scene, frame: Frame, camera: Camera, hover: Hover, pixel: Pixel, *, named: bool
+) -> None:
+    """Draw the name of the thing under the pointer, and a ring round it if it is a body."""
+    if hover.body is not None:
+        draw_ring(scene, frame, hover.body, faded(GOOD, 0.8), 1.5)
+        if not named:
+            draw_label(scene, frame, camera, hover.body, hover.name, LIGHT.ink)
+        return
+    xmin, xmax, _, _ = frame.scenario.bounds
+    left = _world(camera, pixel)[0] < (xmin + xmax) / 2  # the label lies towards the middle
+    beside = _world(camera, (pixel[0] + (12 if left else -12), pixel[1]))
+    side: Anchor = "left" if left else "right"
+    scene.text(beside, hover.name, color=LIGHT.ink, size=LABEL, anchor=side, halo=HALO)

@@ -1,0 +1,251 @@
+"""A game that people play in a window: the roles, the countdown, and the winner."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mars2d.addons.contest import Contest
+from mars2d.record.frame import Frame
+from mars2d.record.interventions import Steer
+from mars2d.scenario.examples import examples, experiment_name
+from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.law_reference import Reference
+from mars2d.scenario.roles import contests_of, role_of, roles_of
+from mars2d.window.run.director import Director
+from mars2d.window.run.player import Player
+from mars2d.window.run.scores import Scores, Tally
+from mars2d.window.screen.memory import Memory
+from mars2d.world.record import Record
+
+COUNTDOWN = 3.0
+"""The time to find one's keys, seconds of the clock."""
+LONGEST_PICTURE = 0.1
+"""The most that one picture counts down, seconds: a file may take longer to be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Seat:
+    """A person's place: the robot, by its index, its role or "", and the labels of the keys."""
+
+    robot: int
+    role: str
+    keys: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """Roles that can be chosen: the key that chooses them, a number, and the robots."""
+
+    number: int
+    title: str
+    robots: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """How a game has ended: for the people, in a few words, and the robots that have won.
+
+    news: what is new about it, such as a best time, or why it does not count; or "".
+    """
+
+    words: str
+    winners: tuple[int, ...]
+    news: str = ""
+
+
+class Play:
+    """A game in a window. Without seats, people still choose their roles.
+
+    game: its name and options, for the scores.
+    """
+
+    def __init__(self, player: Player, director: Director, memory: Memory, game: str) -> None:
+        """Start with nobody seated; `begin` seats people and counts down."""
+        self._player, self._director = player, director
+        self._scores, self._both = Scores(memory, game), Scores(memory, f"{game}, two people")
+        self.seats: tuple[Seat, ...] = ()
+        self.counting = 0.0  # seconds to go
+        self.result: Result | None = None
+
+    # -- who plays ----------------------------------------------------------------------------
+
+    @property
+    def contest(self) -> Contest | None:
+        """What decides who has won; None where nobody does."""
+        return next(iter(contests_of(self._player.source.scenario)), None)
+
+    @property
+    def choices(self) -> list[Choice]:
+        """The roles that one person may play, and then both for two people."""
+        roles = roles_of(self._player.source.scenario)
+        alone = [Choice(k, role, team[:1]) for k, (role, team) in enumerate(roles.items(), 1)]
+        if len(alone) != 2:
+            return alone
+        both = tuple(team[0] for team in roles.values())
+        return [*alone, Choice(3, "two people", both)]
+
+    @property
+    def choosing(self) -> bool:
+        """Whether roles can be chosen now: before anything has begun, and when all is over."""
+        return not self.seats or self.result is not None
+
+    def choose(self, number: int) -> bool:
+        """Begin with the roles of a number; return whether there are such, and it is time."""
+        choice = next((each for each in self.choices if each.number == number), None)
+        if choice is None or not self.choosing:
+            return False
+        if self._player.source.newest:
+            self._player.restart()
+        self.begin(choice.robots)
+        return True
+
+    def begin(self, robots: Sequence[int] = ()) -> None:
+        """Seat people at robots, or where they sat before, and count down."""
+        robots = robots or [seat.robot for seat in self.seats]
+        scenario = self._player.source.scenario
+        self._director.seat(robots)
+        self.seats = tuple(
+            Seat(robot, role_of(scenario, robot), driver.keys.labels)
+            for robot, driver in zip(robots, self._director.drivers, strict=False)
+        )
+        self.result = None
+        self.counting = COUNTDOWN if self.seats and not self._player.manual else 0.0
+        self._player.pause()
+
+    # -- time ---------------------------------------------------------------------------------
+
+    def pass_time(self, seconds: float) -> bool:
+        """Count down for seconds of the clock, then let the game go on; notice its end.
+
+        Return whether it has just ended.
+        """
+        player = self._player
+        if not self.seats and player.playing:
+            player.pause()  # nobody has chosen yet
+        elif self.counting:
+            started = player.playing  # somebody could not wait
+            self.counting = (
+                0.0 if started else max(0.0, self.counting - min(seconds, LONGEST_PICTURE))
+            )
+            player.paused = self.counting > 0
+        elif self.result is None and self.seats and player.over and not player.failed:
+            self.result = self._ended()
+            return True
+        elif self.result is not None and not (player.over or player.past):
+            self.result = None  # somebody went back, and something else has happened
+        return False
+
+    def _ended(self) -> Result | None:
+        """Return how the game has ended, and note it in the scores."""
+        timeline, contest = self._director.timeline, self.contest
+        if timeline is None:
+            return None
+        record = timeline.record
+        if contest is None or not len(record):
+            return Result(record.over_message, ())
+        winner = contest.outcome(record).winner
+        teams = roles_of(record.scenario)
+        mine = [seat for seat in self.seats if seat.role]
+        if winner is None:
+            words = "A draw"
+        elif len(self.seats) > 1 or not mine:
+            words = f"{winner[:1].upper()}{winner[1:]} wins"
+        else:
+            words = "You win" if winner == mine[0].role else "You lose"
+        return Result(words, teams.get(winner or "", ()), self._noted(record, winner, mine))
+
+    def _noted(self, record: Record, winner: str | None, seats: Sequence[Seat]) -> str:
+        """Note an end in the scores; return the news, or why it does not count."""
+        timeline = self._director.timeline
+        others = [act for act in record.interventions if not isinstance(act, Steer) or act.row]
+        if others or timeline is None or timeline.branches:
+            return "Not counted: more was changed than the people's robots."
+        over = len(record) > record.scenario.last_iteration
+        time, news = None if over else float(record.time[-1]), ""
+        for seat in seats:
+            won = None if winner is None else winner == seat.role
+            before = self._scores_of(seats).add(seat.role, won, time)
+            news = news or _news(before, won, time)
+        return news
+
+    def _scores_of(self, seats: Sequence[Seat]) -> Scores:
+        return self._scores if len(seats) == 1 else self._both
+
+    def tally(self, role: str) -> Tally:
+        """Return the scores of a role, alone or as two people."""
+        return self._scores_of(self.seats).of(role)
+
+    # -- how it stands ------------------------------------------------------------------------
+
+    def score(self) -> Mapping[str, str]:
+        """Return the score of each role at the newest instant, in words.
+
+        Where nobody plays with more than one robot, it says nothing before the end. It is empty,
+        too, of a referee that does not tell its `score` while a world runs.
+        """
+        timeline, contest = self._director.timeline, self.contest
+        if timeline is None or contest is None or all(len(team) < 2 for _, team in contest.roles):
+            return {}
+        score = getattr(getattr(timeline.world.addons, contest.key, None), "score", None)
+        if not isinstance(score, dict):
+            return {}
+        pairs = zip(score.items(), contest.scored, strict=False)
+        return {role: f"{points:g} {what}".strip() for (role, points), what in pairs}
+
+    def distance(self, frame: Frame) -> float | None:
+        """Return the distance [m] of the nearest two robots of different roles, middle to middle.
+
+        Robots that are out of the game do not count. None if there are no two.
+        """
+        timeline, contest = self._director.timeline, self.contest
+        if timeline is None or contest is None:
+            return None
+        held = timeline.world.operator.held
+        teams = contest.teams(frame.scenario)
+        free = [[robot for robot in team if robot not in held] for team in teams]
+        one, other = free if all(free) else map(list, teams)
+        apart = frame.pose[:2, one, None] - frame.pose[:2, None, other]
+        return float(np.hypot(*apart).min())
+
+    def played_by(self, role: str) -> str:
+        """Return who plays a role, in words: a person, or the name of a law."""
+        scenario = self._player.source.scenario
+        team = roles_of(scenario)[role]
+        people = [seat for seat in self.seats if seat.robot in team]
+        if people:
+            return "you" if len(self.seats) == 1 else f"person {self.seats.index(people[0]) + 1}"
+        laws = {Reference.of(scenario.robots[robot].controller) for robot in team}
+        found = [Path(law.file).stem for law in laws if law is not None]
+        return found[0] if len(found) == 1 else "its law"
+
+
+def _news(before: Tally, won: bool | None, time: float | None) -> str:
+    """Return the new best results in words, or ""."""
+    if time is None or won is None:
+        return ""
+    best = before.quickest if won else before.longest
+    if best is not None and (time < best if won else time > best):
+        return f"Your best: {time:.1f} s, before {best:.1f} s."
+    return ""
+
+
+def game_of(experiment: Experiment) -> str:
+    """Return the name under which the scores of a game are kept: with other options, another one.
+
+    Another seed may begin elsewhere. How it is drawn does not count.
+
+    >>> from mars2d.scenario.experiment import open_experiment
+    >>> game_of(open_experiment("corner_game", {"mu": 0.8}))
+    'corner_game, mu = 0.8'
+    """
+    options = {k: v for k, v in experiment.options.items() if k.partition(".")[0] != "animation"}
+    options |= {"seed": experiment.seed} if experiment.seed else {}
+    path = experiment.source.path
+    name = experiment.scenario.title if path is None else str(path.absolute())
+    if path is not None and path in examples().values():
+        name = experiment_name(path)
+    return ", ".join([name, *(f"{key} = {value}" for key, value in sorted(options.items()))])

@@ -1,0 +1,294 @@
+"""A window that plays a source: the base of the run window and of the window of a comparison."""
+
+from __future__ import annotations
+
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from functools import partial
+from math import inf
+
+import pygame
+
+from mars2d.core.deadline import Deadline, patience
+from mars2d.core.interrupt import give_up
+from mars2d.output.layers.table import LAYERS, Layers
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.layout import Layout
+from mars2d.window.run import keys
+from mars2d.window.run.controls import Controls
+from mars2d.window.run.player import Player, time_actions
+from mars2d.window.run.source import Source
+from mars2d.window.run.toolbar import Toolbar, layer_entries
+from mars2d.window.screen.display import PICTURES_A_SECOND, Preferences, started_display
+from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.rest import Rest
+from mars2d.window.screen.saving import Saver
+from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.help import Help
+from mars2d.window.widgets.keys import chord
+from mars2d.window.widgets.menu import Entry
+from mars2d.window.widgets.notes import Notes
+from mars2d.world.timeline import Timeline
+
+ZOOM = 2.0
+"""How far a key zooms, in notches of the wheel."""
+RESERVE = 0.004
+"""The time of a picture that is not used to prepare for going back, seconds."""
+THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
+"""The layers that the user's code may draw."""
+
+
+class PlayerWindow(ABC):
+    """Opens a window, plays a source in it, and answers keys and mouse until it is closed.
+
+    title: of the window. size: at first, points. stem: the name of saved files, without a number.
+
+    A subclass makes `viewpoint` and `toolbar`.
+    """
+
+    viewpoint: Viewpoint
+    toolbar: Toolbar
+
+    def __init__(
+        self,
+        source: Source,
+        speed: float | str,
+        size: tuple[int, int],
+        preferences: Preferences | None,
+        *,
+        title: str,
+        stem: str,
+        marked: Source | None = None,
+    ) -> None:
+        """Prepare; the window opens with `run`. marked: whose events the time bar marks."""
+        self.player, self.size, self.title = Player(source, speed), size, f"{title} - MARS2D"
+        self.layers = Layers.of(source.scenario.animation)
+        self.help, self.notes = Help(), Notes()
+        self.looks = Looks(preferences, self.notes.say)
+        self.saver = Saver(self.notes, stem)
+        self._controls = Controls(self.player, marked or source)
+        self._keyboard, self._rest = keys.Keyboard(), Rest()
+        self._open = False
+        self._passing, self._awaited = False, ""  # whether laws may be asked; the line waited for
+        self._actions: dict[str, Callable[[], None]] = {
+            **time_actions(self.player, self._keyboard.typed),
+            "contact": lambda: self._to_contact(self.player.next_contact),
+            "contact_back": lambda: self._to_contact(self.player.last_contact),
+            "restart": self._restart,
+            "layers": lambda: self.toolbar.open("layers", self._layer_entries),
+            **{layer.name: partial(self._toggle, layer.name) for layer in LAYERS if layer.key},
+            "nearer": lambda: self.viewpoint.zoom(ZOOM, self.layout.plot.center),
+            "farther": lambda: self.viewpoint.zoom(-ZOOM, self.layout.plot.center),
+            "fit": self._fit,
+            **self.looks.actions,
+            "picture": self._save_picture,
+            "help": self.help.turn,
+            "leave": self._close,
+            "escape": self._escape,
+        }
+
+    @property
+    def camera(self) -> Camera:
+        """The camera."""
+        return self.viewpoint.camera
+
+    @property
+    def layout(self) -> Layout:
+        """The layout."""
+        return self.viewpoint.layout
+
+    def run(self) -> None:
+        """Open the window and play until it is closed; then raise the error of a failed law.
+
+        Ctrl+C in the terminal closes the window and raises KeyboardInterrupt. Raises InputError
+        without a display.
+        """
+        with started_display():
+            try:
+                pygame.display.set_caption(self.title)
+                screen = self.looks.open(self.size)
+                self._open = True
+                self.draw(screen)  # before the first law is asked: it may take long
+                pygame.display.flip()
+                with Deadline(patience(), give_up, self._calls, self._answer):
+                    self._loop(screen)
+            finally:
+                self.saver.close()
+        if self.player.error is not None:
+            raise self.player.error
+
+    @abstractmethod
+    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
+        """Draw the window on a surface; the layout follows its size."""
+
+    # -- time -----------------------------------------------------------------------------------
+
+    def _loop(self, screen: pygame.Surface) -> None:
+        clock, last = pygame.time.Clock(), time.perf_counter()
+        while self._open:
+            for event in self._rest.events():
+                self._handle(event)
+            now = time.perf_counter()
+            self._passing, self._awaited = True, ""
+            self._pass_time(now - last)
+            self._passing = False
+            last = now
+            if self._moves:
+                self._rest.stir()
+            if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
+                self._show_picture(pygame.display.get_surface() or screen)
+            self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE)
+            if self.player.speed < inf or not self.player.playing:
+                clock.tick(PICTURES_A_SECOND)
+
+    @abstractmethod
+    def _pass_time(self, seconds: float) -> None:
+        """Advance by seconds of the wall clock."""
+
+    def _use_rest(self, seconds: float) -> None:
+        """Use the rest of a picture's time to prepare for going back."""
+        if seconds > 0 and isinstance(self.player.source, Timeline):
+            self.player.source.idle(seconds)
+
+    @property
+    def _moves(self) -> bool:
+        """Whether the next picture may differ from this one though nobody does anything."""
+        return self.player.playing or self.player.busy or len(self.notes) > 0
+
+    def _show_picture(self, screen: pygame.Surface) -> None:
+        """Draw the window and put it on the screen."""
+        start = time.perf_counter()
+        self._paint(screen)
+        pygame.display.flip()
+        self.player.drawing = time.perf_counter() - start
+
+    def _paint(self, screen: pygame.Surface) -> None:
+        """Draw the next picture of the loop."""
+        self.draw(screen)
+
+    # -- waiting for a law ----------------------------------------------------------------------
+
+    @abstractmethod
+    def _calls(self) -> object:
+        """Return a value that changes with each call of the user's code."""
+
+    def _answer(self, where: str) -> str:
+        """Answer the user while a law takes long at a line; return why to break it off, or ""."""
+        if self._passing and where != self._awaited:
+            self._awaited = where
+            self.notes.say(f"waiting for {where}; Esc breaks it off", kind="warning")
+        surface = pygame.display.get_surface()
+        if surface is not None:
+            self.draw(surface)
+            pygame.display.flip()
+        pygame.event.pump()
+        closed = pygame.event.peek(pygame.QUIT)
+        moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))
+        for event in moved:  # for later, in their order
+            if event.key != pygame.K_ESCAPE:
+                pygame.event.post(event)
+        pressed = {chord(each.key, each.mod) for each in moved if each.type == pygame.KEYDOWN}
+        if closed or not pressed.isdisjoint(keys.LEAVE.names):
+            self._open = False
+            return "did not return before the window was closed"
+        return "did not return before Esc was pressed" if "escape" in pressed else ""
+
+    # -- drawing --------------------------------------------------------------------------------
+
+    @property
+    def _pointer(self) -> tuple[int, int] | None:
+        """Where the mouse is, if it is on the open window."""
+        return pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
+
+    def _own_layers(self) -> Layers:
+        """Return the layers that are on, without those that the user's code draws."""
+        return self.layers.switched(**dict.fromkeys(THEIRS, False))
+
+    # -- events ---------------------------------------------------------------------------------
+
+    def _handle(self, event: pygame.Event) -> None:
+        if event.type == pygame.QUIT:
+            self._close()
+        elif self._take(event):
+            pass
+        elif event.type == pygame.KEYDOWN:
+            self._press(event.key, event.unicode, event.mod)
+        elif event.type == pygame.KEYUP:
+            self._keyboard.release(event.key)
+        elif event.type == pygame.WINDOWFOCUSLOST:
+            self._keyboard.clear()
+        else:
+            self._point(event)
+
+    @abstractmethod
+    def _take(self, event: pygame.Event) -> bool:
+        """Give an event to the parts of the window; return whether one of them took it."""
+
+    @abstractmethod
+    def _point(self, event: pygame.Event) -> None:
+        """Handle an event of the mouse on the picture."""
+
+    def _press(self, code: int, character: str, modifiers: int) -> None:
+        key = self._keyboard.press(code, character, modifiers, manual=self.player.manual)
+        if key is not None and key.action in self._actions:
+            self._actions[key.action]()
+        self._keyboard.forget(code, character)
+
+    def _is_on(self, action: str) -> bool:
+        """Return whether the setting that a button switches is on."""
+        return {
+            "pause": self.player.playing,
+            "loop": self.player.loop,
+            "layers": self.toolbar.menu.name == "layers",
+            "help": self.help.is_open,
+        }.get(action, self.looks.is_on(action))
+
+    # -- commands -------------------------------------------------------------------------------
+
+    @abstractmethod
+    def _restart(self) -> None:
+        """Start again, with the file as it is now."""
+
+    @abstractmethod
+    def _save_picture(self) -> None:
+        """Save a picture, without the notes."""
+
+    def _to_contact(self, go: Callable[[], None]) -> None:
+        """Go to a contact; forces are shown there."""
+        self.layers = self.layers.switched(forces=True, impulses=True)
+        go()
+
+    def _fit(self) -> None:
+        """Show the whole workspace."""
+        self.viewpoint.fit()
+
+    def _layer_entries(self) -> list[Entry]:
+        return layer_entries(lambda name: getattr(self.layers, name), self._toggle_alone)
+
+    def _toggle_alone(self, layer: str) -> None:
+        self.layers = self.layers.toggled(layer, alone=True)
+
+    def _toggle(self, layer: str) -> None:
+        self.layers = self.layers.toggled(layer)
+
+    def _close(self) -> None:
+        """Close the window."""
+        self._open = False
+
+    def _escape(self) -> None:
+        """Close the help, end an activity, or clear errors; a window is never closed by Esc."""
+        if self._keyboard.number:
+            return  # only the typed number is forgotten
+        if self.help.is_open:
+            self.help.close()
+        elif self._end_activity():
+            pass
+        elif self.notes.failed:
+            self.notes.clear()
+        else:
+            self.notes.say("Ctrl Q closes the window")
+
+    def _end_activity(self) -> bool:
+        """End the last activity of the user's, such as a drag; return whether there was one."""
+        return False

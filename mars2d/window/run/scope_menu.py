@@ -1,0 +1,141 @@
+"""The menu of quantities to plot over time, of a body or of all robots."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from math import dist
+from typing import Any
+
+import numpy as np
+
+from mars2d.core.usercode import name_of
+from mars2d.record.frame import Frame
+from mars2d.sensors.base import Sensor
+from mars2d.window.panels.scopes import Scopes
+from mars2d.window.panels.trace import FEW, What
+from mars2d.window.run.toolbar import Toolbar
+from mars2d.window.widgets.menu import Entry
+from mars2d.world.record import Record
+
+MOTION = {"Speed": "speed", "x": "x", "y": "y", "Heading": "theta"}
+CONTACT = {"Contact force": "force", "Contact impulse": "impulse"}
+DYNAMICS = {"Kinetic energy": "kinetic", "Momentum": "momentum.each"}
+OF_ALL = {"Energy, and what has made it": "energy", "Momentum, of all": "momentum"}
+NEAREST = 14
+"""The most bodies whose distance is offered: the nearest."""
+
+
+class ScopeMenu:
+    """The menu of the run window that chooses plots; at first those that the file names are shown.
+
+    frame: returns the frame that is shown. selected: returns the selected body, or None. named:
+    returns the plots that the experiment's file names, its `scopes`.
+    """
+
+    def __init__(
+        self,
+        scopes: Scopes,
+        toolbar: Toolbar,
+        frame: Callable[[], Frame],
+        selected: Callable[[], int | None],
+        named: Callable[[], Sequence[What]],
+    ) -> None:
+        """Show the plots that the file names."""
+        self._scopes, self._toolbar = scopes, toolbar
+        self._frame, self._selected, self._named = frame, selected, named
+        robots = tuple(range(len(frame().scenario.robots)))
+        for what in named():
+            scopes.switch(what, robots if isinstance(what, str) else ())
+
+    @property
+    def functions(self) -> list[Callable[[Record], object]]:
+        """The functions among the plots that the file names."""
+        return [what for what in self._named() if not isinstance(what, str)]
+
+    def open(self) -> None:
+        """Open the menu for the selected body, or for all robots."""
+
+        def entries() -> list[Entry]:
+            body, functions = self._selected(), self.functions
+            return entries_of_scopes(
+                self._frame(), body, self._scopes, functions, self._open_distances
+            )
+
+        self._toolbar.open("scopes", entries)
+
+    def _open_distances(self) -> None:
+        """Open the menu of distances of the selected body."""
+        body, menu = self._selected() or 0, self._toolbar.menu
+        entries = partial(entries_of_distances, self._frame(), body, self._scopes)
+        menu.open("distances", entries, menu.corner)
+
+
+def entries_of_scopes(
+    frame: Frame,
+    body: int | None,
+    scopes: Scopes,
+    functions: Sequence[Callable[[Any], Any]],
+    distances: Callable[[], None],
+) -> list[Entry]:
+    """Return the quantities to plot of a body, an index of `Scenario.bodies`, or of all robots.
+
+    functions: those of the experiment's file that it names as its scopes. distances: opens the
+    menu of distances.
+    """
+    scenario = frame.scenario
+    bodies = tuple(range(len(scenario.robots))) if body is None else (body,)
+    who = "All robots" if body is None else str(scenario.bodies[body].name)
+
+    def entry(title: str, what: What, of: tuple[int, ...]) -> Entry:
+        return Entry(title, partial(scopes.switch, what, of), "", scopes.shows(what, of))
+
+    entries = [Entry(who)]
+    entries += [entry(title, what, bodies) for title, what in _columns(frame, body).items()]
+    if body is not None and len(scenario.bodies) > 1:
+        entries.append(Entry("Distance to ...", distances))
+    entries.append(Entry("All bodies"))
+    entries += [entry(title, what, ()) for title, what in OF_ALL.items()]
+    entries += [entry(name_of(function), function, ()) for function in functions]
+    return entries
+
+
+def entries_of_distances(frame: Frame, body: int, scopes: Scopes) -> list[Entry]:
+    """Return the bodies whose distance to a body can be plotted, the nearest first."""
+    bodies = frame.scenario.bodies
+    here = frame.body_pose(body)[:2]
+    others = [other for other in range(len(bodies)) if other != body]
+    others.sort(key=lambda other: dist(here, frame.body_pose(other)[:2]))
+    entries = [Entry(f"Distance of {bodies[body].name} to")]
+    for other in others[:NEAREST]:
+        what = f"distance.{bodies[other].name}"
+        act = partial(scopes.switch, what, (body,))
+        entries.append(Entry(str(bodies[other].name), act, "", scopes.shows(what, (body,))))
+    return entries
+
+
+def _columns(frame: Frame, body: int | None) -> dict[str, str]:
+    """Return the columns of a body or of all robots, by their titles."""
+    scenario = frame.scenario
+    found = dict(MOTION)
+    robots = scenario.robots if body is None else scenario.robots[body : body + 1]
+    drives = {robot.drive.quantities for robot in robots}
+    if len(drives) == 1:
+        parts = drives.pop() or ()
+        names = [part.name for part in parts] or ["0", "1"]
+        found |= {f"Command {name}": f"command.{name}" for name in names}
+    if robots:
+        found["Effort of the drive"] = "effort"
+    found |= (CONTACT if scenario.physics == "contact" else {}) | DYNAMICS
+    if body is not None:
+        for robot in robots:
+            found |= {sensor.key: sensor.key for sensor in _few(frame, body, robot.sensors)}
+    return found
+
+
+def _few(frame: Frame, body: int, sensors: Sequence[Sensor]) -> Iterator[Sensor]:
+    """Yield the sensors that are recorded, and read few numbers."""
+    for sensor in sensors:
+        reading = dict(frame.readings.get(sensor.key, ())).get(body)
+        if sensor.recorded and reading is not None and np.asarray(reading).size <= FEW:
+            yield sensor

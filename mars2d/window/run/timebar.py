@@ -1,0 +1,380 @@
+"""The time bar: the recorded part of an experiment, the instant shown, and events."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from mars2d.core.plane import grid_step
+from mars2d.core.scene import Scene
+from mars2d.output.controls import CONTROLS
+from mars2d.output.marks import MARKS
+from mars2d.output.raster.camera import PIXELS
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import mixed
+from mars2d.record.marks import MarkKind
+from mars2d.window.widgets.buttons import draw_icon
+from mars2d.window.widgets.slider import Slider, draw_tooltip
+
+ENDLESS = 1_000_000
+"""Experiments of more rows than this are shown only as far as they have gone."""
+MIN_ENDLESS = 10.0
+"""The shortest time shown of such an experiment, seconds."""
+LINE = 6.0
+"""The height of the line, points."""
+NOTCH, FEWEST = 1.25, 20.0
+"""How far a notch of the wheel zooms, and the fewest rows along the line."""
+LEAD = 0.1
+"""Where the handle comes in again that has left the part that is shown, in shares of the line."""
+SHOW_ALL = "Show all: double click"
+
+
+@dataclass(frozen=True, slots=True)
+class TimeState:
+    """Where an experiment is: rows are control steps, from 0.
+
+    row: the row shown. rows: the newest row simulated so far. last: the row at which the experiment
+    ends. sampling_time: seconds between two rows. marks: rows, in ascending order, at which
+    collisions began, a person intervened, a branch begins, or a law failed. live: whether the run
+    can go on from the row; else it is a recording.
+    """
+
+    row: int
+    rows: int
+    last: int
+    sampling_time: float
+    marks: Mapping[MarkKind, Sequence[int]] = field(default_factory=dict)
+    live: bool = True
+
+    @property
+    def past(self) -> bool:
+        """Whether an earlier row is shown than the newest of a run that goes on."""
+        return self.live and self.row < self.rows
+
+    @property
+    def extent(self) -> float:
+        """The row at the right end: the last row, or a round time ahead in endless experiments."""
+        if self.last <= ENDLESS:
+            return max(self.last, self.rows, 1)
+        time = max(1.02 * self.rows * self.sampling_time, MIN_ENDLESS)
+        return min(grid_step(time) / self.sampling_time, float(self.last))
+
+
+class Span(NamedTuple):
+    """The rows at the ends of the line."""
+
+    first: float
+    last: float
+
+    @property
+    def rows(self) -> float:
+        """How many rows long it is."""
+        return self.last - self.first
+
+    def share(self, row: float) -> float:
+        """Return where a row lies from the left end to the right, 0 to 1, or at the nearer end."""
+        return min(max((row - self.first) / self.rows, 0.0), 1.0)
+
+    def within(self, extent: float) -> Span:
+        """Return a span of the same length, or less, between row 0 and the row `extent`."""
+        rows = min(self.rows, extent)
+        first = min(max(self.first, 0.0), extent - rows)
+        return Span(first, first + rows)
+
+
+@dataclass(slots=True)
+class _Ticks:
+    """The columns of pixels, from the left of the line, in which events of one kind lie.
+
+    rows: the rows of the events; this list may grow. width: the line's, pixels. span: the part
+    that is shown. count: how many events have been read.
+    """
+
+    rows: Sequence[int]
+    width: int
+    span: Span
+    count: int = 0
+    columns: NDArray[np.bool_] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.columns = np.zeros(self.width + 1, dtype=bool)
+
+    def stretches(self, left: int, thick: int) -> list[tuple[int, int]]:
+        """Return runs of columns with events, each as its first pixel and its width.
+
+        left: where the line begins. thick: the width of a tick, pixels.
+        """
+        new = np.array(self.rows[self.count :], dtype=np.float64)
+        new = new[(new >= self.span.first) & (new <= self.span.last)]
+        share = (new - self.span.first) / self.span.rows
+        places = np.rint(left + self.width * share).astype(int)
+        self.columns[places - left] = True
+        self.count = len(self.rows)
+        columns = np.flatnonzero(self.columns)
+        gaps = np.flatnonzero(np.diff(columns) > thick)
+        starts = columns[np.concatenate([[0], gaps + 1])] if len(columns) else columns
+        ends = columns[np.concatenate([gaps, [-1]])] if len(columns) else columns
+        firsts = (starts + left - thick // 2).tolist()
+        return list(zip(firsts, (ends - starts + thick).tolist(), strict=True))
+
+
+class TimeBar(Slider):
+    """Shows the state of an experiment along a line, and finds the row at a pixel.
+
+    The wheel zooms in time. Then a thin line below shows which part of the whole is seen, and the
+    part moves on with the handle.
+    """
+
+    def __init__(self) -> None:
+        """Start with nothing drawn."""
+        super().__init__()
+        self._state: TimeState | None = None
+        self._zoomed: Span | None = None  # None while all is shown
+        self._row = -1  # that was drawn last
+        self._bar = pygame.Rect(0, 0, 0, 0)
+        self._all = pygame.Rect(0, 0, 0, 0)  # the button that shows all
+        self._ticks: dict[MarkKind, _Ticks] = {}
+
+    def row_at(self, x: float) -> int | None:
+        """Return the recorded row nearest to a pixel from the left.
+
+        None while nothing is drawn, or if there is no room for the line.
+        """
+        if self._state is None or self._line.width <= 0:
+            return None
+        share = (x - self._line.left) / self._line.width
+        row = self.span.first + min(max(share, 0.0), 1.0) * self.span.rows
+        return min(max(round(row), 0), self._state.rows)
+
+    def x_of(self, row: float) -> float:
+        """Return where a row lies, pixels from the left; at the nearer end if it is not shown."""
+        return self._line.left + self._line.width * self.span.share(row)
+
+    # -- the part that is shown -----------------------------------------------------------------
+
+    @property
+    def span(self) -> Span:
+        """The rows at the ends of the line."""
+        extent = 1.0 if self._state is None else self._state.extent
+        return Span(0.0, extent) if self._zoomed is None else self._zoomed
+
+    @property
+    def zoomed(self) -> bool:
+        """Whether a part of the whole is shown."""
+        return self._zoomed is not None
+
+    def zoom(self, notches: float, x: float) -> None:
+        """Zoom in time by notches of the wheel about a pixel from the left; out, up to all."""
+        if self._state is None or self._line.width <= 0:
+            return
+        extent, span = self._state.extent, self.span
+        rows = max(span.rows / NOTCH**notches, min(FEWEST, extent))
+        share = min(max((x - self._line.left) / self._line.width, 0.0), 1.0)
+        first = span.first + share * (span.rows - rows)
+        wanted = Span(first, first + rows).within(extent)
+        self._zoomed = None if wanted.rows >= extent * (1 - 1e-9) else wanted
+
+    def move(self, notches: float) -> None:
+        """Show a later or, for notches below 0, an earlier part of the same length."""
+        if self._state is not None and self._zoomed is not None:
+            aside = LEAD * notches * self._zoomed.rows
+            first, last = self._zoomed
+            self._zoomed = Span(first + aside, last + aside).within(self._state.extent)
+
+    def show_all(self) -> None:
+        """Show the whole experiment."""
+        self._zoomed = None
+
+    def covers(self, pixel: tuple[int, int]) -> bool:
+        """Return whether a pixel is on the bar, on the line or beside it."""
+        return bool(self._bar.collidepoint(pixel))
+
+    def shows_all_at(self, pixel: tuple[int, int]) -> bool:
+        """Return whether a pixel is on the button that shows all."""
+        return bool(self._all.collidepoint(pixel))
+
+    def _keep_up(self, state: TimeState) -> None:
+        """Move on with the handle where it has left the part that is shown."""
+        moved, self._row = state.row != self._row, state.row
+        if self._zoomed is None:
+            return
+        first, last = self._zoomed
+        if moved and not first <= state.row <= last:
+            lead = LEAD if state.row > last else 1 - LEAD
+            first = state.row - lead * self._zoomed.rows
+        shown = Span(first, first + self._zoomed.rows).within(state.extent)
+        self._zoomed = None if shown.rows >= state.extent else shown
+
+    # -- drawing --------------------------------------------------------------------------------
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        rect: pygame.Rect,
+        painter: Painter,
+        state: TimeState,
+        *,
+        pointer: tuple[int, int] | None = None,
+        held: bool = False,
+    ) -> None:
+        """Draw the bar on a part of a surface.
+
+        pointer: where the mouse is. held: whether the mouse drags the handle.
+        """
+        ui, theme = painter.ui, painter.theme
+        surface.fill(theme.bar, rect)
+        surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
+        self._state = state
+        self._keep_up(state)
+        self._arrange(rect, painter, state)
+        if self._line.width <= 0:
+            return
+        hovered = held or (pointer is not None and self.hit(pointer))
+        self._ends(surface, painter, state)
+        self._band(surface, painter, state)
+        self._marks(surface, painter, state)
+        self._overview(surface, painter, state)
+        self._handle(surface, painter, state, lifted=hovered)
+        self._label(surface, painter, state)
+        if hovered and pointer is not None:
+            row = self.row_at(pointer[0])
+            place = round(self.x_of(row or 0)), rect.top - round(4 * ui)
+            draw_tooltip(surface, painter, _time(row or 0, state), midbottom=place)
+        if pointer is not None and self.shows_all_at(pointer):
+            draw_tooltip(surface, painter, SHOW_ALL, midbottom=self._all.midtop)
+
+    def _arrange(self, rect: pygame.Rect, painter: Painter, state: TimeState) -> None:
+        """Place the line between the labels of its ends; leave them out if it would be short."""
+        ui, fonts = painter.ui, painter.fonts
+        pad, gap, size = 20 * ui, 12 * ui, 13 * ui
+        button = round(28 * ui) if self.zoomed else 0
+        first, last = "0 s", _time(state.extent, state, digits=0)
+        if self.zoomed:  # the line stays where it is while the wheel turns
+            first = last = max(last, _time(round(state.extent), state), key=len)
+        left = rect.left + pad + fonts.width(first, size) + gap
+        right = rect.right - pad - fonts.width(last, size) - gap - button
+        self._labelled = right - left >= 120 * ui
+        if not self._labelled:
+            left, right = rect.left + pad, rect.right - pad - button
+        height = round(LINE * ui)
+        line = pygame.Rect(round(left), 0, max(0, round(right - left)), height)
+        line.centery = rect.top + round(0.58 * rect.height)
+        self._place(rect, line, round(8 * ui))
+        self._bar = rect
+        self._all = pygame.Rect(0, 0, button, button)
+        self._all.midright = (rect.right - round(6 * ui), line.centery)
+
+    def _at_end(self, row: float, state: TimeState) -> str:
+        """Return the time at an end of the line: in whole seconds, if these are its ends."""
+        return _time(round(row) if self.zoomed else row, state, None if self.zoomed else 0)
+
+    def _ends(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Write the times at both ends."""
+        if not self._labelled:
+            return
+        ui, line = painter.ui, self._line
+        gap = round(12 * ui)
+        first, last = (self._at_end(end, state) for end in self.span)
+        start = painter.fonts.render(first, 13 * ui, painter.theme.muted)
+        surface.blit(start, start.get_rect(midright=(line.left - gap, line.centery)))
+        end = painter.fonts.render(last, 13 * ui, painter.theme.muted)
+        surface.blit(end, end.get_rect(midleft=(line.right + gap, line.centery)))
+
+    def _band(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Draw the line, over it the recorded part, and over that the part before the handle."""
+        theme = painter.theme
+        ahead = mixed(theme.selected, theme.bar, 0.42)
+        for row, color in (
+            (self.span.last, theme.track),
+            (state.rows, ahead),
+            (state.row, theme.selected),
+        ):
+            self._fill(surface, painter, round(self.x_of(row)), color)
+
+    def _marks(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Draw a tick per event above the line, below it, or both."""
+        ui, line = painter.ui, self._line
+        thick, long = max(1, round(1.5 * ui)), round(6 * ui)
+        above, below = line.top - round(2 * ui) - long, line.bottom + round(2 * ui)
+        for kind, mark in MARKS.items():
+            top = above if mark.above else below
+            height = (below if mark.below else above) + long - top
+            wide = thick * (2 if kind == "error" else 1)
+            color = mark.color(painter.theme)
+            for x, width in self._ticks_of(kind, state).stretches(line.left, wide):
+                surface.fill(color, (x, top, width, height))
+
+    def _overview(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Draw which part of the whole is shown, and the button that shows all."""
+        if not self.zoomed:
+            return
+        ui, line, theme = painter.ui, self._line, painter.theme
+        high = max(2, round(2 * ui))
+        top = self._area.bottom - high - round(3 * ui)
+        surface.fill(theme.track, (line.left, top, line.width, high))
+        first, last = (line.left + line.width * end / state.extent for end in self.span)
+        part = pygame.Rect(round(first), top - 1, max(round(last - first), round(6 * ui)), high + 2)
+        part.right = min(part.right, line.right)
+        surface.fill(theme.selected, part)
+        draw_icon(surface, CONTROLS["fit"].icon, theme.text, self._all)
+
+    def _ticks_of(self, kind: MarkKind, state: TimeState) -> _Ticks:
+        """Return the ticks of a kind of event; they are kept while their list only grows."""
+        rows, width, span = state.marks.get(kind, ()), self._line.width, self.span
+        ticks = self._ticks.get(kind)
+        if (
+            ticks is None
+            or ticks.rows is not rows
+            or (ticks.width, ticks.span) != (width, span)
+            or ticks.count > len(rows)
+        ):
+            ticks = self._ticks[kind] = _Ticks(rows, width, span)
+        return ticks
+
+    def _handle(
+        self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool
+    ) -> None:
+        """Draw the handle, larger while the mouse is over the bar, unless it is not shown."""
+        first, last = self.span
+        if not first <= state.row <= last:
+            return
+        theme = painter.theme
+        color = theme.past.ink if state.past else theme.selected
+        scene = Scene()
+        center = self.x_of(state.row), -self._line.centery
+        scene.circle(center, 0.0, fill=theme.bar, pixels=11.0 if lifted else 9.0)
+        scene.circle(center, 0.0, fill=color, pixels=9.0 if lifted else 7.0)
+        painter.paint(surface, scene.shapes, PIXELS, shaded=False)
+
+    def _label(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+        """Write the time above the handle, while the past is shown."""
+        if not state.past:
+            return
+        ui, line = painter.ui, self._line
+        text = _time(state.row, state)
+        image = painter.fonts.render(text, 12 * ui, painter.theme.past.ink, bold=True)
+        place = image.get_rect(
+            midbottom=(round(self.x_of(state.row)), line.centery - round(9 * ui))
+        )
+        place.left = min(max(place.left, line.left), line.right - place.width)
+        place.top = max(place.top, self._area.top + 1)
+        ground = place.inflate(round(8 * ui), 0)
+        surface.fill(painter.theme.bar, ground)
+        surface.blit(image, place)
+
+
+def _time(row: float, state: TimeState, digits: int | None = None) -> str:
+    """Return the time of a row in words, with enough decimals to tell two rows apart."""
+    step = state.sampling_time
+    if digits is None:
+        digits = next((k for k in (0, 1, 2) if abs(round(step, k) - step) < 1e-9), 3)
+    seconds = row * step
+    text = f"{seconds:.{digits}f}"
+    if digits == 0 and abs(seconds - round(seconds)) > 1e-6:
+        text = f"{seconds:.3g}"
+    return f"{text} s"

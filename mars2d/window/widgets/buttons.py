@@ -1,0 +1,128 @@
+"""Bars of buttons with icons, and their tooltips."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
+from math import ceil
+
+import pygame
+
+from mars2d.output.controls import CONTROLS, PAUSE
+from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.slider import draw_tooltip
+
+SIDE, GAP = 36.0, 2.0
+"""A button's side, and the gap between two, points."""
+BREAK = 0.35
+"""The gap between two groups, in sides."""
+ICON = 0.56
+"""An icon's side, in sides of its button."""
+
+SVG = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24" width="24" height="24"><path '
+    'fill="none" stroke="{}" stroke-width="2" stroke-linecap="round" stroke-linejoin="round" '
+    'd="{}"/></svg>'
+)
+
+
+class Buttons:
+    """A row or column of buttons in groups, each with the name of one of `CONTROLS`.
+
+    lit: whether a button shows that what it switches is on. keys: whether their tips name the keys.
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Sequence[str]],
+        actions: Mapping[str, Callable[[], None]],
+        lit: Callable[[str], bool],
+        *,
+        keys: bool = True,
+    ) -> None:
+        """Start with nothing drawn."""
+        self._groups, self._actions, self._lit, self._keys = groups, actions, lit, keys
+        self.places: dict[str, pygame.Rect] = {}
+        self._upright = False
+
+    def at(self, pixel: tuple[int, int]) -> str | None:
+        """Return the name of the button at a pixel, if there is one."""
+        return next(
+            (name for name, place in self.places.items() if place.collidepoint(pixel)), None
+        )
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Handle a press of the left mouse button on a button; return whether there was one."""
+        if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
+            return False
+        name = self.at(event.pos)
+        if name is not None:
+            self._actions[name]()
+        return name is not None
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        area: pygame.Rect,
+        painter: Painter,
+        pointer: tuple[int, int] | None,
+    ) -> None:
+        """Draw all buttons along the longer side of an area."""
+        self._arrange(area, painter.ui)
+        theme = painter.theme
+        for name, place in self.places.items():
+            on, hover = self._lit(name), pointer is not None and place.collidepoint(pointer)
+            if on or hover:
+                fill = theme.running.pale if on else theme.key
+                edge = theme.selected if on else theme.key_edge
+                painter.panel(surface, place, fill, 0.18 * place.width, edge)
+            icon = PAUSE if name == "pause" and on else CONTROLS[name].icon
+            draw_icon(surface, icon, theme.running.ink if on else theme.text, place)
+
+    def draw_tip(
+        self, surface: pygame.Surface, painter: Painter, pointer: tuple[int, int] | None
+    ) -> None:
+        """Draw the tooltip of the button under the pointer."""
+        name = None if pointer is None else self.at(pointer)
+        if name is None:
+            return
+        place, gap = self.places[name], round(6 * painter.ui)
+        beside = place.inflate(2 * gap, 2 * gap)
+        at = {"midleft": beside.midright} if self._upright else {"midbottom": beside.midtop}
+        control = CONTROLS[name]
+        draw_tooltip(surface, painter, control.tip if self._keys else control.title, **at)
+
+    def _arrange(self, area: pygame.Rect, ui: float) -> None:
+        """Lay out the buttons in an area: in two columns or smaller if they would not fit."""
+        upright = self._upright = area.height > area.width
+        long, thick = (area.height, area.width) if upright else (area.width, area.height)
+        gap = round(GAP * ui)
+
+        def side_in(lanes: int) -> int:
+            rows = sum(ceil(len(group) / lanes) for group in self._groups)
+            each = long / (rows + BREAK * len(self._groups)) - gap
+            return round(max(8, min(SIDE * ui, thick / lanes - 2 * gap, each)))
+
+        lanes = max((1, 2), key=lambda lanes: (side_in(lanes), -lanes))
+        side = side_in(lanes)
+        along, first = round(0.5 * BREAK * side) + gap, (thick - lanes * (side + gap) + gap) // 2
+        self.places = {}
+        for group in self._groups:
+            for k, name in enumerate(group):
+                x, y = first + k % lanes * (side + gap), along + k // lanes * (side + gap)
+                x, y = (x, y) if upright else (y, x)
+                self.places[name] = pygame.Rect(area.left + x, area.top + y, side, side)
+            along += ceil(len(group) / lanes) * (side + gap) + round(BREAK * side)
+
+
+def draw_icon(surface: pygame.Surface, path: str, color: str, place: pygame.Rect) -> None:
+    """Draw an icon, the path of an SVG picture, in the middle of a rectangle."""
+    image = _icon(path, color, max(4, round(ICON * place.width)))
+    surface.blit(image, image.get_rect(center=place.center))
+
+
+@lru_cache(maxsize=256)
+def _icon(path: str, color: str, side: int) -> pygame.Surface:
+    picture = io.BytesIO(SVG.format(color, path).encode())
+    return pygame.image.load_sized_svg(picture, (side, side))

@@ -1,0 +1,402 @@
+"""The dock: panels beside the arena, such as the inspector and plots, and where each stands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import pygame
+
+from mars2d.output.controls import CONTROLS
+from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.buttons import draw_icon
+
+Pixel = tuple[int, int]
+Frame = Any
+"""What panels show: the dock passes it on."""
+
+WIDTH, MIN_WIDTH = 344.0, 220.0
+"""The width of a column, points, and the width below which nothing is drawn."""
+MAX_SHARE = 0.46
+"""The largest share of the picture's width for a column, and of its height for a strip."""
+MARGIN, PAD, HEAD = 12.0, 14.0, 34.0
+"""The gap round a panel, the margin in it, and the height of its title, points."""
+CLOSE = 26.0
+"""The side of the close button, in the upper right corner of a panel, points."""
+BESIDE = 0.5
+"""The smallest scale of the arena beside panels, in parts of that without any; where it would be
+smaller, panels cover a part of the picture."""
+NEAR = 30.0
+"""How far panels that cover a part of the picture stay from the selected body, points."""
+MOUSE = (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION, pygame.MOUSEWHEEL)
+
+
+class Panel:
+    """A panel of the dock: a plate with a title and a close button, and content of its own.
+
+    To add one, derive a class that sets `name` and `title` and has `heights` and `draw` (and
+    `handle`, if its content can be clicked or dragged), and put it into the list of panels in
+    `window.py`. The dock does the rest: it finds a place, draws plate, title and close button,
+    passes the mouse on, and remembers from one window to the next which panels were open.
+
+    name: one word, by which the panel is opened and remembered. title: written at its top, and all
+    that is seen of it where there is no room. headed: whether the dock writes the title; else the
+    panel draws a head of its own, and leaves the corner at the upper right to the close button.
+    is_open: whether it is wanted. remembered: whether the next window opens it again. pointer:
+    where the mouse is, if it is over the panel; the dock sets it before each drawing.
+    """
+
+    name = ""
+    title = ""
+    headed = True
+    remembered = True
+    is_open = False
+    pointer: Pixel | None = None
+
+    def open(self) -> None:
+        """Open it."""
+        self.is_open = True
+
+    def close(self) -> None:
+        """Close it."""
+        self.is_open = False
+
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
+        """Return the least and the wanted height of the content at a width, points.
+
+        The least height may depend only on what the user has chosen, not on what happens in the
+        run: else the arena would change its size while it is watched.
+        """
+        raise NotImplementedError
+
+    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
+        """Draw the content within a rectangle, which is at least as high as the least height.
+
+        It is called for each picture, 60 times a second: what is costly should be kept.
+        """
+        raise NotImplementedError
+
+    def handle(self, event: pygame.Event) -> bool:  # noqa: ARG002
+        """Handle an event of the mouse within the panel; return whether a drag has begun.
+
+        Presses and turns of the wheel are those within the panel, positions are pixels of the
+        window. After a press that returned True, all moves of the mouse come here, until the
+        button is released; else only those over the panel do.
+        """
+        return False
+
+
+class Place(NamedTuple):
+    """Where panels may stand: lanes, in each of which they lie one below the other, in pixels.
+
+    room: the part of the picture that is left for the arena.
+    """
+
+    room: pygame.Rect
+    lanes: Sequence[pygame.Rect]
+
+
+class Dock:
+    """The panels of a window, of which the open ones stand beside the arena, in their order.
+
+    They stand in a column at the right, in several, or in a strip below, wherever the arena stays
+    largest and the panels have room. Only where the arena would get too small do they cover a part
+    of it, away from what is selected. Where there is no room for all, those opened last are seen
+    whole, and of the others only the titles, which open them.
+
+    plates: where open panels were drawn, by name. closes: where their close buttons were drawn.
+    """
+
+    def __init__(self, painter: Painter, panels: Sequence[Panel]) -> None:
+        """Start with nothing drawn."""
+        self.painter, self.panels = painter, panels
+        self.plates: dict[str, pygame.Rect] = {}
+        self.closes: dict[str, pygame.Rect] = {}
+        self._folded: set[str] = set()
+        self._recent: list[str] = []  # names, the one opened last first
+        self._place: Place | None = None
+        self._plot = pygame.Rect(0, 0, 0, 0)
+        self._mirrored = False
+        self._held: Panel | None = None
+
+    @property
+    def opened(self) -> list[str]:
+        """The names of the open panels that are remembered."""
+        return [panel.name for panel in self.panels if panel.is_open and panel.remembered]
+
+    @property
+    def free(self) -> pygame.Rect:
+        """The largest side of the picture on which no panel was drawn."""
+        plot, plates = self._plot, list(self.plates.values())
+        if not plates:
+            return plot
+        taken = plates[0].unionall(plates[1:])
+        sides = (
+            pygame.Rect(plot.topleft, (taken.left - plot.left, plot.height)),
+            pygame.Rect(taken.right, plot.top, plot.right - taken.right, plot.height),
+            pygame.Rect(plot.topleft, (plot.width, taken.top - plot.top)),
+            pygame.Rect(plot.left, taken.bottom, plot.width, plot.bottom - taken.bottom),
+        )
+        return max(sides, key=lambda side: max(side.width, 0) * max(side.height, 0))
+
+    def open(self, names: Iterable[str]) -> None:
+        """Open the panels of these names; unknown names are left out."""
+        for panel in self.panels:
+            if panel.remembered and panel.name in names:
+                panel.open()
+
+    def switch(self, name: str) -> None:
+        """Open a panel, bring it to sight if it is folded, or close it."""
+        panel = next(panel for panel in self.panels if panel.name == name)
+        if not panel.is_open:
+            panel.open()
+        elif name in self._folded:
+            self._bring(name)
+        else:
+            panel.close()
+
+    def covers(self, pixel: Pixel) -> bool:
+        """Return whether a panel was drawn at a pixel."""
+        return any(plate.collidepoint(pixel) for plate in self.plates.values())
+
+    # -- places -------------------------------------------------------------------------------
+
+    def arrange(
+        self, layout: Layout, frame: Frame, fit: Callable[[Layout], Camera], tall: float
+    ) -> pygame.Rect:
+        """Choose where the open panels stand; return the part of the picture for the arena.
+
+        fit: returns the camera that shows all of an arena that is `tall` metres high.
+        """
+        self._plot, self._place = layout.plot, None
+        shown = [panel for panel in self.panels if panel.is_open]
+        names = [panel.name for panel in shown]
+        new = [name for name in names if name not in self._recent]
+        self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
+        if not shown:
+            return self._plot
+
+        def scale(plot: pygame.Rect) -> float:
+            return fit(replace(layout, plot=plot)).scale
+
+        whole = scale(self._plot)
+
+        def worth(place: Place) -> tuple[bool, float]:
+            """Return whether all panels have room, and how large arena and panels are."""
+            arena = min(scale(place.room) / whole, 1.0)
+            wanted = sum(self._heights(panel, frame, place.lanes[0])[1] for panel in shown)
+            room = min(sum(lane.height for lane in place.lanes) / wanted, 1.0)
+            fits = len(self._unfolded(shown, place.lanes, frame)) == len(shown)
+            return fits, arena * room**0.5
+
+        arena = round(tall * whole + 56 * self.painter.ui)
+        places = list(self._places(len(shown), frame, arena))
+        beside = [place for place in places if scale(place.room) >= BESIDE * whole]
+        if beside:
+            self._place = max(beside, key=worth)
+        elif places:
+            self._place = places[0]._replace(room=self._plot)
+        return self._plot if self._place is None else self._place.room
+
+    def _places(self, panels: int, frame: Frame, arena: int) -> Iterator[Place]:
+        """Yield the places for some panels: columns at the right, and a strip below.
+
+        arena: how high it is where there are no panels, pixels.
+        """
+        ui, plot, gap = self.painter.ui, self._plot, round(MARGIN * self.painter.ui)
+        width = round(min(WIDTH * ui, MAX_SHARE * plot.width))
+        if width < MIN_WIDTH * ui:
+            return
+        for count in range(1, panels + 1):
+            left = plot.right - count * (width + gap) - gap
+            if left <= plot.left:
+                break
+            lanes = [
+                pygame.Rect(
+                    left + gap + k * (width + gap), plot.top + gap, width, plot.height - 2 * gap
+                )
+                for k in range(count)
+            ]
+            yield Place(pygame.Rect(plot.topleft, (left - plot.left, plot.height)), lanes)
+        count = max(1, min(panels, (plot.width - gap) // round(WIDTH * ui + gap)))
+        width = (plot.width - gap) // count - gap
+        lane = pygame.Rect(0, 0, width, plot.height)
+        free = plot.height - arena  # below the arena
+        shown = [panel for panel in self.panels if panel.is_open]
+        least, most = (
+            round(max(self._heights(panel, frame, lane)[k] for panel in shown)) for k in (0, 1)
+        )
+        height = min(max(least, free - 2 * gap), most, round(MAX_SHARE * plot.height))
+        top = plot.bottom - height - 2 * gap
+        lanes = [
+            pygame.Rect(plot.left + gap + k * (width + gap), top + gap, width, height)
+            for k in range(count)
+        ]
+        yield Place(pygame.Rect(plot.topleft, (plot.width, top - plot.top)), lanes)
+
+    def _heights(self, panel: Panel, frame: Frame, lane: pygame.Rect) -> tuple[float, float]:
+        """Return the least and the wanted height of a whole panel in a lane, pixels."""
+        ui = self.painter.ui
+        least, wanted = panel.heights(frame, lane.width / ui - 2 * PAD)
+        more = PAD + (HEAD if panel.headed else 0)
+        return (least + more) * ui, (wanted + more) * ui
+
+    def _unfolded(
+        self, shown: Sequence[Panel], lanes: Sequence[pygame.Rect], frame: Frame
+    ) -> set[str]:
+        """Return the names of the panels that are seen whole: as many as there is room for."""
+        found: set[str] = set()
+        for name in self._recent:
+            if self._shared(shown, lanes, frame, {*found, name}) is not None:
+                found.add(name)
+        return found
+
+    def _shared(
+        self,
+        shown: Sequence[Panel],
+        lanes: Sequence[pygame.Rect],
+        frame: Frame,
+        unfolded: set[str],
+    ) -> list[list[Panel]] | None:
+        """Return the panels of each lane, each put where most room is left; None for too little."""
+        gap, ui = round(MARGIN * self.painter.ui), self.painter.ui
+        shared: list[list[Panel]] = [[] for _ in lanes]
+        rooms = [lane.height + gap for lane in lanes]
+        for panel in shown:
+            k = rooms.index(max(rooms))
+            whole = panel.name in unfolded
+            least = self._heights(panel, frame, lanes[k])[0] if whole else HEAD * ui
+            rooms[k] -= round(least) + gap
+            shared[k].append(panel)
+        return shared if min(rooms) >= 0 else None
+
+    def _placed(self, frame: Frame) -> Iterator[tuple[Panel, pygame.Rect]]:
+        """Yield the open panels with their plates."""
+        if self._place is None:
+            return
+        shown = [panel for panel in self.panels if panel.is_open]
+        unfolded = self._unfolded(shown, self._place.lanes, frame)
+        self._folded = {panel.name for panel in shown} - unfolded
+        shared = self._shared(shown, self._place.lanes, frame, unfolded)
+        while shown and shared is None:  # not even room for all titles
+            shown.pop()
+            shared = self._shared(shown, self._place.lanes, frame, unfolded)
+        ui, gap = self.painter.ui, round(MARGIN * self.painter.ui)
+        for lane, panels in zip(self._place.lanes, shared or (), strict=False):
+            heights = [
+                (HEAD * ui, HEAD * ui)
+                if panel.name in self._folded
+                else self._heights(panel, frame, lane)
+                for panel in panels
+            ]
+            more = [max(wanted - least, 0.0) for least, wanted in heights]
+            rest = lane.height - gap * (len(panels) - 1) - sum(least for least, _ in heights)
+            share = min(1.0, rest / sum(more)) if sum(more) > 0 else 0.0
+            top = lane.top
+            for panel, (least, _), extra in zip(panels, heights, more, strict=True):
+                height = int(least + share * extra)
+                yield panel, pygame.Rect(lane.left, top, lane.width, height)
+                top += height + gap
+
+    def _aside(self, spot: tuple[float, float] | None) -> tuple[int, int]:
+        """Return by how much all panels are moved, so that they do not cover a spot, pixels."""
+        if spot is None or self._place is None:
+            self._mirrored = False
+            return 0, 0
+        first, plot = self._place.lanes[0].unionall(list(self._place.lanes[1:])), self._plot
+        if first.width < plot.width // 2:  # a column at the right, which goes to the left
+            away = plot.left + plot.right - first.left - first.right, 0
+        else:
+            away = 0, plot.top + plot.bottom - first.top - first.bottom
+        near = round(2 * NEAR * self.painter.ui)
+        other = first.move(away)
+        here, there = (other, first) if self._mirrored else (first, other)
+        if here.inflate(near, near).collidepoint(spot):
+            self._mirrored ^= not there.inflate(near, near).collidepoint(spot)
+        return away if self._mirrored else (0, 0)
+
+    # -- drawing and the mouse ----------------------------------------------------------------
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        frame: Frame,
+        spot: tuple[float, float] | None = None,
+        pointer: Pixel | None = None,
+        *,
+        free: pygame.Rect | None = None,
+    ) -> None:
+        """Draw the open panels where `arrange` has put them.
+
+        spot: a pixel that they should not cover, where they have no room beside the arena. free:
+        where nothing may be covered; panels that would are left out. pointer: where the mouse is.
+        """
+        ui, theme = self.painter.ui, self.painter.theme
+        self.plates, self.closes = {}, {}
+        away = self._aside(spot)
+        for panel, place in self._placed(frame):
+            plate = place.move(away)
+            if free is not None and plate.colliderect(free):
+                continue
+            self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)
+            pad, headed = round(PAD * ui), 0
+            if panel.headed or panel.name in self._folded:
+                self._draw_title(surface, plate, panel)
+                headed = round(HEAD * ui)
+            top = plate.top + (headed or round(PAD / 2 * ui))
+            inside = pointer is not None and plate.collidepoint(pointer)
+            panel.pointer = pointer if inside else None
+            if panel.name not in self._folded:
+                bottom = plate.bottom - round(PAD / 2 * ui)
+                panel.draw(
+                    surface,
+                    pygame.Rect(plate.left + pad, top, plate.width - 2 * pad, bottom - top),
+                    frame,
+                )
+            close = pygame.Rect(0, 0, round(CLOSE * ui), round(CLOSE * ui))
+            close.midright = plate.right - pad // 2, top + round(HEAD / 2 * ui) - headed
+            over = pointer is not None and close.collidepoint(pointer)
+            draw_icon(surface, CONTROLS["close"].icon, theme.ink if over else theme.muted, close)
+            self.plates[panel.name], self.closes[panel.name] = plate, close
+
+    def _draw_title(self, surface: pygame.Surface, plate: pygame.Rect, panel: Panel) -> None:
+        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        room = plate.width - (2 * PAD + CLOSE) * ui
+        word = fonts.shorten(panel.title, 13.5 * ui, room, bold=True)
+        color = theme.muted if panel.name in self._folded else theme.ink
+        image = fonts.render(word, 13.5 * ui, color, bold=True)
+        middle = plate.top + round(HEAD / 2 * ui)
+        surface.blit(image, image.get_rect(midleft=(plate.left + round(PAD * ui), middle)))
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Handle an event of the mouse; return whether a panel took it."""
+        if event.type not in MOUSE:
+            return False
+        if self._held is not None and event.type != pygame.MOUSEBUTTONDOWN:
+            held = self._held
+            if event.type == pygame.MOUSEBUTTONUP:
+                self._held = None
+            held.handle(event)
+            return True
+        pixel = pygame.mouse.get_pos() if event.type == pygame.MOUSEWHEEL else event.pos
+        name = next((n for n, plate in self.plates.items() if plate.collidepoint(pixel)), None)
+        if name is None:
+            return False
+        panel = next(panel for panel in self.panels if panel.name == name)
+        left = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
+        if left and self.closes[name].collidepoint(pixel):
+            panel.close()
+        elif name in self._folded:
+            if left:
+                self._bring(name)
+        elif panel.handle(event):
+            self._held = panel
+        return event.type in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEWHEEL)
+
+    def _bring(self, name: str) -> None:
+        """Let a panel have room before all others."""
+        self._recent.remove(name)
+        self._recent.insert(0, name)

@@ -1,0 +1,163 @@
+"""What a window says: notes that fade, and the progress of something long."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import pygame
+
+from mars2d.core.scene import faded
+from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import Theme
+
+NoteKind = Literal["info", "warning", "error"]
+
+STAYS, FADES = 5.0, 0.7
+"""How long a note is seen, and how long it fades at the end, seconds."""
+MAX_NOTES = 4
+MAX_LINES = 6
+"""The number of lines in a note."""
+MAX_WIDTH, MAX_WIDTH_SHARE = 420.0, 0.62
+"""The widest note: in points, and as a share of the picture's width."""
+SIZE, LINE = 14.0, 20.0
+"""The heights of letters and lines, points."""
+
+
+@dataclass(slots=True)
+class _Note:
+    text: str
+    kind: NoteKind
+    since: float | None = None  # when it was first drawn
+
+
+class Notes:
+    """Messages in the lower right corner of the picture, the newest at the bottom.
+
+    An error stays until the next error replaces it or all notes are cleared: by Esc, or when a file
+    is read without an error.
+    """
+
+    def __init__(self) -> None:
+        """Start with nothing to say."""
+        self._notes: list[_Note] = []
+
+    def __len__(self) -> int:
+        """Return the number of notes."""
+        return len(self._notes)
+
+    @property
+    def failed(self) -> bool:
+        """Whether one of the notes is an error."""
+        return any(note.kind == "error" for note in self._notes)
+
+    def say(self, text: str, kind: NoteKind = "info") -> None:
+        """Add a note. It replaces a note with the same text; an error also replaces an error."""
+        self._notes = [
+            note for note in self._notes if note.text != text and not (kind == note.kind == "error")
+        ]
+        self._notes = [*self._notes, _Note(text, kind)][-MAX_NOTES:]
+
+    def clear(self) -> None:
+        """Remove all notes, errors too."""
+        self._notes = []
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        plot: pygame.Rect,
+        painter: Painter,
+        now: float,
+        off: tuple[float, float] | None = None,
+    ) -> None:
+        """Draw the notes that have not expired; now: a monotonic clock, seconds.
+
+        off: a pixel that they do not cover, that of what is selected: they then go to the left.
+        """
+        ui = painter.ui
+        for note in self._notes:
+            note.since = now if note.since is None else note.since
+        self._notes = [note for note in self._notes if _opacity(note, now) > 0]
+        edge = round(12 * ui)
+        foot = plot.bottom - edge
+        images = [(note, _drawn(note, plot, painter)) for note in reversed(self._notes)]
+        whole = pygame.Rect(0, 0, 0, edge)
+        whole.width = max((image.get_width() for _, image in images), default=0) + 2 * edge
+        whole.height += sum(image.get_height() + edge for _, image in images)
+        whole.bottomright = plot.bottomright
+        aside = off is not None and whole.collidepoint(off)
+        for note, image in images:
+            top = foot - image.get_height()
+            if top < plot.top + round(8 * ui):
+                break
+            image.set_alpha(round(255 * _opacity(note, now)))
+            left = plot.left + edge if aside else plot.right - edge - image.get_width()
+            surface.blit(image, (left, top))
+            foot = top - round(8 * ui)
+
+
+def _opacity(note: _Note, now: float) -> float:
+    """Return the opacity of a note, from 0 to 1."""
+    if note.kind == "error" or note.since is None:
+        return 1.0
+    return min(max((note.since + STAYS - now) / FADES, 0.0), 1.0)
+
+
+def _drawn(note: _Note, plot: pygame.Rect, painter: Painter) -> pygame.Surface:
+    """Return a note on a transparent surface: a plate with a bar of its colour at the left."""
+    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+    room = min(MAX_WIDTH * ui, MAX_WIDTH_SHARE * plot.width) - 36 * ui
+    lines = fonts.wrap(note.text, SIZE * ui, room, MAX_LINES)
+    width = max(fonts.width(line, SIZE * ui) for line in lines) + round(36 * ui)
+    size = round(width), round((LINE * len(lines) + 18) * ui)
+    image = pygame.Surface(size, pygame.SRCALPHA, 32)
+    plate = image.get_rect()
+    painter.panel(image, plate, faded(theme.plate, 0.96), 8 * ui, theme.edge)
+    bar = pygame.Rect(round(8 * ui), 0, max(2, round(4 * ui)), size[1] - round(16 * ui))
+    bar.centery = plate.centery
+    painter.panel(image, bar, _color(note.kind, theme), bar.width / 2)
+    for k, line in enumerate(lines):
+        text = fonts.render(line, SIZE * ui, theme.ink)
+        middle = round((9 + LINE * (k + 0.5)) * ui)
+        image.blit(text, text.get_rect(midleft=(round(22 * ui), middle)))
+    return image
+
+
+def _color(kind: NoteKind, theme: Theme) -> str:
+    tones = {"info": theme.running, "warning": theme.waiting, "error": theme.error}
+    return tones[kind].ink
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """A long task: its name, and the share of it that is done, from 0 to 1."""
+
+    text: str
+    share: float
+
+
+def draw_progress(
+    surface: pygame.Surface, plot: pygame.Rect, painter: Painter, progress: Progress
+) -> None:
+    """Draw the task and a bar below it, at the middle of the picture's lower edge."""
+    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+    share = min(max(progress.share, 0.0), 1.0)
+    pad, percent = round(18 * ui), f"{100 * share:.0f} %"
+    most = min(MAX_WIDTH * ui, plot.width - 4 * pad)
+    number = fonts.width("100 %", 15 * ui, bold=True) + round(14 * ui)
+    text = fonts.shorten(progress.text, 15 * ui, most - number)
+    width = max(fonts.width(text, 15 * ui) + number, round(min(260 * ui, most)))
+    plate = pygame.Rect(0, 0, width + 2 * pad, round(60 * ui))
+    plate.midbottom = (plot.centerx, plot.bottom - round(16 * ui))
+    painter.panel(surface, plate, theme.plate, 10 * ui, theme.edge)
+    middle = plate.top + round(23 * ui)
+    image = fonts.render(text, 15 * ui, theme.ink)
+    surface.blit(image, image.get_rect(midleft=(plate.left + pad, middle)))
+    image = fonts.render(percent, 15 * ui, theme.running.ink, bold=True)
+    surface.blit(image, image.get_rect(midright=(plate.right - pad, middle)))
+    line = pygame.Rect(plate.left + pad, plate.top + round(41 * ui), width, round(6 * ui))
+    painter.panel(surface, line, theme.track, line.height / 2)
+    before = surface.get_clip()
+    surface.set_clip(pygame.Rect(line.left, line.top, round(share * line.width), line.height))
+    painter.panel(surface, line, theme.selected, line.height / 2)
+    surface.set_clip(before)

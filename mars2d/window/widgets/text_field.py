@@ -1,0 +1,182 @@
+"""A field to type in: a line of text with a caret, a selection, the clipboard, input methods."""
+
+from __future__ import annotations
+
+import re
+
+import pygame
+
+from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.clipboard import copied, pasted
+from mars2d.window.widgets.keys import CONTROL
+
+
+class TextField:
+    """A line of text that is typed. It takes pygame's events while it has the focus.
+
+    An empty field leaves arrow keys and the like to others. Enter, Esc and Tab are never taken.
+
+    text: so far. accepts: the characters that can be typed, "" for all. most: how many. opened_by
+    key: whether a key has just opened it, whose own text is not for the field.
+    """
+
+    def __init__(
+        self, text: str = "", *, accepts: str = "", most: int = 200, opened_by_key: bool = False
+    ) -> None:
+        """Start with the caret at the end."""
+        self.text = text
+        self.caret = self._mark = len(text)
+        self.composed = ""  # by an input method, or a dead key; not part of the text yet
+        self._accepts, self._most, self._deaf = accepts, most, opened_by_key
+        self._starts: list[float] = [0.0]  # of characters, pixels, when it was last drawn
+        self._place = pygame.Rect(0, 0, 0, 0)
+        self._held = False
+
+    @property
+    def selected(self) -> tuple[int, int]:
+        """The first character of the selection, and the one behind it; the caret without one."""
+        return min(self.caret, self._mark), max(self.caret, self._mark)
+
+    def select_all(self) -> None:
+        """Select the whole text."""
+        self._mark, self.caret = 0, len(self.text)
+
+    def clear(self) -> None:
+        """Remove all text."""
+        self.text, self.composed, self.caret, self._mark = "", "", 0, 0
+
+    def write(self, text: str) -> None:
+        """Put text in place of the selection, as far as the field accepts it."""
+        start, end = self.selected
+        written = [c for c in " ".join(text.splitlines()) if self._takes(c)]
+        room = self._most - len(self.text) + end - start
+        new = "".join(written[:room])
+        self.text = self.text[:start] + new + self.text[end:]
+        self.caret = self._mark = start + len(new)
+
+    def _takes(self, character: str) -> bool:
+        return character.isprintable() and (not self._accepts or character in self._accepts)
+
+    # -- events ---------------------------------------------------------------------------------
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Handle an event; return whether it was for the field.
+
+        The text of a key comes as an event of its own, after that of the key.
+        """
+        if event.type == pygame.TEXTINPUT:
+            if not self._deaf:
+                self.composed = ""
+                self.write(event.text)
+            return True
+        if event.type == pygame.TEXTEDITING:
+            self.composed, self._deaf = event.text, False
+            return True
+        if event.type in (pygame.KEYDOWN, pygame.KEYUP, pygame.MOUSEBUTTONUP):
+            self._deaf = False
+        if event.type == pygame.KEYDOWN:
+            return bool(self.composed) or self._press(event)
+        return self._point(event)
+
+    def _press(self, event: pygame.Event) -> bool:
+        name, shift = pygame.key.name(event.key), bool(event.mod & pygame.KMOD_SHIFT)
+        if event.mod & CONTROL and name in ("a", "c", "x", "v"):
+            self._use_clipboard(name)
+            return True
+        by_word = bool(event.mod & (CONTROL | pygame.KMOD_ALT))
+        places = {
+            "left": self._beyond(-1, by_word), "right": self._beyond(1, by_word),
+            "home": 0, "end": len(self.text),
+        }  # fmt: skip
+        if name in places and self.text:
+            start, end = self.selected
+            collapses = start < end and not shift and name in ("left", "right")
+            self.caret = (start if name == "left" else end) if collapses else places[name]
+            self._mark = self._mark if shift else self.caret
+            return True
+        if name in ("backspace", "delete") and self.text:
+            if self.caret == self._mark:
+                self.caret = self._beyond(-1 if name == "backspace" else 1, by_word)
+            self.write("")
+            return True
+        typed = event.unicode
+        return bool(typed) and not event.mod & CONTROL and all(map(self._takes, typed))
+
+    def _use_clipboard(self, letter: str) -> None:
+        """Select all (a), copy (c), cut (x) or paste (v)."""
+        start, end = self.selected
+        if letter == "a":
+            self.select_all()
+        elif letter == "v":
+            self.write(pasted())
+        elif start < end and copied(self.text[start:end]) and letter == "x":
+            self.write("")
+
+    def _beyond(self, way: int, by_word: bool) -> int:
+        """Return where the caret gets by one character or word to the left, -1, or right, 1."""
+        if not by_word:
+            return min(max(self.caret + way, 0), len(self.text))
+        edges = [found.start() for found in re.finditer(r"\b\w", self.text)]
+        if way < 0:
+            return max((edge for edge in edges if edge < self.caret), default=0)
+        return min((edge for edge in edges if edge > self.caret), default=len(self.text))
+
+    def _point(self, event: pygame.Event) -> bool:
+        """Put the caret where the mouse is, and select by a drag."""
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
+            self._held = bool(self._place.collidepoint(event.pos))
+            if self._held:
+                self.caret = self._mark = self._nearest(event.pos[0])
+            return self._held
+        if event.type == pygame.MOUSEMOTION and self._held:
+            self.caret = self._nearest(event.pos[0])
+            return True
+        if event.type == pygame.MOUSEBUTTONUP and self._held:
+            self._held = False
+            return True
+        return False
+
+    def _nearest(self, x: int) -> int:
+        """Return the caret's place that is nearest to a pixel from the left."""
+        places = range(len(self._starts))
+        nearest = min(places, key=lambda k: abs(self._starts[k] - x))
+        return min(nearest, len(self.text))
+
+    # -- drawing --------------------------------------------------------------------------------
+
+    def draw(
+        self,
+        surface: pygame.Surface,
+        rect: pygame.Rect,
+        painter: Painter,
+        size: float,
+        *,
+        hint: str = "",
+    ) -> None:
+        """Draw the text with its caret within a rectangle; hint: shown while it is empty.
+
+        size: of letters, pixels.
+        """
+        fonts, theme, before = painter.fonts, painter.theme, surface.get_clip()
+        shown = self.text[: self.caret] + self.composed + self.text[self.caret :]
+        caret = self.caret + len(self.composed)
+        widths = [fonts.width(shown[:k], size) for k in range(len(shown) + 1)]
+        scrolled = max(0, widths[caret] - rect.width + 2)
+        left = rect.left - scrolled
+        self._place, self._starts = rect, [left + width for width in widths]
+        surface.set_clip(rect.clip(before))
+        start, end = self.selected
+        band = pygame.Rect(left + widths[start], 0, widths[end] - widths[start], round(1.4 * size))
+        band.centery = rect.centery
+        if start < end:
+            surface.fill(theme.running.pale, band)
+        words = fonts.render(shown or hint, size, theme.ink if shown else theme.muted)
+        surface.blit(words, words.get_rect(midleft=(left, rect.centery)))
+        thick = max(1, round(1.5 * painter.ui))
+        if self.composed:
+            begin, wide = widths[self.caret], widths[caret] - widths[self.caret]
+            surface.fill(theme.ink, (left + begin, band.bottom - thick, wide, thick))
+        surface.fill(theme.ink, (left + widths[caret], band.top, thick, band.height))
+        surface.set_clip(before)
+        if pygame.display.get_init():  # an input method puts its list of words there
+            pygame.key.set_text_input_rect(band.move(widths[caret] - widths[start], 0))

@@ -1,0 +1,90 @@
+"""Contact forces are summed in one place: they change momenta, and stand against other forces."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mars2d
+from mars2d import Robot, Scenario, Unicycle
+from mars2d.bodies.props import Ball, Box, Solid
+from mars2d.core.materials import GRAVITY
+from mars2d.record.contact import CONTACT, mean_forces, net_forces, pair_forces
+from tests.worlds import ELL
+
+SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+
+
+def ahead(world):
+    return [[0.2] * len(world.robots), [0.0] * len(world.robots)]
+
+
+def forces_on(record, *bodies):
+    """The net contact forces, (T, 2, k) newtons."""
+    return net_forces(record.pair_forces, bodies, range(len(record)))
+
+
+def test_the_tangential_part_is_along_the_normal_turned_by_90_degrees():
+    contacts = np.zeros(1, dtype=CONTACT)
+    contacts["normal"], contacts["tangential_impulse"] = (0.0, 1.0), 0.2
+    np.testing.assert_allclose(mean_forces(contacts, 0.5), [(-0.4, 0.0)])
+
+
+def test_a_pair_has_one_force_a_control_step_by_all_its_normals():
+    contacts, rows = np.zeros(4, dtype=CONTACT), np.array([2, 1, 1, 1])
+    contacts["a"], contacts["b"] = 0, [1, -1, -1, 1]
+    contacts["normal"] = [(1, 0), (-1, 0), (0, -1), (1, 0)]
+    contacts["normal_impulse"] = [0.1, 0.3, 0.4, 0.5]
+    contacts["time"], contacts["duration"] = [0.1, 0.02, 0.0, 0.05], [0.1, 0.01, 0.1, 0.0]
+    found = pair_forces(contacts, rows, 0.1)
+    assert found[["row", "a", "b"]].tolist() == [(1, 0, -1), (1, 0, 1), (2, 0, 1)]
+    np.testing.assert_allclose(found["force"], [(-3, -4), (5, 0), (1, 0)])
+    np.testing.assert_allclose(found["normal_force"], [7, 5, 1])
+    assert found["time"].tolist() == [0.0, 0.05, 0.1]
+    assert found["until"].tolist() == [0.1, 0.05, 0.2]
+    net = net_forces(found, [1, 0], range(1, 4))
+    np.testing.assert_allclose(net[..., 0], [(5, 0), (1, 0), (0, 0)])
+    np.testing.assert_allclose(net[..., 1], [(-2, 4), (-1, 0), (0, 0)])
+    assert len(pair_forces(contacts[:0], rows[:0], 0.1)) == 0
+    assert net_forces(found[:0], [], range(2)).shape == (2, 2, 0)
+
+
+def test_what_feels_contacts_alone_changes_its_momentum_by_them_in_each_control_step():
+    """Balls in a box of walls: against walls, corners, each other and an L by two normals."""
+    props = [
+        Ball(pose=(0.1 * k - 0.3, 0.35 * (k % 2) - 0.5, 0), radius=0.08, friction=0.4,
+             velocity=(0.9 - 0.4 * k, 0.5 + 0.3 * k, 1.0), restitution=0.6)
+        for k in range(5)
+    ]  # fmt: skip
+    props.append(Solid(ELL, pose=(0.3, 0.4, 0.5), mass=0.5, ground_friction=0.0))
+    scenario = Scenario(
+        robots=[Robot(pose=(-0.8, -0.8, 0.7))], props=props, workspace=SQUARE, on_exit="wall",
+        sampling_time=0.05, stop_time=6,
+    )  # fmt: skip
+    record = mars2d.run(scenario, control=ahead)
+    bodies = range(1, 1 + len(props))
+    change = np.diff(record.momentum.linear[:, :, 1:], axis=0)
+    felt = forces_on(record, *bodies)[1:] * scenario.sampling_time
+    assert (np.abs(felt).max(axis=(0, 1)) > 1e-3).all(), "each was touched"
+    assert len(record.pair_forces) < len(record.contacts), "pairs touched by several normals"
+    np.testing.assert_allclose(felt, change, atol=1e-12)
+
+
+def test_a_robot_that_stalls_presses_on_both_walls_of_a_corner_with_its_drives_bound():
+    robot = Robot(pose=(0.5, 0.5, np.pi / 4), friction=0.0, drive=Unicycle(max_force=5))
+    scenario = Scenario(robots=[robot], workspace=SQUARE, on_exit="wall", stop_time=5)
+    record = mars2d.run(scenario, control=ahead)
+    np.testing.assert_allclose(forces_on(record, 0)[-10:, :, 0], -5 / np.sqrt(2), rtol=1e-3)
+    (last,) = record.pair_forces[record.pair_forces["row"] == len(record) - 1]
+    assert (last["a"], last["b"]) == (0, -1), "a wall is one thing, with two normals here"
+    assert last["normal_force"] == pytest.approx(2 * 5 / np.sqrt(2), rel=1e-3)
+
+
+def test_a_box_is_pushed_by_its_friction_on_the_floor_and_robots_by_the_box():
+    mass, mu = 0.6, 0.3
+    box = Box(pose=(0.5, 0, 0), length=0.3, width=0.3, ground_friction=mu, mass=mass)
+    scenario = Scenario(robots=[Robot()], props=[box], workspace=None, stop_time=6)
+    on_robot, on_box = forces_on(mars2d.run(scenario, control=ahead), 0, 1)[-10:].transpose(2, 0, 1)
+    np.testing.assert_allclose(on_box[:, 0], mu * mass * GRAVITY, rtol=1e-3)
+    np.testing.assert_allclose(on_box[:, 1], 0.0, atol=1e-6)
+    np.testing.assert_array_equal(on_robot, -on_box)

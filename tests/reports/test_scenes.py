@@ -1,0 +1,167 @@
+"""The scenes of the benchmarks, the gaps between their bodies, and the bare loop beside them."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from gaps import Gaps
+from PIL import Image
+from scenes import FORCE, LEVER, SCENES, TORQUE, Scene
+from worlds import SETTINGS, deepest, world_of
+from yardstick import Bare
+
+from tests.cases import each_case
+
+BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+
+# -- scenes ---------------------------------------------------------------------------------------
+
+
+@each_case("name", SCENES)
+def test_a_scene_is_the_same_each_time_and_nothing_touches_in_it(name):
+    scene, again = SCENES[name](), SCENES[name]()
+    assert scene.name == name
+    assert np.array_equal(scene.poses, again.poses)
+    assert np.array_equal(scene.crates, again.crates)
+    assert (scene.boxes, scene.ropes) == (again.boxes, again.ropes)
+    starts = np.concatenate([scene.poses, scene.crates])
+    assert deepest(scene, starts.T[None]) == 0
+    assert np.abs(starts[:, :2]).max() < scene.side / 2 - scene.radius
+
+
+def test_a_world_of_a_scene_has_its_robots_sensors_obstacles_and_settings():
+    world = world_of(SCENES["S3"](), SETTINGS["loose"])
+    assert world.scenario.max_overlap == 0.02
+    assert world.scenario.sampling_time == 0.1
+    assert len(world.obstacles) == 51  # and the wall
+    world.step()
+    assert world.record.sensors["range_finder"].shape == (1, 20, 180)
+
+
+@each_case("name, robots, crates", [("P1", 20, 30), ("P2", 60, 0), ("P3", 10, 5)])
+def test_a_world_of_contacts_has_its_robots_crates_and_ropes(name, robots, crates):
+    scene = SCENES[name]()
+    world = world_of(scene)
+    assert (len(world.robots), len(world.props)) == (robots, crates)
+    assert set(scene.half_sides[:robots]) == {0.15 if name == "P2" else 0}
+    drives = {(robot.drive.max_force, robot.drive.max_torque) for robot in world.scenario.robots}
+    assert drives == {(FORCE, TORQUE)}
+    for crate in world.scenario.props:
+        assert crate.side_lengths == (0.4, 0.4)
+        assert crate.inertia.mass == 1
+        lever = crate.shape.plate.lever
+        assert lever == pytest.approx(LEVER)  # by which other engines hold it
+    world.step()
+    assert np.abs(world.command[1]).max() > 1.5
+    for i, k, length in scene.ropes:
+        apart = np.hypot(*(scene.poses[i] - scene.crates[k])[:2])
+        assert length == pytest.approx(1.5 * apart)
+        rope = world.scenario.joints[i]
+        assert (rope.a, rope.b, rope.length) == (f"robot{i}", f"box{k}", length)
+    assert len(scene.ropes) == len(world.scenario.joints)
+
+
+# -- the yardstick --------------------------------------------------------------------------------
+
+
+def test_the_bare_loop_moves_free_robots_as_a_world_does():
+    scene = Scene("free", "", 0.05, 50.0, np.array([[-5.0, 0, 1], [5, 3, 2]]), [])
+    world, bare = world_of(scene), Bare(scene, 3)
+    for _ in range(40):
+        world.step()
+        bare()
+    assert np.abs(world.pose - scene.poses.T).max() > 0.3
+    assert bare.pose == pytest.approx(world.pose, abs=1e-9)
+
+
+def test_the_robots_of_the_bare_loop_get_less_deep_into_each_other_with_more_substeps():
+    scene = SCENES["S2"]()
+    overlaps = []
+    for substeps in (1, 15):
+        bare, poses = Bare(scene, substeps), []
+        for _ in range(100):
+            bare()
+            poses.append(bare.pose)
+        overlaps.append(deepest(scene, np.array(poses)))
+    assert 0.005 < overlaps[0] < 0.04
+    assert overlaps[1] < overlaps[0] / 4
+
+
+# -- overlaps -------------------------------------------------------------------------------------
+
+BOX = [(1.0, -0.5), (1.0, 0.5), (2.0, 0.5), (2.0, -0.5)]
+
+
+@each_case(
+    "places, expected",
+    [
+        ([(0, 0), (0, 1)], 0.0),
+        ([(0, 0), (0, 0.28)], 0.02),  # each other
+        ([(0.87, 0), (0, 1)], 0.02),  # the box
+        ([(1.0, 0), (0, 1)], 0.15),
+        ([(0, 0), (-2.9, 2.86)], 0.05),  # a wall, and another
+    ],
+)
+def test_the_deepest_overlap_is_that_which_one_works_out(places, expected):
+    scene = Scene("", "", 0.1, 6.0, np.zeros((2, 3)), [BOX])
+    pose = np.array([(*place, 0.3) for place in places]).T
+    apart = np.array([(-1.0, 0, 0), (-2, 0, 0)]).T
+    assert deepest(scene, np.array([apart, pose, apart])) == pytest.approx(expected, abs=1e-12)
+
+
+SQUARES = Scene("", "", 0.1, 6.0, np.zeros((1, 3)), [BOX], square=True, crates=np.zeros((1, 3)))
+"""A robot of 0.3 m and a crate of 0.4 m, both squares."""
+
+
+@each_case(
+    "robot, crate, expected",
+    [
+        ((0, 0, 0), (0.36, 0, 0), (0.01, 0.85)),  # apart by a face
+        ((0, 0, 0), (0.34, 0.1, np.pi / 2), (-0.01, 0.85)),
+        ((-1, 0, np.pi / 4), (-1, 0.45, np.pi / 4), (0.45 * 0.5**0.5 - 0.35, 1)),
+        ((-1, 0, 0), (-1, 0.42, np.pi / 4), (0.42 - 0.15 - 0.08**0.5, 1)),  # by a corner
+        ((-2.9, 0, 0), (0, 0, 0), (1, -0.05)),  # in a wall
+        ((-2.8, 0, np.pi / 4), (0, 0, 0), (1, 0.2 - 0.15 * 2**0.5)),
+        ((0.9, 0.2, 0), (-1, 0, 0), (1, -0.05)),  # in the box
+    ],
+)
+def test_gaps_of_squares_are_those_which_one_works_out(robot, crate, expected):
+    among, fixed = Gaps(SQUARES)(np.array([robot, crate], float), within=1.0)
+    assert among == pytest.approx([expected[0]] * 2)
+    assert fixed[0] == pytest.approx(expected[1])
+
+
+# -- the scripts in benchmarks/ -------------------------------------------------------------------
+
+
+def script(name, *arguments, cwd):
+    """Run a script of the benchmarks, and return what it prints."""
+    command = [sys.executable, BENCHMARKS / name, *map(str, arguments)]
+    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@pytest.mark.nightly
+def test_the_growth_is_measured_fitted_and_drawn(tmp_path):
+    arguments = ("--sizes", 4, 16, "--time", 0, "--json", "a.json", "--figure", "a.png")
+    printed = script("growth.py", *arguments, cwd=tmp_path)
+    assert "default: time grows with n to the power " in printed
+    result = json.loads((tmp_path / "a.json").read_text())
+    rows = result["rows"]
+    assert [(row["n"], row["setting"]) for row in rows] == [
+        (4, "default"), (16, "default"), (4, "loose"), (16, "loose"), (4, "crates"), (16, "crates"),
+    ]  # fmt: skip
+    slope = np.log(rows[1]["tick_s"] / rows[0]["tick_s"]) / np.log(4)
+    assert result["exponents"]["default"] == pytest.approx(slope)
+    for row in rows:
+        assert row["real_time"] == pytest.approx(0.1 / row["tick_s"])
+        crates = 24 * 1.5 if row["setting"] == "crates" else 0
+        needed = 48 + 16 / row["n"] + crates + row["bytes_of_contacts"]
+        assert row["bytes_needed"] == pytest.approx(needed)
+    with Image.open(tmp_path / "a.png") as picture:
+        assert picture.size == (1210, 462)
+        assert len(picture.getcolors()) <= 128
