@@ -58,15 +58,6 @@ class Standing:
     place: int = 0
 
 
-def one_table(played: Iterable[Played], roles: Sequence[str]) -> bool:
-    """Return whether a law plays more than one role, so that one table compares all laws."""
-    taken: dict[str, set[str]] = {role: set() for role in roles}
-    for each in played:
-        for role, law in each.match.laws.items():
-            taken[role].add(law)
-    return len(set.union(*taken.values())) < sum(map(len, taken.values()))
-
-
 def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     """Return the standings, best first: the laws of the first role, then those of the second.
 
@@ -74,25 +65,18 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     per match, then by mean capture time (short for hunters, long for evaders), then by name; their
     place is that of their points.
     """
-    if one_table(played, roles):
-        tables = [("", tuple(roles))]
-    else:
-        tables = [(role, (role,)) for role in roles]
+    laws = {role: {each.match.laws[role] for each in played} for role in roles}
+    tables: list[tuple[str, Sequence[str]]] = [(role, (role,)) for role in roles]
+    if not set.isdisjoint(*laws.values()):
+        tables = [("", roles)]
     standings = []
     for title, within in tables:
-        laws = dict.fromkeys(each.match.laws[role] for each in played for role in within)
-        table = [_standing(law, title, within, roles, played) for law in laws]
-        standings += _placed(sorted(table, key=lambda standing: _order(standing, roles)))
+        every = {law for role in within for law in laws[role]}
+        table = [_standing(law, title, within, roles, played) for law in every]
+        table.sort(key=lambda standing: _order(standing, roles))
+        rates = [_rate(standing) for standing in table]
+        standings += [replace(each, place=rates.index(_rate(each)) + 1) for each in table]
     return standings
-
-
-def _placed(table: Sequence[Standing]) -> list[Standing]:
-    """Return sorted standings with their places; equal points per match give equal places."""
-    rates = [_rate(standing) for standing in table]
-    return [
-        replace(standing, place=rates.index(rate) + 1)
-        for standing, rate in zip(table, rates, strict=True)
-    ]
 
 
 def _rate(standing: Standing) -> float:
@@ -252,17 +236,13 @@ class Tournament:
 
     def standing_rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each law: its place in its table, and its results."""
+        counts = ("played", "won", "drawn", "lost", "forfeits", "points")
         return tuple(
             {
                 "role": standing.role,
                 "place": standing.place,
                 "law": standing.law,
-                "played": standing.played,
-                "won": standing.won,
-                "drawn": standing.drawn,
-                "lost": standing.lost,
-                "forfeits": standing.forfeits,
-                "points": standing.points,
+                **{name: getattr(standing, name) for name in counts},
                 "share": standing.share.mean,
                 "share_low": standing.share.low,
                 "share_high": standing.share.high,
@@ -311,12 +291,9 @@ class Tournament:
         return target
 
     def _repr_html_(self) -> str:
-        """Return the league as tables, for a notebook."""
+        """Return the league as a table, for a notebook."""
         rows = self.standing_rows()
-        lines = [
-            list(rows[0]) if rows else [],
-            *([_shown(v) for v in row.values()] for row in rows),
-        ]
+        lines = [[*rows[0]] if rows else [], *([_shown(v) for v in row.values()] for row in rows)]
         cells = ("".join(f"<td>{html.escape(cell)}</td>" for cell in line) for line in lines)
         body = "".join(f"<tr>{row}</tr>" for row in cells)
         return f"<table><caption>{html.escape(self.title)}</caption>{body}</table>"

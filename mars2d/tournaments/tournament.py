@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from functools import partial
@@ -16,7 +15,7 @@ from mars2d.study.work import Failure, each_done, leave_if_imported_again, worke
 from mars2d.tournaments.folder import Folder
 from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits
 from mars2d.tournaments.league import Tournament
-from mars2d.tournaments.match import TIME_OUTS, Match, Played, play, settled
+from mars2d.tournaments.match import Match, Played, play, settled
 from mars2d.tournaments.page import save_html
 from mars2d.tournaments.schedule import Files, Schedule, schedule
 
@@ -112,16 +111,12 @@ def play_schedule(
         interrupted = False
         try:
             with interrupts() as check:
-                while left := missing(planned, done):
-                    for index, outcome in each_done(function, left, executor, workers):
-                        played = _result(left[index], outcome)
-                        done.append(played)
-                        if folder is not None:
-                            folder.keep(played)
-                        bar.update()
-                        check()
-                        if _stops(played, done):
-                            break  # its matches that are left are not to be played
+                for played in _each_played(planned, done, function, executor, workers):
+                    done.append(played)
+                    if folder is not None:
+                        folder.keep(played)
+                    bar.update()
+                    check()
         except KeyboardInterrupt:
             interrupted = True
         finally:
@@ -136,26 +131,32 @@ def play_schedule(
     return result
 
 
+def _each_played(
+    planned: Schedule,
+    done: Sequence[Played],
+    function: Callable[[Match], Played],
+    executor: Executor | None,
+    workers: int | None,
+) -> Iterator[Played]:
+    """Yield matches as they are played, until none is missing; the caller adds them to `done`.
+
+    When a law is out of time for good, the matches that are left to it are not begun.
+    """
+    while left := missing(planned, done):
+        for count, (index, played) in enumerate(each_done(function, left, executor, workers), 1):
+            if isinstance(played, Failure):
+                yield Played.without_result(left[index], played.error)
+                continue
+            yield played
+            late = any(verdict.kind in OUT_OF_TIME for verdict in played.verdicts.values())
+            if late and len(missing(planned, done)) < len(left) - count:
+                break
+
+
 def missing(planned: Schedule, played: Sequence[Played]) -> list[Match]:
     """Return the matches that are still to be played."""
     known = {each.match.number for each in settled(planned.matches, played)}
     return [match for match in planned.matches if match.number not in known]
-
-
-def _result(match: Match, done: Played | Failure) -> Played:
-    return Played.without_result(match, done.error) if isinstance(done, Failure) else done
-
-
-def _stops(played: Played, done: Sequence[Played]) -> bool:
-    """Return whether a match has shown that one of its laws is out of time for good."""
-    late = {played.match.laws[r] for r, v in played.verdicts.items() if v.kind in OUT_OF_TIME}
-    times = Counter(
-        each.match.laws[role]
-        for each in done
-        for role, verdict in each.verdicts.items()
-        if verdict.kind in OUT_OF_TIME
-    )
-    return any(times[law] == TIME_OUTS for law in late)
 
 
 def save_all(result: Tournament, folder: Path) -> None:

@@ -124,7 +124,8 @@ CHEATS = {
     "bad pickles": ("exit", "no answer", """
         json.dumps = lambda told: "cos" + chr(10) + "system" + chr(10)"""),
     "threads that go on": (None, "", """
-        threading.Thread(target=lambda: [0 for _ in iter(int, 1)], daemon=True).start()"""),
+        if threading.active_count() < 3:
+            threading.Thread(target=lambda: sum(0 for _ in iter(int, 1)), daemon=True).start()"""),
     "doctors what it sees": (None, "", """
         for each in gc.get_objects():
             if type(each).__name__ == "MirrorWorld": each._seen = each._seen._replace(iteration=99)

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from mars2d.core.errors import InputError
-from mars2d.tournaments.schedule import entrants, law_code, law_files
+from mars2d.tournaments.isolation.source import law_code
+from mars2d.tournaments.schedule import entrants, law_files, names_of
 from tests.cases import each_case
 
 ROLES = ("pursuer", "evader")
@@ -26,6 +27,11 @@ def laws(tmp_path, monkeypatch) -> Path:
 @each_case("named", ["hunters", "hunters/", "hunters/*.py", "hunters/[ab].py"])
 def test_a_folder_and_a_pattern_stand_for_their_laws_in_order(laws, named):
     assert law_files(named) == (laws / "hunters/a.py", laws / "hunters/b.py")
+
+
+def test_names_show_what_nobody_sees():
+    files = ["a\nb.py", "a\\nb.py", "c\u202e\u200b.py"]
+    assert [*names_of(files).values()] == ["a\\nb", "a\\\\nb", "c\\u202e\\u200b"]
 
 
 def test_files_between_commas_are_taken_once_each(laws):

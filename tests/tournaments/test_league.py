@@ -7,7 +7,7 @@ from types import MappingProxyType
 from mars2d.tournaments.isolation import Verdict
 from mars2d.tournaments.league import Tournament, head_to_head, league
 from mars2d.tournaments.league_text import league_text
-from mars2d.tournaments.match import Match, Played
+from mars2d.tournaments.match import Match, Played, settled
 from mars2d.tournaments.page import save_html
 
 ROLES = ("pursuer", "evader")
@@ -50,6 +50,30 @@ def test_each_role_has_its_own_table_and_points_are_1_for_a_match_won_and_a_half
     share = standings[0].share
     assert share.mean == 0.75
     assert 0 < share.low < 0.75 < share.high < 1
+
+
+def test_a_law_that_ran_out_of_time_twice_forfeits_the_rest_in_whatever_order_they_are_done():
+    slow = [played(k, "c", "y", "evader", verdicts=SLOW) for k in (1, 2)]
+    others = [played(k, law, "y", "pursuer") for k, law in ((3, "c"), (4, "c"), (5, "a"))]
+    planned = [each.match for each in (*slow, *others)]
+    for done in ([*slow, others[0], others[2]], [others[2], *slow[::-1]]):
+        result = settled(planned, done)
+        assert [each.winner for each in result] == [*4 * ["evader"], "pursuer"]
+        kinds = [verdict.kind for each in result for verdict in each.verdicts.values()]
+        assert kinds == ["slow", "slow", "late", "late"]
+    assert result[3].message == (
+        "c forfeits as pursuer: late: ran out of time in 2 matches before, and forfeits the rest; "
+        "evader wins"
+    )
+    assert [each.match.number for each in settled(planned, [slow[1], others[0]])] == [2, 3]
+
+
+def test_the_league_says_where_it_was_not_protected(tmp_path):
+    for protected in (True, False):
+        found = tournament(played(1, "a", "x", "pursuer", protected=protected))
+        page = save_html(found, tmp_path / "league.html").read_text()
+        for text in (league_text(found), page):
+            assert ("not protected on this system" in text) is not protected
 
 
 def test_a_forfeit_is_lost_and_where_both_fail_both_lose():

@@ -200,6 +200,16 @@ def test_the_league_tables_have_the_numbers_of_the_standings(tab, tournament):
 
 
 @pytest.mark.nightly
+def test_the_grading_sheet_fits_also_a_telephone(open_tab, path, tournament):
+    for width in (1280, 390):
+        tab = open_tab(path, (width, 800))
+        rows = [[*row.values()] for row in tournament.grade_rows()]
+        points = [f"{row[2]:g}" for row in rows]
+        assert column(tab, "table.grades", 3) == points
+        wide = tab.page.locator(".wide:has(.grades)")
+        assert wide.evaluate("wide => wide.scrollWidth <= wide.clientWidth")
+
+
 def test_matches_are_chosen_by_law_rival_round_and_forfeit(tab, tournament):
     def fitting(fits):
         return [each.match.number for each in tournament.matches if fits(each)]

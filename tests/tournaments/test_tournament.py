@@ -264,29 +264,69 @@ def test_replays_that_are_missing_are_made(evening, tmp_path):
             assert len(folder.before) == there
 
 
-@pytest.mark.slow
-def test_after_ctrl_c_what_was_played_is_there_and_the_same_command_goes_on(evening, tmp_path):
+def started(evening, out, seeds, **options):
     words = ["tournament", str(evening.folder / "chase.py"), "--role", "pursuer=pursuers/quick.py"]
-    words += ["--role", "evader=evaders/still.py", "--seeds", "200", "--out", str(tmp_path / "out")]
-    process = subprocess.Popen(
+    words += ["--role", "evader=evaders", "--seeds", str(seeds), "--out", str(out)]
+    return subprocess.Popen(
         [sys.executable, "-P", "-m", "mars2d", *words],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
-        cwd=evening.folder,
+        cwd=evening.folder, **options,
     )  # fmt: skip
-    kept = tmp_path / "out" / PLAYED
-    wait_until(lambda: kept.exists() and kept.read_bytes().count(b"\n") > 2, process)
+
+
+def lines_in(out):
+    kept = out / PLAYED
+    return kept.read_bytes().count(b"\n") if kept.exists() else 0
+
+
+@pytest.mark.slow
+def test_after_ctrl_c_what_was_played_is_there_and_the_same_command_goes_on(evening, tmp_path):
+    out = tmp_path / "out"
+    process = started(evening, out, 200)
+    wait_until(lambda: lines_in(out) > 2, process)
     os.killpg(process.pid, signal.SIGINT)
     printed, said = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130, said
-    rows = (tmp_path / "out" / "matches.csv").read_text().splitlines()
-    assert said.endswith(f"mars2d: {len(rows) - 1} of 200 matches are in {tmp_path / 'out'}; the same command goes on\n")  # fmt: skip  # noqa: E501
+    rows = (out / "matches.csv").read_text().splitlines()
+    assert said.endswith(f"mars2d: {len(rows) - 1} of 600 matches are in {out}; the same command goes on\n")  # fmt: skip  # noqa: E501
     assert "1  quick" in printed
-    planned = schedule(
-        evening.folder / "chase.py",
-        {"pursuer": "pursuers/quick.py", "evader": "evaders/still.py"},
-        seeds=200,
+    laws = {"pursuer": "pursuers/quick.py", "evader": "evaders"}
+    planned = schedule(evening.folder / "chase.py", laws, seeds=200)
+    assert len(played_before(out, planned, LIMITS)) == len(rows) - 1 > 1
+
+
+@pytest.mark.nightly
+@pytest.mark.slow
+def test_killed_at_any_moment_it_goes_on_to_the_same_bytes(evening, tmp_path):
+    killed, whole = tmp_path / "killed", tmp_path / "whole"
+    for lines in (1, 2, 4, 8):
+        with started(evening, killed, 4) as process:
+            wait_until(lambda lines=lines: lines_in(killed) >= lines, process)
+            process.kill()
+    for out in (killed, whole):
+        with started(evening, out, 4) as process:
+            process.communicate(timeout=PATIENCE)
+    assert process.returncode == 0
+    for name in ("matches.csv", "league.csv", "grades.csv", "league.html"):
+        assert (killed / name).read_bytes() == (whole / name).read_bytes()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="closes a descriptor in a shell")
+def test_without_a_result_the_exit_code_is_1_and_nobody_need_read_what_is_printed(
+    evening, tmp_path
+):
+    words = (
+        "--role pursuer=pursuers/quick.py --role evader=evaders/still.py --set broken=1 --seeds 2"
     )
-    assert len(played_before(tmp_path / "out", planned, LIMITS)) == len(rows) - 1 > 1
+    line = f"exec {sys.executable} -P -m mars2d tournament chase.py {words} --out {tmp_path} >&-"
+    done = subprocess.run(
+        line, shell=True, check=False, cwd=evening.folder, capture_output=True, text=True
+    )
+    assert done.returncode == 1
+    assert done.stderr == "mars2d: 1 match without a result: play again by the same command\n"
+    with (tmp_path / "matches.csv").open(newline="") as file:
+        assert [row["winner"] for row in csv.DictReader(file)] == ["pursuer", ""]
 
 
 def _with_line(lines, k, line):

