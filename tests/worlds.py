@@ -69,6 +69,14 @@ def predicted(name: str | Path, seed: int = 0, **options: Any) -> tuple[Record, 
     return record, {each.name: each for each in experiment.predictions(record)}
 
 
+def played(name: str | Path, seed: int = 0, **options: Any) -> tuple[Record, Any, Sequence[Any]]:
+    """Run a game; return its record, its outcome or None, and its predictions."""
+    experiment = open_experiment(name, options, seed=seed)
+    record = mars2d.run(experiment.scenario, control=experiment.control, seed=seed)
+    game = next((addon for addon in record.scenario.addons if addon.key == "game"), None)
+    return record, game and game.outcome(record), experiment.predictions(record)
+
+
 def untimed(error: BaseException) -> str:
     """Return the message of an error without the robot and the time at its end."""
     return re.sub(r" \(([^()]*, )?at [-+.e\d]+ s\)$", "", str(error))

@@ -108,50 +108,46 @@ def _flags_compared(law: Callable[..., Any], robots: Sequence[Robot]) -> Iterato
         for sensor in robot.sensors
         if all(quantity.kind == "flag" for quantity in sensor.quantities)
     }
-    if not flags or (parsed := _parsed(law)) is None:
-        return
-    (tree, line_of), meant = parsed, dict[str, str]()
-    for node in ast.walk(tree):
+    meant: dict[str, str] = {}
+    nodes = [*_nodes(law)] if flags else []
+    for _, node in nodes:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
             meant[node.targets[0].id] = _read(node.value, flags)
-    for node in ast.walk(tree):
+    for place, node in nodes:
         if not (isinstance(node, ast.Compare) and isinstance(node.ops[0], ORDERED)):
             continue
         for side in (node.left, *node.comparators):
             name = meant.get(side.id, "") if isinstance(side, ast.Name) else _read(side, flags)
             if name:
                 yield (
-                    f"{line_of(node)}: robot.sense.{name} is True or False, "
+                    f"{place}: robot.sense.{name} is True or False, "
                     "and is compared with a number; RangeFinder measures distances"
                 )
-
-
-def _parsed(law: Callable[..., Any]) -> tuple[ast.AST, Callable[[Any], str]] | None:
-    """Return the syntax tree of a function, and what tells a node's file and line, if known."""
-    place = definition(law)
-    try:
-        lines, first = inspect.getsourcelines(inspect.unwrap(law))
-        tree = ast.parse(textwrap.dedent("".join(lines)))
-    except (OSError, TypeError, SyntaxError):
-        return None
-    file = (place or "").partition(",")[0]
-    return (tree, lambda node: f"{file}, line {first + node.lineno - 1}") if place else None
 
 
 def _waits(law: Callable[..., Any]) -> Iterator[str]:
     """Yield a remark on each call, in a law or a function that it names, that would wait."""
     code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
     named: list[Any] = [names.get(name) for name in code.co_names] if code else []
-    helpers: list[Callable[..., Any]] = [law]
-    helpers += [each for each in named if isinstance(each, FunctionType)]
-    for function in helpers:
-        if (parsed := _parsed(function)) is None:
-            continue
-        tree, line_of = parsed
-        for node in ast.walk(tree):
+    functions: list[Any] = [law, *(each for each in named if isinstance(each, FunctionType))]
+    for function in functions:
+        for place, node in _nodes(function):
             called = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
             if called in WAITING:
-                yield f"{line_of(node)}: {called}(): {WAITING[called]}"
+                yield f"{place}: {called}(): {WAITING[called]}"
+
+
+def _nodes(law: Callable[..., Any]) -> Iterator[tuple[str, ast.AST]]:
+    """Yield the file and line, and the node, of all in a function whose source is known."""
+    place = definition(law)
+    try:
+        lines, first = inspect.getsourcelines(inspect.unwrap(law))
+        tree = ast.parse(textwrap.dedent("".join(lines)))
+    except (OSError, TypeError, SyntaxError):
+        return
+    file = (place or "").partition(",")[0]
+    for node in ast.walk(tree) if file else ():
+        yield f"{file}, line {first + getattr(node, 'lineno', 1) - 1}", node
 
 
 def _read(node: ast.expr, flags: set[str]) -> str:

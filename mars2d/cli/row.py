@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
 
 from mars2d.cli.arguments import preferences_of
 from mars2d.cli.outputs import run_and_save, say, tell_files
@@ -13,10 +12,10 @@ from mars2d.core.errors import InputError, shown
 from mars2d.core.terminal import tell, warn
 from mars2d.output.formats import log_to
 from mars2d.scenario.examples import examples
-from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.scenario.experiment import open_experiment
 from mars2d.study.job import code_of
 from mars2d.study.measures import measure_named, measured
-from mars2d.study.table import Result, Table, load_table
+from mars2d.study.table import Result, Table
 from mars2d.world.record import Record
 
 
@@ -25,38 +24,39 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
 
     An error of a law is raised, as by ``mars2d run``.
     """
-    table = load_table(path)
+    table = Table.load(path)
     then = _row(table, arguments.row, path)
     experiment = open_experiment(_source(table, path), dict(then.options), seed=then.seed)
-    tell(f"row {then.row} of {path}: {table.experiment}, {_said(then)}")
+    options = "".join(f"{name} = {shown(value)}, " for name, value in then.options.items())
+    tell(f"row {then.row} of {path}: {table.experiment}, {options}seed {then.seed}")
     if then.error:
         tell(f"then: {then.error}")
     if then.code and code_of(experiment, then.code) != then.code:
         warn(f"{table.experiment}, what it reads, or MARS2D has changed")
+    view = arguments.view and has_display()
+    if arguments.view and not view:
+        warn("there is no display, so this runs without a window")
     arguments.video = arguments.at = None
 
     def run() -> tuple[Record, None]:
-        if arguments.view and _has_window():
+        if view:
             return show(experiment, None, preferences_of(arguments), log=log), None
         return run_headless(experiment, log=log).record, None
 
     log = log_to(arguments.record)
     record, made, troubles = run_and_save(arguments, run)
-    _report(record, table, then, experiment)
+    if not record.finished or record.interventions:
+        what = "changed by hand" if record.interventions else "cut short"
+        tell(f"the run was {what}, so there is nothing to compare")
+    else:
+        functions = experiment.source.functions
+        measures = {name: measure_named(name, functions) for name in table.measures}
+        now = {name: measured(name, measure, record) for name, measure in measures.items()}
+        tell(_compared(then, now, record.digest))
     tell_files(made)
     if troubles:
         say(troubles[:-1])
         raise troubles[-1]
-
-
-def _report(record: Record, table: Table, then: Result, experiment: Experiment) -> None:
-    """Print a comparison of the run with the row."""
-    if not record.finished or record.interventions:
-        what = "changed by hand" if record.interventions else "cut short"
-        tell(f"the run was {what}, so there is nothing to compare")
-        return
-    now = {name: _measure(name, experiment.source.functions, record) for name in table.measures}
-    tell(_compared(then, now, record))
 
 
 def _row(table: Table, number: int, path: Path) -> Result:
@@ -81,39 +81,16 @@ def _source(table: Table, path: Path) -> str:
     )
 
 
-def _said(result: Result) -> str:
-    options = [f"{name} = {shown(value)}" for name, value in result.options.items()]
-    return ", ".join([*options, f"seed {result.seed}"])
-
-
-def _has_window() -> bool:
-    if has_display():
-        return True
-    warn("there is no display, so this runs without a window")
-    return False
-
-
-def _measure(name: str, functions: Any, record: Record) -> float | str | None:
-    return measured(name, measure_named(name, functions), record)
-
-
-def _compared(then: Result, now: dict[str, float | str | None], record: Record) -> str:
+def _compared(then: Result, now: dict[str, float | str | None], digest: str) -> str:
     """Return a table of the measures then and now, and a line that compares the digests."""
     rows = [("", "then", "now")]
-    rows += [(name, _text(then.measures.get(name)), _text(value)) for name, value in now.items()]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = [
-        f"{name:<{widths[0]}}  {old:>{widths[1]}}  {new:>{widths[2]}}" for name, old, new in rows
-    ]
-    digest = record.digest
-    if not then.digest:
-        verdict = f"digest {digest[:16]}; then there was none"
-    elif digest == then.digest:
-        verdict = f"digest {digest[:16]}, the same"
-    else:
-        verdict = f"digest {digest[:16]}, then {then.digest[:16]}: this is another run"
-    return "\n".join([*lines, verdict])
-
-
-def _text(value: float | str | None) -> str:
-    return "-" if value is None else str(value)
+    for name, value in now.items():
+        before = then.measures.get(name)
+        rows.append(
+            (name, "-" if before is None else str(before), "-" if value is None else str(value))
+        )
+    names, olds, news = (max(map(len, column)) for column in zip(*rows, strict=True))
+    lines = [f"{name:<{names}}  {old:>{olds}}  {new:>{news}}" for name, old, new in rows]
+    verdict = f"then {then.digest[:16]}: this is another run" if then.digest else "then none"
+    same = "the same" if digest == then.digest else verdict
+    return "\n".join([*lines, f"digest {digest[:16]}, {same}"])

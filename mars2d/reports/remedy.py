@@ -47,18 +47,12 @@ def _again() -> str:
     if (package.parent / "pyproject.toml").exists():
         return f"pip install --no-deps -e {shlex.quote(str(package.parent))}"
     try:
-        installed = distribution("mars2d")
+        told = json.loads(distribution("mars2d").read_text("direct_url.json") or "{}")
     except PackageNotFoundError:
         return NOWHERE
-    if Path(str(installed.locate_file("mars2d"))) != package:  # it is another one
-        return NOWHERE
-    told = json.loads(installed.read_text("direct_url.json") or "{}")
     url = told.get("url", "")
-    if "dir_info" in told:
-        return f"{AGAIN} {shlex.quote(url)}"
     if "vcs_info" in told:
-        of = f"{told['vcs_info']['vcs']}+{url}@{told['vcs_info']['commit_id']}"
-        return f"{AGAIN} --no-cache-dir {shlex.quote(of)}"
+        url = f"{told['vcs_info']['vcs']}+{url}@{told['vcs_info']['commit_id']}"
     if url.endswith(".whl"):
         return NOWHERE
     # A wheel that was built without a compiler may be kept by pip.

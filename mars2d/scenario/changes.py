@@ -36,9 +36,6 @@ PARTS = {
 }
 """The lists of parts, and the fields of each part that may change, as a robot's law may."""
 
-FIXED_OF_DRIVES = ("noise", "dead_time")
-"""Fields of drives that may not change; of a drive with noise, none may."""
-
 
 def check_same(before: Scenario, after: Scenario, same: Same = operator.eq) -> None:
     """Refuse a scenario that a running world can't go on with; the InputError says why not.
@@ -68,7 +65,7 @@ def _obstacles(before: Scenario, after: Scenario, same: Same) -> Iterator[str]:
         drives, what = (one.drive, other.drive), f"drive of {one.name}"
         if not same(*drives) and (one.drive.noise or not _same_kind(*drives)):
             yield f"{what} is another one{', and has noise' * bool(one.drive.noise)}"
-        for name in FIXED_OF_DRIVES:
+        for name in ("noise", "dead_time"):  # the others may change, but not beside noise
             if getattr(one.drive, name) != getattr(other.drive, name):
                 yield f"{what} has another {name}"
     busy = [{a.key: a for a in scenario.addons if a.acts} for scenario in (before, after)]

@@ -1,8 +1,4 @@
-"""The shipped examples: each course is a folder of `examples/`.
-
-An example is a file of its course's folder. A game is a folder there: the file ``game.py`` with its
-laws, its solution and its pictures.
-"""
+"""The shipped examples, by course: files, and games, which are folders with a ``game.py``."""
 
 from __future__ import annotations
 
@@ -22,9 +18,8 @@ def experiment_name(file: Path) -> str:
 
 def examples_folder() -> Path:
     """Return the folder of the examples, a wheel's or a checkout's."""
-    package = Path(__file__).parents[1]
-    inside = package / "examples"
-    return inside if inside.is_dir() else package.parent / "examples"
+    inside = Path(__file__).parents[1] / "examples"
+    return inside if inside.is_dir() else inside.parents[1] / "examples"
 
 
 def courses() -> dict[str, dict[str, Path]]:

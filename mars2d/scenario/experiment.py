@@ -338,7 +338,8 @@ def _find(source: str | Path) -> Path:
     if path.exists():
         kind = "a folder" if path.is_dir() else "not a file"  # a pipe, which may never end
         expected = "an experiment, a file that ends in .py or .toml"
-        raise InputError(f"{path}: {kind}; expected {expected}")
+        meant = f"; did you mean {path / GAME}?" if (path / GAME).is_file() else ""
+        raise InputError(f"{path}: {kind}; expected {expected}{meant}")
     files = path.parent.iterdir() if path.parent.is_dir() else ()
     beside = [str(file) for file in files if file.suffix in (".py", ".toml")]
     kind = "file" if path.suffix or len(path.parts) > 1 else "file or example"

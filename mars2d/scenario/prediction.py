@@ -22,12 +22,6 @@ MAX_ZEROS = 6
 """The most decimals of an exact 0."""
 
 
-def _named(name: str, value: object) -> str:
-    if not isinstance(value, str) or len(value.splitlines()) != 1:
-        raise wrong(name, value, "what is predicted, in one line of text")
-    return value.strip()
-
-
 def _measured(name: str, value: object) -> float:
     """Check a number that may be NaN or infinite: a measurement can fail."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -46,7 +40,7 @@ class Prediction(Description):
     True
     """
 
-    name: str = entry(check=_named, kw_only=False, doc="the predicted quantity, in a few words")
+    name: str = text(kw_only=False, doc="the predicted quantity, in a few words")
     predicted: float = entry(check=real, kw_only=False, doc="the predicted number")
     measured: float = entry(check=_measured, kw_only=False, doc="the number found in the record")
     tolerance: float = checked_number(

@@ -11,8 +11,6 @@ from mars2d.core.materials import Coefficient
 WIDTH = 100
 """Columns of a line."""
 
-INDENT = 4
-
 
 class Brackets(NamedTuple):
     """A bracketed list: ``[1, 2]``, ``{a = 1}``, ``Robot(pose=(0.0, 0.0, 0.0))``.
@@ -45,7 +43,7 @@ def laid_out(node: Node, indent: int = 0, width: int = WIDTH) -> str:
     if isinstance(node, str) or indent + len(flat) < width:  # a comma may follow
         return flat
     lines: list[str] = []
-    inside = indent + INDENT
+    inside = indent + 4
     room = 0  # in the last line
     for item in node.items:
         text = laid_out(item, inside, width) + ","

@@ -8,9 +8,6 @@ from mars2d.addons.contest import Contest
 from mars2d.core.errors import InputError, likely, nearest
 from mars2d.scenario.scenario import Scenario
 
-REFEREE = "Game({'pursuer': ['red'], 'evader': ['blue']})"
-"""An add-on that makes a game, as messages show it."""
-
 MOST_PEOPLE = 2
 """How many people one keyboard has keys for."""
 
@@ -29,8 +26,8 @@ def contest_of(scenario: Scenario, name: str) -> Contest:
     if len(contests) != 1:
         found = f"{len(contests)}" if contests else "none"
         raise InputError(
-            f"{name}: a game needs one add-on that says who has won, such as {REFEREE}; "
-            f"this experiment has {found}"
+            f"{name}: a game needs one add-on that says who has won, such as "
+            f"Game({{'pursuer': ['red'], 'evader': ['blue']}}); this experiment has {found}"
         )
     kind = type(contests[0])
     if kind.outcome is Contest.outcome:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -41,7 +42,7 @@ def cluster(address: str) -> Iterator[Executor]:
         ) from error
     if kind != "Scheduler":
         raise InputError(f"{address}: a Dask {kind.lower()}; expected the address of its scheduler")
-    with Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False) as client:
+    with _without_log(), Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False) as client:
         versions = client.get_versions(packages=SAME_VERSION)
         here = _compared(versions["client"])
         for worker, found in versions["workers"].items():
@@ -54,6 +55,20 @@ def cluster(address: str) -> Iterator[Executor]:
         if not versions["workers"]:
             warn(f"{address}: no worker yet: runs wait until there is one")
         yield client.get_executor(pure=False)
+
+
+@contextmanager
+def _without_log() -> Iterator[None]:
+    """Keep Dask's log off the terminal: errors that matter are raised."""
+    names = "distributed", "distributed.client", "tornado.application"
+    before = {logger: logger.level for logger in map(logging.getLogger, names)}
+    for logger in before:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in before.items():
+            logger.setLevel(level)
 
 
 async def _kind(address: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,11 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, counted
-from mars2d.output.figures.figure import (
-    check_axes,
-    new_figure,
-    save_drawing,
-)
+from mars2d.output.figures.figure import check_axes, new_figure, save_drawing
 from mars2d.output.figures.labels import shortened
 from mars2d.output.figures.legend import Entry
 from mars2d.output.figures.panels import (
@@ -73,15 +70,15 @@ def plot_study(
     if not table.results or not shown:
         what = "measures" if table.results else "runs"
         raise InputError(f"figure: the study of {table.experiment} has no {what}")
-    layout = layout_of(
-        table.settings, table.points(), x, {n: table.unit(n) for n in table.settings}
-    )
+    units = {name: table.unit(name) for name in table.settings}
+    layout = layout_of(table.settings, table.points(), x, units)
+    drawing = _Drawing(table, layout, look, confidence)
     with look.fonts():
         grid = _grid(axes, shown, len(layout.columns), look)
         for ax in grid.ravel():
             dress(ax, layout, look)
         for row, estimate in zip(grid, shown, strict=True):
-            _draw(row, table, estimate, layout, look, confidence)
+            drawing.panels(row, estimate)
             caption(row[0], estimate.label, "%" if estimate.share else estimate.unit, look)
         for k, ax in enumerate(grid.ravel()):
             if axes is not None or k >= grid.size - len(layout.columns):
@@ -89,12 +86,12 @@ def plot_study(
             else:
                 ax.tick_params(labelbottom=False)
             ax.tick_params(labelleft=axes is not None or not k % len(layout.columns))
-        title = f"{table.experiment}: {_kinds(shown)} with {100 * confidence:.4g} % intervals"
+        kinds = " and ".join(sorted({"shares" if each.share else "means" for each in shown}))
+        title = f"{table.experiment}: {kinds} with {100 * confidence:.4g} % intervals"
         if table.failed:
             title += f", {counted(len(table.failed), 'run')} failed"
         above = _above(grid, own=axes is None)
-        letters = letters_in(LEGEND * above.figure.bbox.width * 72 / above.figure.dpi, look.small)
-        name_curves(above, title, _entries(table, shown, layout, look, letters), look)
+        name_curves(above, title, drawing.entries(above, shown), look)
     return finish(list(grid.ravel()), own=axes is None)
 
 
@@ -158,122 +155,95 @@ def _above(grid: NDArray[Any], *, own: bool) -> Axes:
     return wide
 
 
-def _draw(
-    row: Sequence[Axes],
-    table: Table,
-    estimate: Estimate,
-    layout: Layout,
-    look: Style,
-    confidence: float,
-) -> None:
-    """Draw an estimate into its panels, which share their vertical limits."""
-    points, spans = table.points(), [np.empty(0)]
-    for ax, (_, lines) in zip(row, layout.columns, strict=True):
-        for name, line in lines.items():
-            entry = _entry(layout, name, look)
-            places = np.array([layout.place(point, name) for point in line])
-            runs = [estimate.values(points[point]) for point in line]
-            if not estimate.share:
-                spans += [_dots(ax, places, runs, entry, look)]
-            spans += [_means(ax, places, runs, entry, estimate, layout, look, confidence)]
-    seen = np.concatenate(spans)
-    seen = seen[np.isfinite(seen)]
-    for ax in row:
-        if estimate.share:
-            scale_to_100(ax, look)
-        else:
-            set_span(ax, *((seen.min(), seen.max()) if len(seen) else (0.0, 1.0)))
-        if not len(seen):
-            ax.set_yticks([])
-            say(ax, "nothing was measured", look)
+@dataclass(frozen=True)
+class _Drawing:
+    """How the estimates of a study are drawn."""
 
+    table: Table
+    layout: Layout
+    look: Style
+    confidence: float
 
-def _dots(ax: Axes, places: Float, runs: Sequence[Float], entry: Entry, look: Style) -> Float:
-    """Draw each run as a dot, and return the runs' values."""
-    for place, values in zip(places, runs, strict=True):
-        kept = values[np.isfinite(values)]
-        kept = kept[:: -(-len(kept) // MAX_DOTS) or 1]
-        ax.plot(
-            np.full(len(kept), place), kept, linestyle="none", marker="o", color=entry.color,
-            markersize=0.35 * look.small, markeredgewidth=0, alpha=0.22, zorder=2.2,
+    def panels(self, row: Sequence[Axes], estimate: Estimate) -> None:
+        """Draw an estimate into its panels, which share their vertical limits."""
+        points, spans = self.table.points(), [np.empty(0)]
+        for ax, (_, lines) in zip(row, self.layout.columns, strict=True):
+            for name, line in lines.items():
+                places = np.array([self.layout.place(point, name) for point in line])
+                runs = [estimate.values(points[point]) for point in line]
+                if not estimate.share:
+                    spans += [self._dots(ax, places, runs, self._entry(name))]
+                spans += [self._means(ax, places, runs, self._entry(name), estimate)]
+        seen = np.concatenate(spans)
+        seen = seen[np.isfinite(seen)]
+        for ax in row:
+            if estimate.share:
+                scale_to_100(ax, self.look)
+            else:
+                set_span(ax, seen.min(initial=np.inf), seen.max(initial=-np.inf))
+            if not len(seen):
+                ax.set_yticks([])
+                say(ax, "nothing was measured", self.look)
+
+    def _dots(self, ax: Axes, places: Float, runs: Sequence[Float], entry: Entry) -> Float:
+        """Draw each run as a dot, and return the runs' values."""
+        for place, values in zip(places, runs, strict=True):
+            kept = values[np.isfinite(values)]
+            kept = kept[:: -(-len(kept) // MAX_DOTS) or 1]
+            ax.plot(
+                np.full(len(kept), place), kept, linestyle="none", marker="o", color=entry.color,
+                markersize=0.35 * self.look.small, markeredgewidth=0, alpha=0.22, zorder=2.2,
+            )  # fmt: skip
+        return np.concatenate(runs)
+
+    def _means(
+        self, ax: Axes, places: Float, runs: Sequence[Float], entry: Entry, estimate: Estimate
+    ) -> Float:
+        """Draw means or shares with their intervals, and return the bounds."""
+        scale, small = 100.0 if estimate.share else 1.0, self.look.small
+        found = [estimate.interval(values, self.confidence) for values in runs]
+        mean, low, high = scale * np.array([(each.mean, each.low, each.high) for each in found]).T
+        joined = np.isfinite(mean)
+        ax.errorbar(
+            places, mean, np.nan_to_num([mean - low, high - mean]), linestyle="none",
+            color=entry.color, elinewidth=0.9 * entry.width, capsize=0.35 * small,
+            capthick=0.9 * entry.width, zorder=3,
         )  # fmt: skip
-    return np.concatenate(runs)
+        if self.layout.numeric:
+            order = np.argsort(places[joined])
+            ax.plot(
+                places[joined][order], mean[joined][order], color=entry.color,
+                linestyle=entry.dash, linewidth=entry.width, alpha=0.6, zorder=2.8,
+            )  # fmt: skip
+        for place, value, each, values in zip(places, mean, found, runs, strict=True):
+            hollow = estimate.some and each.count < len(values)
+            ax.plot(
+                [place], [value], linestyle="none", marker=entry.marker, color=entry.color,
+                markerfacecolor="white" if hollow else entry.color, markersize=MARKER_SIZE * small,
+                markeredgewidth=entry.width, zorder=3.2, clip_on=False,
+            )  # fmt: skip
+        return np.concatenate([mean, low, high])
 
+    def _entry(self, name: str) -> Entry:
+        """Return a line's colour, line style and marker, each of which identifies it."""
+        index, look = self.layout.lines.index(name), self.look
+        color, dash = look.curve(index)
+        if not look.greys:
+            dash = DASHES[index % len(DASHES)]
+        return Entry(name, color, dash, 1.3 * look.stroke, MARKERS[index % len(MARKERS)])
 
-def _means(
-    ax: Axes,
-    places: Float,
-    runs: Sequence[Float],
-    entry: Entry,
-    estimate: Estimate,
-    layout: Layout,
-    look: Style,
-    confidence: float,
-) -> Float:
-    """Draw means or shares with their intervals, and return the bounds."""
-    scale = 100.0 if estimate.share else 1.0
-    found = [estimate.interval(values, confidence) for values in runs]
-    mean, low, high = (
-        scale * np.array([getattr(each, part) for each in found])
-        for part in ("mean", "low", "high")
-    )
-    joined = np.isfinite(mean)
-    ax.errorbar(
-        places, mean, np.nan_to_num([mean - low, high - mean]), linestyle="none",
-        color=entry.color, elinewidth=0.9 * entry.width, capsize=0.35 * look.small,
-        capthick=0.9 * entry.width, zorder=3,
-    )  # fmt: skip
-    if layout.numeric:
-        order = np.argsort(places[joined])
-        ax.plot(
-            places[joined][order], mean[joined][order], color=entry.color,
-            linestyle=entry.dash, linewidth=entry.width, alpha=0.6, zorder=2.8,
-        )  # fmt: skip
-    for place, value, each, values in zip(places, mean, found, runs, strict=True):
-        hollow = estimate.some and each.count < len(values)
-        ax.plot(
-            [place], [value], linestyle="none", marker=entry.marker, color=entry.color,
-            markerfacecolor="white" if hollow else entry.color, markersize=MARKER_SIZE * look.small,
-            markeredgewidth=entry.width, zorder=3.2, clip_on=False,
-        )  # fmt: skip
-    return np.concatenate([mean, low, high])
-
-
-# -- lines -----------------------------------------------------------------------------------------
-
-
-def _entry(layout: Layout, name: str, look: Style) -> Entry:
-    """Return a line's colour, line style and marker, each of which identifies it."""
-    index = layout.lines.index(name)
-    color, dash = look.curve(index)
-    if not look.greys:
-        dash = DASHES[index % len(DASHES)]
-    return Entry(name, color, dash, 1.3 * look.stroke, MARKERS[index % len(MARKERS)])
-
-
-def _kinds(shown: Sequence[Estimate]) -> str:
-    """Return the quantities that are drawn, such as ``means and shares``."""
-    there = {"shares" if estimate.share else "means" for estimate in shown}
-    return " and ".join(sorted(there))
-
-
-def _entries(
-    table: Table, shown: Sequence[Estimate], layout: Layout, look: Style, letters: int
-) -> list[Entry]:
-    """Return the entries of the legend: several lines, and the meaning of hollow markers.
-
-    letters: how long a name may be.
-    """
-    entries = []
-    if len(layout.lines) > 1:
-        entries = [_entry(layout, name, look) for name in layout.lines]
-        if not layout.numeric:
-            entries = [entry._replace(dash="") for entry in entries]
-    width = 1.3 * look.stroke
-    entries = [each._replace(name=shortened(each.name, letters)) for each in entries]
-    means = [estimate for estimate in shown if estimate.some]
-    runs = [estimate.values(each) for estimate in means for each in table.points().values()]
-    if any(0 < np.isfinite(values).sum() < len(values) for values in runs):
-        hollow = Entry("mean of some runs alone", look.muted, "", width, "o", hollow=True)
-        entries.append(hollow)
-    return entries
+    def entries(self, above: Axes, shown: Sequence[Estimate]) -> list[Entry]:
+        """Return the entries of the legend: several lines, and the meaning of hollow markers."""
+        look, lines = self.look, self.layout.lines
+        letters = letters_in(LEGEND * above.figure.bbox.width * 72 / above.figure.dpi, look.small)
+        entries = [self._entry(name) for name in (lines if len(lines) > 1 else ())]
+        entries = [each._replace(name=shortened(each.name, letters)) for each in entries]
+        if not self.layout.numeric:
+            entries = [each._replace(dash="") for each in entries]
+        means = [each for each in shown if each.some]
+        runs = [mean.values(each) for mean in means for each in self.table.points().values()]
+        if any(0 < np.isfinite(values).sum() < len(values) for values in runs):
+            width = 1.3 * look.stroke
+            hollow = Entry("mean of some runs alone", look.muted, "", width, "o", hollow=True)
+            entries.append(hollow)
+        return entries

@@ -52,7 +52,8 @@ class Layout:
         """Whether the numbers are more evenly spaced on a logarithmic scale, such as 4, 8, 16."""
         if not self.numeric or len(self.values) < 3 or min(self.values) <= 0:
             return False
-        steps = [np.diff(np.sort(f(np.array(self.values, dtype=float)))) for f in (_same, np.log)]
+        values = np.sort(np.array(self.values, dtype=float))
+        steps = np.diff(values), np.diff(np.log(values))
         even, even_ratio = (float(each.std() / each.mean()) for each in steps)
         return even_ratio < 0.9 * even
 
@@ -87,10 +88,6 @@ class Layout:
         return len(scaled) < 2 or (len(scaled) <= 10 and float(gaps.min()) > 0.05)
 
 
-def _same(values: Float) -> Float:
-    return values
-
-
 def layout_of(
     settings: Sequence[str],
     points: Iterable[Point],
@@ -103,10 +100,10 @@ def layout_of(
     first with several numbers, else with several values. Raises InputError for an unknown setting,
     and for more lines than a figure can show; so it can be called before hours of runs.
     """
-    every, units = list(points), units or {}
+    every = list(points)
 
     def named(k: int, value: Any) -> str:
-        return assigned(settings[k], value, units.get(settings[k], ""))
+        return assigned(settings[k], value, (units or {}).get(settings[k], ""))
 
     values = [tuple(dict.fromkeys(column)) for column in zip(*every, strict=True)]
     several = [k for k, found in enumerate(values) if len(found) > 1]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mars2d.addons.contest import Contest, Outcome
+from mars2d.addons.contest import Contest
 from mars2d.core.errors import InputError, LawError, nearest, shown
 from mars2d.core.usercode import called, definition
 from mars2d.scenario.roles import contests_of
@@ -32,13 +32,13 @@ EXPECTED = "expected a number, a word, or None where there is nothing to measure
 
 def capture_time(record: Record) -> float | None:
     """When the last evader of its contest was caught, seconds; nothing where one stayed free."""
-    time = _outcome("capture_time", record).capture_time
+    time = _contest("capture_time", record.scenario).outcome(record).capture_time
     return None if math.isnan(time) else time
 
 
 def winner(record: Record) -> str | None:
     """The role that won its contest, a word; nothing where it stayed undecided."""
-    return _outcome("winner", record).winner
+    return _contest("winner", record.scenario).outcome(record).winner
 
 
 def end_time(record: Record) -> float | None:
@@ -86,10 +86,6 @@ def effort(record: Record) -> float | None:
     return float(record.effort[1:].mean()) if len(record) > 1 else None
 
 
-def _outcome(measure: str, record: Record) -> Outcome:
-    return _contest(measure, record.scenario).outcome(record)
-
-
 def _contest(measure: str, scenario: Scenario) -> Contest:
     """Return a scenario's contest; raise InputError if it has none or several."""
     contests = contests_of(scenario)
@@ -110,7 +106,8 @@ BUILT_IN: dict[str, Measure] = {
     )
 }  # fmt: skip
 
-OF_CONTESTS = frozenset({"capture_time", "winner"})
+NO_MEASURES = ("scenario", "control", "checks")
+"""The functions of an experiment's file that mean something else."""
 
 UNITS = {
     "capture_time": "s",
@@ -125,13 +122,6 @@ UNITS = {
 # -- all measures ----------------------------------------------------------------------------------
 
 
-def measures() -> dict[str, str]:
-    """Return the meaning of each built-in measure, one line, by name."""
-    return {
-        name: (inspect.getdoc(made) or "").partition("\n")[0] for name, made in BUILT_IN.items()
-    }
-
-
 def measure_named(
     name: str, functions: Mapping[str, Callable[..., Any]], scenario: Scenario | None = None
 ) -> Measure:
@@ -141,20 +131,19 @@ def measure_named(
     record are measures. scenario: if given, it is checked for what a built-in measure needs. Raises
     InputError, with the nearest name.
     """
-    own = functions.get(name)
-    if own is not None and name not in ("scenario", "control", "checks"):
-        if not _takes_one(own):
+    own = {key: made for key, made in functions.items() if key not in NO_MEASURES}
+    if name in own:
+        if not _takes_one(own[name]):
             raise InputError(
-                f"measure {name!r}: {name}{inspect.signature(own)} is no measure: expected a "
+                f"measure {name!r}: {name}{inspect.signature(own[name])} is no measure: expected a "
                 f"function of the record alone, such as {name}(record)"
             )
-        return own
+        return own[name]
     if name not in BUILT_IN:
-        more = [key for key, function in functions.items() if _takes_one(function)]
-        others = {*more} - {"scenario", "control", "checks"}
-        known = nearest(name, [*BUILT_IN, *others], most=20)
+        more = {key for key, function in own.items() if _takes_one(function)}
+        known = nearest(name, [*BUILT_IN, *more], most=20)
         raise InputError(f"there is no measure {name!r}{known}")
-    if scenario is not None and name in OF_CONTESTS:
+    if scenario is not None and name in ("capture_time", "winner"):
         _contest(name, scenario)
     return BUILT_IN[name]
 
@@ -198,21 +187,15 @@ def _plain(value: Any) -> float | str | None:
         return None
     if isinstance(value, str):
         return _word(value)
-    if isinstance(value, (numbers.Integral, np.bool_)):
-        return _whole(int(value))
-    if isinstance(value, numbers.Real):
-        number = _whole(value)
-        return None if math.isnan(number) else number
-    raise InputError(EXPECTED)
-
-
-def _whole(value: Any) -> float:
-    """Return an integer as it is, and any other number as a float."""
+    if not isinstance(value, (numbers.Real, np.bool_)):
+        raise InputError(EXPECTED)
     try:
         number = float(value)
     except (OverflowError, TypeError, ValueError):
         raise InputError(f"{EXPECTED}; this one is beyond a float") from None
-    return int(value) if isinstance(value, int) and number == value else number
+    if isinstance(value, (numbers.Integral, np.bool_)) and int(value) == number:
+        return int(value)
+    return None if math.isnan(number) else number
 
 
 def _word(value: str) -> str:

@@ -6,7 +6,7 @@ import ast
 import itertools
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -80,18 +80,19 @@ def settings_of(given: Mapping[str, Any] | None) -> dict[str, tuple[Any, ...]]:
     for name, value in (given or {}).items():
         if not isinstance(name, str):
             raise wrong("settings", name, "names as the keys, such as {'gain': [0.1, 0.2]}")
-        several = value if isinstance(value, (list, range)) or _is_array(value) else [value]
+        array = isinstance(value, np.ndarray) and value.ndim > 0
+        several = value if array or isinstance(value, (list, range)) else [value]
         listed = items_of(f"settings[{name!r}]", several, "values", MAX_RUNS)
         values = tuple(_plain(name, each) for each in listed)
         if not values:
             raise wrong(f"settings[{name!r}]", value, "at least one value")
-        _refuse_twice(name, values)
+        known: set[Any] = set()
+        for each in values:
+            if key_of(each) in known:
+                raise InputError(f"{name}: {shown(each)} is there twice")
+            known.add(key_of(each))
         settings[name] = values
     return settings
-
-
-def _is_array(value: Any) -> bool:
-    return isinstance(value, np.ndarray) and value.ndim > 0
 
 
 def _plain(name: str, value: Any) -> Any:
@@ -108,14 +109,6 @@ def _plain(name: str, value: Any) -> Any:
         expected = "what a table can hold: finite numbers, words, tuples of these"
         raise wrong(f"settings[{name!r}]", value, expected)
     return value
-
-
-def _refuse_twice(name: str, values: Sequence[Any]) -> None:
-    known: set[Any] = set()
-    for value in values:
-        if key_of(value) in known:
-            raise InputError(f"{name}: {shown(value)} is there twice")
-        known.add(key_of(value))
 
 
 def seeds_of(seeds: int | Iterable[int], first: int = 0) -> tuple[int, ...]:
@@ -169,9 +162,7 @@ def parse_all(texts: Iterable[str]) -> dict[str, Any]:
 
 def _split(text: str, given: str) -> list[str]:
     """Split text at the commas outside of brackets and quotes."""
-    items: list[str] = []
-    closing: list[str] = []
-    start, quote = 0, ""
+    items, closing, start, quote = list[str](), list[str](), 0, ""
     for k, letter in enumerate(given):
         if quote:
             quote = "" if letter == quote and given[k - 1] != "\\" else quote
@@ -194,22 +185,18 @@ def _split(text: str, given: str) -> list[str]:
 
 def _spaced(text: str, first: str, last: str, count: str) -> list[float]:
     """Return evenly spaced values, each the float nearest to the exact value."""
-    try:
-        number = int(count)
-    except ValueError:
-        number = 0
+    number = int(count) if count.strip().isdecimal() else 0
     if not 2 <= number <= MAX_RUNS:
-        raise InputError(
-            f"--set {text}: expected FIRST:LAST:COUNT with a count of 2 to {MAX_RUNS:,}"
-        )
+        expected = f"FIRST:LAST:COUNT with a count of 2 to {MAX_RUNS:,}"
+        raise InputError(f"--set {text}: expected {expected}")
     for part in (first, last):
         real(f"--set {text}", float(part))
     # Numbers that are 0 as a float become 0: the exact 1e-99999999 would take for ever.
-    start, end = (Fraction(part) if float(part) else Fraction(0) for part in (first, last))
+    start, end = (Fraction(part if float(part) else 0) for part in (first, last))
     if start == end:
         raise InputError(f"--set {text}: all {number} values would be the same")
     values = [start + (end - start) * k / (number - 1) for k in range(number)]
-    whole = all(re.fullmatch(r"\s*[+-]?\d+\s*", part) for part in (first, last))
+    whole = re.fullmatch(r"\s*[+-]?\d+\s*:\s*[+-]?\d+\s*", f"{first}:{last}")
     if whole and all(value.denominator == 1 for value in values):
         return [int(value) for value in values]
     return [float(value) for value in values]

@@ -15,16 +15,7 @@ from mars2d.core.files import REPLACED_OPEN, growing, writing
 from mars2d.study.job import code_of, opened
 from mars2d.study.kept import kept_as
 from mars2d.study.study import Study
-from mars2d.study.table import (
-    Result,
-    Table,
-    cell,
-    cells_of,
-    file_header,
-    file_line,
-    parse_table,
-    save_table,
-)
+from mars2d.study.table import Result, Table, cell, cells_of, file_header, file_line, parse_table
 
 
 class Results:
@@ -72,7 +63,7 @@ class Results:
         if self._path is not None:
             if not REPLACED_OPEN:
                 self._file.close()
-            save_table(self.table(), self._path, self._file)
+            self.table().save(self._path, self._file)
 
     def _write(self, path: Path, line: bytes) -> None:
         with writing(path):

@@ -15,6 +15,7 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, Mars2dError, shown
 from mars2d.core.files import writing
 from mars2d.core.interrupt import interrupts
+from mars2d.core.terminal import warn
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.job import Job, run_job
 from mars2d.study.kept import records_beside
@@ -92,6 +93,8 @@ def sweep(
     `StudyInterrupted` after Ctrl-C. Both have the rows as their `table`.
     """
     leave_if_imported_again()
+    if executor is None:
+        worker_count(workers)
     if not isinstance(out, (str, Path, type(None))):
         raise wrong("out", out, "the name of a file, such as 'results.csv'")
     if stop_time is not None and isinstance(settings, (Mapping, type(None))):
@@ -101,15 +104,12 @@ def sweep(
     plan = Plan(settings_of(settings), seeds_of(seeds))
     listed = _listed(measures)
     study = prepared(experiment, plan, listed, control=control, time_limit=time_limit, units=units)
-    return run_study(
-        study,
-        None if out is None else Path(out),
-        executor=executor,
-        workers=workers,
-        retry=retry,
-        keep=keep,
-        show_progress=show_progress,
-    )
+    for trouble in study.troubles[:3]:
+        warn(trouble)
+    if study.troubles:
+        warn("such runs are rows with their error; the others are made")
+    how = executor, workers, show_progress
+    return _run(study, None if out is None else Path(out), how, retry=retry, keep=keep)
 
 
 def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Measure, ...]:
@@ -123,23 +123,19 @@ def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Me
     return listed
 
 
-def run_study(
+def _run(
     study: Study,
-    out: Path | None = None,
+    out: Path | None,
+    how: tuple[Executor | None, int | None, bool],
     *,
-    executor: Executor | None = None,
-    workers: int | None = None,
-    retry: bool = False,
-    keep: bool = False,
-    show_progress: bool = True,
+    retry: bool,
+    keep: bool,
 ) -> Table:
     """Do the runs of a study that its file `out` does not hold, and return all rows in order.
 
-    The other arguments, and what is raised, are those of `sweep`; InputError also if a file of the
+    how: executor, workers, show_progress. Raises what `sweep` does, and InputError if a file of the
     experiment changes meanwhile.
     """
-    if executor is None:
-        worker_count(workers)
     if out is not None and out.suffix.lower() != ".csv":
         raise InputError(f"{out}: expected a name that ends in .csv")
     if keep:
@@ -148,7 +144,7 @@ def run_study(
         trials = _trials(study)
         _refuse_hopeless(study, results, trials)
         try:
-            made = _missing(study, results, trials, executor, workers, show_progress)
+            made = _missing(study, results, trials, *how)
             with interrupts() as check, closing(made) as rows:
                 for row in rows:
                     _refuse_changed(study, row)

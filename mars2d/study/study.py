@@ -98,32 +98,32 @@ def prepared(
 
 def _probes(plan: Plan, blank: Job) -> Iterator[tuple[dict[str, Any], Experiment | Mars2dError]]:
     """Yield points with their experiments or errors; raise the first error if all points fail."""
+
+    def found(point: dict[str, Any]) -> Experiment | Mars2dError:
+        try:
+            return probed(dataclasses.replace(blank, options=point))
+        except MissingExtraError:
+            raise
+        except Mars2dError as error:
+            return error
+
     first: Mars2dError | None = None
     sound = False
     for point in islice(plan.probes(), MAX_PROBES):
-        found = _probed(blank, point)
-        if isinstance(found, Mars2dError):
-            first = first or found
+        made = found(point)
+        if isinstance(made, Mars2dError):
+            first = first or made
         else:
             sound = True
-        yield point, found
+        yield point, made
     if sound or first is None:
         return
     for point in islice(plan.points(), MAX_TRIALS):
-        found = _probed(blank, point)
-        if not isinstance(found, Mars2dError):
-            yield point, found
+        made = found(point)
+        if not isinstance(made, Mars2dError):
+            yield point, made
             return
     raise first
-
-
-def _probed(blank: Job, point: dict[str, Any]) -> Experiment | Mars2dError:
-    try:
-        return probed(dataclasses.replace(blank, options=point))
-    except MissingExtraError:
-        raise
-    except Mars2dError as error:
-        return error
 
 
 def _trouble(point: dict[str, Any], error: Mars2dError) -> str:

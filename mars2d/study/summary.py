@@ -39,19 +39,14 @@ def summary(table: Table, confidence: float = 0.95) -> str:
     Below follow how many seeds would be enough, and errors. Raises InputError for a confidence that
     is not between 0 and 1.
     """
-    points, wanted = table.points(), estimates(table)
-    left = [[*(with_unit(name, table.unit(name)) for _, name in varied(table)), "runs"]]
+    points, wanted, settings = table.points(), estimates(table), varied(table)
+    failed = ["failed"] if table.failed else []
+    left = [[*(with_unit(name, table.unit(name)) for _, name in settings), "runs", *failed]]
     for point, results in points.items():
-        left.append([*(in_words(point[k]) for k, _ in varied(table)), str(len(results))])
-    if table.failed:
-        failures = (str(sum(bool(r.error) for r in results)) for results in points.values())
-        for row, cell in zip(left, ["failed", *failures], strict=True):
-            row.append(cell)
+        failures = [str(sum(bool(result.error) for result in results))] if failed else []
+        left.append([*(in_words(point[k]) for k, _ in settings), str(len(results)), *failures])
     columns = [
-        [
-            with_unit(each.label, each.unit),
-            *(_cell(each, results, confidence) for results in points.values()),
-        ]
+        [with_unit(each.label, each.unit), *(_cell(each, r, confidence) for r in points.values())]
         for each in wanted
     ]
     parts = [
@@ -111,44 +106,41 @@ def _enough(table: Table, wanted: Sequence[Estimate], confidence: float) -> str:
         groups.setdefault(f"shares of {each.measure}" if each.share else each.label, []).append(
             each
         )
-    lines = [
-        (group[0].label if len(group) == 1 else label, text)
-        for label, group in groups.items()
-        if (text := _seeds(table, group, confidence))
-    ]
-    unsaid = sum(
-        not _needed(each, each.values(results), confidence)
-        for each in wanted
-        for results in table.points().values()
-    )
-    left_out = f"No forecast for {counted(unsaid, 'mean')}: too few numbers, or too far apart."
+    lines, unsaid = [], 0
+    for label, group in groups.items():
+        needed = [
+            (_needed(estimate, values, confidence), len(values), point)
+            for point, results in table.points().items()
+            for estimate in group
+            for values in [estimate.values(results)]
+        ]
+        unsaid += sum(not seeds for seeds, *_ in needed)
+        most = max(needed, key=lambda each: each[0], default=(0.0, 0, ()))
+        if most[0]:
+            lines.append((group[0].label if len(group) == 1 else label, _seeds(table, *most)))
     if not lines:
         return ""
     room = max(len(label) for label, _ in lines)
     title = f"Enough for ±{100 * PRECISION:g} % of a mean"
     if any(each.share for each in wanted):
         title += f", ±{100 * PRECISION:g} points of a share"
-    told = [f"  {label.ljust(room)}  {text}" for label, text in lines]
-    return "\n".join([f"{title}:", *told, *([left_out] if unsaid else [])])
+    told = [f"{title}:", *(f"  {label.ljust(room)}  {text}" for label, text in lines)]
+    if unsaid:
+        why = "too few numbers, or too far apart"
+        told.append(f"No forecast for {counted(unsaid, 'mean')}: {why}.")
+    return "\n".join(told)
 
 
-def _seeds(table: Table, group: Sequence[Estimate], confidence: float) -> str:
-    """Say how many seeds the most demanding point needs; empty if that is unknown."""
-    needed = [
-        (_needed(estimate, values, confidence), len(values), point)
-        for point, results in table.points().items()
-        for estimate in group
-        for values in [estimate.values(results)]
-    ]
-    most, have, point = max(needed, key=lambda each: each[0], default=(0.0, 0, ()))
-    if not most:
-        return ""
+def _seeds(table: Table, most: float, have: int, point: Point) -> str:
+    """Say how many seeds the most demanding point needs, of which there are `have`."""
     guess = f", a guess from {have}" if have < MIN_RUNS else ""
     if most <= have:
         return f"these {have} seeds{guess}"
     where = name_of_point(table, point)
     where = f"; {where} needs most" if where else ""
-    return f"about {_rounded_up(most)} seeds{guess}{where}"
+    unit = 10 ** max(floor(log10(most)) - 1, 0)
+    rounded = f"{ceil(most / unit) * unit:,}".replace(",", " ")  # up, to two digits
+    return f"about {rounded} seeds{guess}{where}"
 
 
 def _needed(estimate: Estimate, values: Float, confidence: float) -> float:
@@ -163,12 +155,6 @@ def _needed(estimate: Estimate, values: Float, confidence: float) -> float:
     else:
         needed = seeds_needed(values, PRECISION * abs(found.mean), confidence) or 0
     return needed * len(values) / found.count  # since some runs have no number
-
-
-def _rounded_up(seeds: float) -> str:
-    """Return a number of seeds, rounded up to two digits, as text."""
-    unit = 10 ** max(floor(log10(seeds)) - 1, 0)
-    return f"{ceil(seeds / unit) * unit:,}".replace(",", " ")
 
 
 # -- comparisons -----------------------------------------------------------------------------------
@@ -207,11 +193,14 @@ def comparison(table: Table, setting: str, confidence: float = 0.95) -> str:
         points = ([in_words(each.point[k]) for k, _ in settings] for each in mine)
         left = [[with_unit(name, table.unit(name)) for _, name in settings], *points]
         title = with_unit(estimate.label, "points" if estimate.share else estimate.unit)
-        columns = [
-            [title, *map(_verdict, mine)],
-            ["pairs", *map(_pair_count, mine)],
-            ["narrower", *map(_gain, mine)],
-        ]
+        counts = (
+            f"{each.found.count}{f' ({each.left_out} left out)' if each.left_out else ''}"
+            if each.paired
+            else f"0 ({each.found.count} runs)"
+            for each in mine
+        )
+        gains = ("-" if isnan(each.narrower) else f"{each.narrower:.1f} times" for each in mine)
+        columns = [[title, *map(_verdict, mine)], ["pairs", *counts], ["narrower", *gains]]
         parts += side_by_side(left, columns)
     parts.append(_comparison_notes(found, confidence))
     return "\n\n".join(parts)
@@ -293,16 +282,6 @@ def _verdict(each: Difference) -> str:
     if found.mean < 0:
         return f"lower by {text(-found.mean)} [{text(-found.high)}, {text(-found.low)}]"
     return f"higher by {text(found.mean)} [{text(found.low)}, {text(found.high)}]"
-
-
-def _pair_count(each: Difference) -> str:
-    if not each.paired:
-        return f"0 ({each.found.count} runs)"
-    return f"{each.found.count}{f' ({each.left_out} left out)' if each.left_out else ''}"
-
-
-def _gain(each: Difference) -> str:
-    return "-" if isnan(each.narrower) else f"{each.narrower:.1f} times"
 
 
 def _comparison_notes(found: Sequence[Difference], confidence: float) -> str:

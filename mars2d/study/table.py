@@ -117,54 +117,58 @@ class Table:
         """
         with extra("data", "tables need pandas"):
             import pandas as pd
-        rows = [
-            {
-                "row": result.row,
-                **result.options,
-                SEED: result.seed,
-                **{name: result.measures.get(name) for name in self.measures},
-                "digest": result.digest,
-                "code": result.code,
-                "error": result.error,
-            }
-            for result in self.results
-        ]
         columns = ["row", *self.settings, SEED, *self.measures, *LAST]
+        rows = map(_columns_of, self.results)
         frame = pd.DataFrame(rows, columns=columns).set_index("row")
         for name in self.measures:  # a measure without any value is a column of nan, not of objects
             if frame[name].isna().all():
                 frame[name] = frame[name].astype(float)
         return frame
 
-    def save(self, path: str | Path) -> Path:
+    def save(self, path: str | Path, held: BinaryIO | None = None) -> Path:
         """Write the table as a .csv file, which `load` reads, and return its path.
 
-        Raises InputError if it can't be written.
+        held: the file that is replaced, where the caller holds it open. Raises InputError if the
+        table can't be written.
         """
-        return save_table(self, path)
+        target = Path(path)
+        if target.suffix.lower() != ".csv":
+            raise InputError(f"{target}: expected a name that ends in .csv")
+        lines = [file_header(self), *(file_line(self, result) for result in self.results)]
+        with atomic_write(target, held) as file:
+            file.write(b"".join(lines))
+        return target
 
     @staticmethod
     def load(path: str | Path) -> Table:
-        """Return the table in a .csv file of a study; see `load_table`."""
-        return load_table(path)
+        """Return the table in a file that a study wrote, sorted by row number.
+
+        An incomplete last line is left out. Raises InputError for any other file.
+        """
+        source = Path(path)
+        try:
+            data = source.read_bytes()
+        except OSError as error:
+            raise InputError(f"{source}: can't be read: {error.strerror or error}") from error
+        return parse_table(data[: data.rfind(b"\n") + 1], source)
 
     def _repr_html_(self) -> str:
         """Return the first rows as a table, for a notebook."""
-        settings, measures = (
-            [with_unit(name, self.unit(name)) for name in names]
-            for names in (self.settings, self.measures)
-        )
-        errors = ["error"] if self.failed else []
-        lines = [_html_row("th", ["row", *settings, SEED, *measures, *errors])]
+        columns = ["row", *self.settings, SEED, *self.measures, *(["error"] if self.failed else [])]
+        lines = [_html_row("th", [with_unit(name, self.unit(name)) for name in columns])]
         for result in self.results[:SHOWN_ROWS]:
-            measured = [result.measures.get(name) for name in self.measures]
-            values = [result.options[name] for name in self.settings]
-            cells = [result.row, *values, result.seed, *measured]
-            lines.append(_html_row("td", [*cells, *([result.error] if errors else [])]))
+            row = _columns_of(result)
+            lines.append(_html_row("td", [row.get(name) for name in columns]))
         left = len(self) - SHOWN_ROWS
         more = f"<p>and {counted(left, 'row')} more</p>" if left > 0 else ""
         title = html.escape(repr(self)[1:-1])
         return f"<p>{title}</p><table>{''.join(lines)}</table>{more}"
+
+
+def _columns_of(result: Result) -> dict[str, Any]:
+    """Return the values of a run by the names of their columns."""
+    own = {name: getattr(result, name) for name in ("row", SEED, *LAST)}
+    return {**result.options, **result.measures, **own}
 
 
 def _html_row(tag: str, cells: list[Any]) -> str:
@@ -179,44 +183,19 @@ def _html_text(cell: Any) -> str:
 # -- writing files ---------------------------------------------------------------------------------
 
 
-def save_table(table: Table, path: str | Path, held: BinaryIO | None = None) -> Path:
-    """Write a table as a .csv file, which appears when it is complete, and return its path.
-
-    held: see `atomic_write`.
-    """
-    target = Path(path)
-    if target.suffix.lower() != ".csv":
-        raise InputError(f"{target}: expected a name that ends in .csv")
-    lines = [file_header(table), *(file_line(table, result) for result in table.results)]
-    with atomic_write(target, held) as file:
-        file.write(b"".join(lines))
-    return target
-
-
 def file_header(table: Table) -> bytes:
     """Return the first line of a table's file."""
-    settings, measures = (
-        [with_unit(name, table.units.get(name, "")) for name in names]
-        for names in (table.settings, table.measures)
-    )
-    return _line([*FIRST, *settings, SEED, *measures, *LAST])
+    columns = [*FIRST, *table.settings, SEED, *table.measures, *LAST]
+    return _line(with_unit(name, table.units.get(name, "")) for name in columns)
 
 
 def file_line(table: Table, result: Result) -> bytes:
     """Return a run's line in a table's file."""
-    measured = (result.measures.get(name) for name in table.measures)
-    return _line(
-        [
-            str(result.row),
-            table.experiment,
-            *(cell(result.options[name]) for name in table.settings),
-            str(result.seed),
-            *(_measure_cell(value) for value in measured),
-            result.digest,
-            result.code,
-            word_cell(one_line(" ".join(result.error.split()))),
-        ]
-    )
+    values = [cell(result.options[name]) for name in table.settings]
+    measured = [_measure_cell(result.measures.get(name)) for name in table.measures]
+    error = word_cell(one_line(" ".join(result.error.split())))
+    own = str(result.row), table.experiment
+    return _line([*own, *values, str(result.seed), *measured, result.digest, result.code, error])
 
 
 def _measure_cell(value: float | str | None) -> str:
@@ -232,19 +211,6 @@ def _line(cells: Iterable[str]) -> bytes:
 
 
 # -- reading files ---------------------------------------------------------------------------------
-
-
-def load_table(path: str | Path) -> Table:
-    """Return the table in a file that a study wrote, sorted by row number.
-
-    An incomplete last line is left out. Raises InputError for any other file.
-    """
-    source = Path(path)
-    try:
-        data = source.read_bytes()
-    except OSError as error:
-        raise InputError(f"{source}: can't be read: {error.strerror or error}") from error
-    return parse_table(data[: data.rfind(b"\n") + 1], source)
 
 
 def is_table(path: Path) -> bool:
@@ -303,20 +269,13 @@ def _columns(
 def _result(
     cells: list[str], settings: tuple[str, ...], measures: tuple[str, ...], where: str
 ) -> Result:
-    row = _whole_number(cells[0], "row", where)
-    seed = _whole_number(cells[2 + len(settings)], SEED, where)
-    values = cells[2 : 2 + len(settings)]
-    found = cells[3 + len(settings) : -3]
+    row, values = _whole_number(cells[0], "row", where), map(value_in, cells[2:])
+    options = dict(zip(settings, values, strict=False))
+    seed, *found = cells[2 + len(settings) : -3]
+    measured = dict(zip(measures, map(_measured, found), strict=True))
     digest, code, error = cells[-3:]
-    return Result(
-        row,
-        {name: value_in(text) for name, text in zip(settings, values, strict=True)},
-        seed,
-        {name: _measured(text) for name, text in zip(measures, found, strict=True)},
-        word_in(error),
-        digest,
-        code,
-    )
+    number = _whole_number(seed, SEED, where)
+    return Result(row, options, number, measured, word_in(error), digest, code)
 
 
 def _whole_number(text: str, name: str, where: str) -> int:

@@ -19,7 +19,7 @@ from concurrent.futures import (
     ProcessPoolExecutor,
     ThreadPoolExecutor,
 )
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any, NamedTuple, TypeVar
@@ -76,12 +76,24 @@ def each_done(
     """
     leave_if_imported_again()
     count = worker_count(workers)
-    if executor is not None and hasattr(executor, "get_executor"):  # Dask's Client
-        executor = executor.get_executor(pure=False)
-    if not isinstance(executor, (Executor, type(None))):
+    of_dask = getattr(executor, "get_executor", None)
+    given = executor if of_dask is None else of_dask(pure=False)
+    if not isinstance(given, (Executor, type(None))):
         expected = "expected an Executor of concurrent.futures, or a Client of Dask"
-        raise InputError(f"executor={shown(executor)}: {expected}")
-    return _each_done(function, tasks, executor, count, limit)
+        raise InputError(f"executor={shown(given)}: {expected}")
+    todo, lost = deque(range(len(tasks))), list[int]()
+    while todo:
+        most = min(count, len(todo)) if given is None else IN_FLIGHT
+        with Processes(most) if given is None else nullcontext(given) as pool:
+            for index, result in _done(function, tasks, pool, todo, most, limit):
+                if isinstance(result, _Lost):
+                    lost.append(index)
+                else:
+                    yield index, result
+    for alone in (deque([index]) for index in lost):
+        while alone:
+            with Processes(1) if given is None else nullcontext(given) as pool:
+                yield from _done(function, tasks, pool, alone, 1, limit)
 
 
 def worker_count(workers: int | None) -> int:
@@ -113,28 +125,6 @@ def reason(error: BaseException) -> str:
 # -- in the process that has the tasks -------------------------------------------------------------
 
 
-def _each_done(
-    function: Callable[[T], R],
-    tasks: Sequence[T],
-    given: Executor | None,
-    count: int,
-    limit: float | None,
-) -> Iterator[tuple[int, R | Failure]]:
-    """Do as `each_done`: first all tasks, then those that were lost, each in a fresh process."""
-    todo, lost = deque(range(len(tasks))), list[int]()
-    while todo:
-        most = min(count, len(todo)) if given is None else IN_FLIGHT
-        with Processes(most) if given is None else nullcontext(given) as pool:
-            for index, result in _done(function, tasks, pool, todo, most, limit):
-                if isinstance(result, _Lost):
-                    lost.append(index)
-                else:
-                    yield index, result
-    for index in lost:
-        with Processes(1) if given is None else nullcontext(given) as pool:
-            yield from _done(function, tasks, pool, deque([index]), 1, limit)
-
-
 def _done(
     function: Callable[[T], R],
     tasks: Sequence[T],
@@ -145,24 +135,25 @@ def _done(
 ) -> Iterator[tuple[int, R | Failure]]:
     """Take tasks from `todo`, `most` at once, until none is left or a process has ended."""
     own = isinstance(pool, Processes)
-    end = limit + BREAKING_OFF if own and limit is not None else None
     late = "" if limit is None else f", perhaps in code in C at the time limit of {limit:g} s"
     running, done = dict[Future[Any], int](), SimpleQueue[Future[Any]]()
     try:
         while todo or running:
             try:
                 while todo and len(running) < most:
-                    future = _submitted(pool, function, tasks[todo[0]], end)
+                    future = _submitted(pool, function, tasks[todo[0]], limit)
                     running[future] = todo.popleft()
                     future.add_done_callback(done.put)
-            except RuntimeError as error:
+            except RuntimeError as error:  # it is broken, or shut down
                 if not own:
                     raise _gone(error) from error
                 if not running:
                     return
             future = _next(done)
             try:
-                result = _unpacked(future.result())
+                result = future.result()
+                if isinstance(result, _Packed):
+                    result = pickle.loads(result.content)
             except (BrokenExecutor, CancelledError) as error:
                 if not own:
                     raise _gone(error) from error
@@ -178,12 +169,9 @@ def _done(
 
 
 def _submitted(
-    pool: Executor, function: Callable[[T], R], task: T, end: float | None
+    pool: Executor, function: Callable[[T], R], task: T, limit: float | None
 ) -> Future[Any]:
-    """Submit a task. It travels as bytes, so what can't be read harms no process; not in threads.
-
-    end: seconds after which its process is ended, or None.
-    """
+    """Submit a task, to processes as bytes, so that what can't be read does not end them."""
     if isinstance(pool, ThreadPoolExecutor):
         return pool.submit(_attempt, function, task)
     try:
@@ -192,19 +180,13 @@ def _submitted(
         unsent = Future[Any]()
         unsent.set_result(Failure(f"can't be sent to another process: {reason(error)}"))
         return unsent
-    return pool.submit(_attempt_packed, packed, end)
+    return pool.submit(_attempt_packed, packed, limit if isinstance(pool, Processes) else None)
 
 
 def _next(done: SimpleQueue[Future[Any]]) -> Future[Any]:
     while True:
-        try:
+        with suppress(Empty):
             return done.get(timeout=LOOK)
-        except Empty:
-            continue
-
-
-def _unpacked(returned: Any) -> Any:
-    return pickle.loads(returned.content) if isinstance(returned, _Packed) else returned
 
 
 def _gone(error: BaseException) -> InputError:
@@ -278,11 +260,11 @@ def _attempt(function: Callable[[T], R], task: T) -> R | Failure:
         return Failure(reason(error))
 
 
-def _attempt_packed(packed: bytes, end: float | None) -> _Packed | Failure:
-    """Attempt a function and a task; after `end` seconds this process is ended, even within C."""
+def _attempt_packed(packed: bytes, limit: float | None) -> _Packed | Failure:
+    """Attempt a function and a task; where it does not end at the limit, end this process."""
     with Path(os.devnull).open("w") as nothing:
-        if end is not None:
-            faulthandler.dump_traceback_later(end, exit=True, file=nothing)
+        if limit is not None:
+            faulthandler.dump_traceback_later(limit + BREAKING_OFF, exit=True, file=nothing)
         try:
             return _attempt(_call_packed, packed)
         finally:

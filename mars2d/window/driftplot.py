@@ -58,7 +58,7 @@ class DriftPlot:
         drifts: (T, 2) metres by the physics, the largest and the mean of all bodies at each control
         step. step: seconds between two. now, end: the time that is shown, and that of the last row.
         """
-        ui, theme, fonts = painter.ui, painter.theme, painter.fonts
+        ui, theme = painter.ui, painter.theme
         surface.fill(theme.paper, rect)
         surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
         self.area = area = pygame.Rect(
@@ -83,8 +83,7 @@ class DriftPlot:
         scene.line([(x, -area.top), (x, -area.bottom)], stroke=theme.selected, width=1.2)
         painter.paint(surface, scene.shapes, PIXELS)
         if agree:
-            image = fonts.render(NOTHING, 13 * ui, theme.muted)
-            surface.blit(image, image.get_rect(center=area.center))
+            painter.write(surface, NOTHING, 13 * ui, theme.muted, center=area.center)
 
     def _draw_names(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
         """Write the title, and the names of the curves at the right; where it is narrow, fewer."""
@@ -100,14 +99,13 @@ class DriftPlot:
             names = [(each[0].partition(",")[0], *each[1:]) for each in names if each[1] == "-"]
         scene = Scene()
         for name, style, width, color in names:
-            image = fonts.render(name, size, theme.text)
-            surface.blit(image, image.get_rect(midright=(right, middle)))
-            right -= image.get_width() + round(6 * ui)
+            place = painter.write(surface, name, size, theme.text, midright=(right, middle))
+            right = place.left - round(6 * ui)
             line = [(right - 24 * ui, -middle), (right, -middle)]
             scene.line(line, stroke=color, width=width, style=style)
             right -= round(38 * ui)
         painter.paint(surface, scene.shapes, PIXELS)
         title = fonts.shorten(TITLE, 13.5 * ui, right - self.area.left, bold=True)
         if len(title) > len(TITLE) // 2:
-            image = fonts.render(title, 13.5 * ui, theme.ink, bold=True)
-            surface.blit(image, image.get_rect(midleft=(self.area.left, middle)))
+            at = self.area.left, middle
+            painter.write(surface, title, 13.5 * ui, theme.ink, bold=True, midleft=at)

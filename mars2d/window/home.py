@@ -7,7 +7,7 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.layout import interface_scale
-from mars2d.scenario.examples import courses, games, thumbnail_of, title_of
+from mars2d.scenario.examples import GAME, courses, games, thumbnail_of, title_of
 from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
@@ -130,12 +130,8 @@ class Home:
 
     def _draw_line(self, surface: pygame.Surface, footer: pygame.Rect, pad: int) -> None:
         """Say more about the chosen card, and the command that opens it."""
-        ui, theme, fonts, card = (
-            self.painter.ui,
-            self.painter.theme,
-            self.painter.fonts,
-            self.page.card,
-        )
+        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
+        card = self.page.card
         if card is None:
             return
         command = fonts.shorten(" ".join(("mars2d", *card.command)), 13 * ui, 0.45 * footer.width)
@@ -235,4 +231,5 @@ class Home:
 def _own_card(path: Path, picture: Path | None) -> Card:
     command = OPENS.get(path.suffix.lower(), "run")
     shown = picture if picture is not None and picture.exists() else None
-    return Card(path.name, str(path), (command, str(path)), shown, sign=path.suffix[1:])
+    title = f"{path.parent.name}/{GAME}" if path.name == GAME else path.name
+    return Card(title, str(path), (command, str(path)), shown, sign=path.suffix[1:])

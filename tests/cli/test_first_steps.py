@@ -49,6 +49,8 @@ def test_a_copy_replaces_nothing_and_a_wrong_name_is_answered(here, capsys):
     assert "run it: mars2d run corner_game/game.py" in capsys.readouterr().out
     copied = {path.name for path in (here / "corner_game").iterdir()}
     assert copied == {"game.py", "pursuers", "evaders", "learned.onnx"}
+    assert cli.main(["run", "corner_game/"]) == cli.BAD_INPUT
+    assert "did you mean corner_game/game.py?" in capsys.readouterr().err
     (here / "corner_game" / "game.py").write_text("mine")
     assert cli.main(["copy", "corner_game"]) == cli.BAD_INPUT
     assert "corner_game: is there already" in capsys.readouterr().err
@@ -73,6 +75,9 @@ def test_bash_completes_commands_options_examples_and_files(here, capsys, words,
     (here / "walk.txt").touch()
     assert cli.main(["doctor", "--completion", "bash"]) == 0
     (here / "complete.sh").write_text(capsys.readouterr().out)
+    for shell in ("zsh", "tcsh", "fish", "powershell"):
+        assert cli.main(["doctor", "--completion", shell]) == 0
+        assert "tournament" in capsys.readouterr().out
     line = " ".join(words)
     script = (
         f"source complete.sh; COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; "

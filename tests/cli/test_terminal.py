@@ -15,7 +15,7 @@ from mars2d import InputError, Scenario
 from mars2d.cli import command_line as cli
 from mars2d.core.terminal import tell, warn
 from mars2d.output.formats.header import as_text
-from mars2d.study.table import Result, Table, save_table
+from mars2d.study.table import Result, Table
 from mars2d.tournaments import league
 
 EVIL = "\x1b]0;owned\x07\x9b31m\u202egnp\u2066\r\nmars2d: all is well\ud800"
@@ -41,7 +41,7 @@ def test_a_foreign_record_is_escaped(tmp_path, capsys) -> None:
 
 def test_tables_are_escaped(tmp_path) -> None:
     failed = Result(1, {"n": 1}, 0, {}, EVIL)
-    saved = save_table(Table("team.py", ("n",), (), (failed,)), tmp_path / "rows.csv").read_bytes()
+    saved = Table("team.py", ("n",), (), (failed,)).save(tmp_path / "rows.csv").read_bytes()
     assert rb"\x1b]0;owned" in saved
     assert not UNSEEN.search(saved.decode().replace("\r\n", ""))
     assert not UNSEEN.search(league._cell(EVIL))

@@ -9,7 +9,7 @@ import sys
 import pytest
 
 import mars2d
-from mars2d.study.table import load_table
+from mars2d.study.table import Table
 from tests.processes import PATIENCE, mars, wait_until
 
 pytestmark = pytest.mark.slow
@@ -120,7 +120,7 @@ def test_standard_files_that_are_closed_or_full_cost_no_record(here):
 def test_a_sweep_has_the_laws_that_hang_in_its_rows(here):
     words = "--set", "kind=rests,spins,in C", "--workers", 2, "--time-limit", 3
     mars("sweep", "law.py", *words, "--out", "s.csv", cwd=here, MARS2D_PATIENCE="0.5")
-    errors = [row.error for row in load_table(here / "s.csv").results]
+    errors = [row.error for row in Table.load(here / "s.csv").results]
     assert errors[0] == ""
     assert "go did not return within 0.5 s (red, at 0.5 s)" in errors[1]
     assert "3 s" in errors[2]  # "took longer than 3 s", or in C code "at the time limit of 3 s"

@@ -45,7 +45,6 @@ from mars2d.scenario import load_scenario
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.registry import FAMILIES, members
-from mars2d.study import work
 from mars2d.window.run import keys
 from mars2d.world.views import PropView, RobotView
 from tests.cases import each_case
@@ -222,7 +221,8 @@ def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    monkeypatch.setattr(work, "cores", lambda: 1)  # so few runs don't pay for a second process
+    # So few runs don't pay for a second process.
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0}, raising=False)
     Reader(document).read()
     if document in SENSORS:
         return  # their pictures are made by docs/make_sensors.py
@@ -405,6 +405,8 @@ def verbs() -> dict[str, Any]:
 def test_each_command_has_a_section_and_each_section_a_command():
     text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
     assert re.findall(r"^## mars2d (\w+)$", text, flags=re.M) == list(verbs())
+    lines = [[f"[`mars2d {name}`](#mars2d-{name})", line] for name, line in cli.VERBS.items()]
+    assert table(text.partition("\n## ")[0])[1:] == lines
 
 
 @each_case("verb", list(verbs()))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import examples, thumbnail_of
 from tests.cases import each_case
 from tests.house.goldens import SETTINGS, Golden
 
@@ -68,11 +68,12 @@ def test_older_processors_give_the_same_digests():
 
 
 @each_case("name", examples())
-def test_an_example_is_short_enough_to_project(name):
+def test_an_example_is_short_enough_to_project_and_has_its_pictures(name):
     lines = examples()[name].read_text().splitlines()
     assert len(lines) <= 70
     assert max(map(len, lines)) <= 100
     assert lines[0].startswith('"""')
+    assert all(thumbnail_of(name, looks).is_file() for looks in ("light", "dark"))
 
 
 def test_random_walk_is_the_papers_algorithm_2():

@@ -1,53 +1,26 @@
 """The games of guarding, hiding and herds: their closed forms, laws, and what contact changes."""
 
+import inspect
+import itertools
 from math import acos, hypot, pi
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-import mars2d
-from mars2d.scenario.examples import examples
-from mars2d.scenario.experiment import open_module
+from mars2d.scenario.examples import examples, games
+from mars2d.scenario.experiment import open_experiment, open_module
+from mars2d.scenario.roles import contest_of
+from tests.cases import each_case
+from tests.worlds import played
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
-
-LAWS = {
-    "guard_the_line": {
-        "guard": ("guards", "lowest", "straight", "shadow"),
-        "attacker": ("attackers", "lowest", "straight", "aside"),
-    },
-    "capture_the_flag": {
-        "guard": ("guards", "match", "nearest", "home"),
-        "attacker": ("attackers", "region", "straight", "wings"),
-    },
-    "round_a_pillar": {
-        "pursuer": ("pursuers", "shortest", "straight", "to_and_fro"),
-        "evader": ("evaders", "opposite", "round", "away"),
-    },
-    "hide_and_seek": {
-        "seeker": ("seekers", "circle", "to_and_fro", "wide"),
-        "hider": ("hiders", "opposite", "still", "late"),
-    },
-    "escort": {
-        "hunter": ("hunters", "round", "straight", "feint"),
-        "escort": ("escorts", "between", "ram", "halfway"),
-    },
-    "selfish_herd": {
-        "predator": ("predators", "nearest", "stubborn", "stray"),
-        "flock": ("flocks", "away", "selfish", "behind"),
-    },
-}
-"""The folder of each role, and its laws, that of the default first."""
 
 
 def outcome(name, seed=0, **options):
     """Play a game; a law by its name alone. Return the record and the outcome."""
-    for role, (folder, *laws) in LAWS[name].items():
-        if options.get(role) in laws:
-            options[role] = f"{folder}/{options[role]}.py"
-    record = mars2d.run(name, seed=seed, options=options)
-    game = next(a for a in record.scenario.addons if a.key == "game")
-    return record, game.outcome(record)
+    words = {role: f"{role}s/{law}.py" for role, law in options.items() if isinstance(law, str)}
+    return played(name, seed, **options | words)[:2]
 
 
 @pytest.mark.parametrize(
@@ -71,10 +44,7 @@ def outcome(name, seed=0, **options):
     ],
 )
 def test_a_game_agrees_with_its_formula(name, options):
-    seed = options.pop("seed", 0)
-    experiment = mars2d.scenario.open_experiment(name, options, seed=seed)
-    record = mars2d.run(experiment.scenario, control=experiment.control, seed=seed)
-    predictions = experiment.predictions(record)
+    _, _, predictions = played(name, **options)
     assert predictions
     assert [p for p in predictions if not p.ok] == []
 
@@ -82,15 +52,25 @@ def test_a_game_agrees_with_its_formula(name, options):
 # -- the laws -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", LAWS)
+def laws_of(name):
+    """The laws of a game by the options that choose them: those beside the default's file."""
+    options = inspect.signature(open_module(name).scenario).parameters.values()
+    defaults = {o.name: Path(o.default) for o in options if str(o.default).endswith(".py")}
+    folder = examples()[name].parent
+    return {
+        option: [f"{law.parent.name}/{law.name}" for law in (folder / file.parent).glob("*.py")]
+        for option, file in defaults.items()
+    }
+
+
+@each_case("name", games())
 def test_all_laws_of_a_game_play_each_other(name):
-    first, second = LAWS[name].items()
-    for one in first[1][1:]:
-        for other in second[1][1:]:
-            options = {first[0]: one, second[0]: other, "stop_time": 6.0}
-            record, result = outcome(name, 1, **options)
-            assert len(record) > 1
-            assert result.winner in (None, *LAWS[name])
+    laws = laws_of(name)
+    roles = [role for role, _ in contest_of(open_experiment(name).scenario, name).roles]
+    assert len(laws) == len(roles) == 2
+    for pairing in itertools.product(*laws.values()):
+        result = played(name, 1, **dict(zip(laws, pairing, strict=True)), stop_time=6.0)[1]
+        assert result is None or result.winner in (None, *roles)
 
 
 # -- guard the line, capture the flag ------------------------------------------------------------
@@ -168,7 +148,7 @@ def test_a_bulky_seeker_has_to_be_quicker_by_the_ratio_of_the_circles():
 def test_a_guard_half_as_quick_as_the_hunter_is_enough_and_needs_a_body(seed):
     for mu, winner in ((0.49, "hunter"), (0.56, "escort")):
         assert outcome("escort", seed, mu=mu)[1].winner == winner
-    assert outcome("escort", seed, mu=0.56, physics="ideal")[1].winner == "hunter"
+    assert played("escort", seed, mu=0.56, physics="ideal")[1].winner == "hunter"
 
 
 # -- the selfish herd ----------------------------------------------------------------------------

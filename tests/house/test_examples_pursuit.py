@@ -5,18 +5,10 @@ from math import asin, pi
 import numpy as np
 import pytest
 
-import mars2d
-from mars2d.scenario.experiment import open_experiment, open_module
+from mars2d.scenario.experiment import open_module
+from tests.worlds import played
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
-
-
-def played(name, **options):
-    """Return a game's record, who won, and its predictions."""
-    experiment = open_experiment(name, options)
-    record = mars2d.run(experiment.scenario, control=experiment.control)
-    outcome = record.scenario.addons[0].outcome(record)
-    return record, outcome, experiment.predictions(record)
 
 
 @pytest.mark.parametrize("ratio", [0.3, 0.6, 0.8])

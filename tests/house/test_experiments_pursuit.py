@@ -5,20 +5,10 @@ from math import hypot
 import numpy as np
 import pytest
 
-import mars2d
 from mars2d.geometry.voronoi import Tessellation
-from mars2d.scenario.experiment import open_experiment
-from tests.worlds import solution
+from tests.worlds import played, solution
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
-
-
-def played(name, seed=0, **options):
-    """The experiment's record, its game's outcome and its predictions."""
-    experiment = open_experiment(name, options)
-    record = mars2d.run(experiment.scenario, control=experiment.control, seed=seed)
-    game = next((a for a in record.scenario.addons if a.key == "game"), None)
-    return record, game and game.outcome(record), experiment.predictions(record)
 
 
 def areas(record):

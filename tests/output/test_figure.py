@@ -430,7 +430,7 @@ def test_the_legend_lies_beside_the_drawing_and_its_arrow_is_to_scale(size, styl
     (newtons,) = [float(text.removesuffix(" N")) for text in said if text.endswith(" N")]
     arrow = next(each for each in legend.get_patches() if isinstance(each, ToScale))
     ends = arrow.get_transform().transform(arrow.get_xy())[:, 0]
-    metres = newtons * force_scale(scenario).newton
+    metres = newtons * force_scale(scenario).unit
     pixels = np.ptp(ax.transData.transform([(0, 0), (metres, 0)])[:, 0])
     assert np.ptp(ends) == pytest.approx(pixels, rel=0.02)
     frame, words = ax.get_window_extent(), legend.get_window_extent()

@@ -9,6 +9,7 @@ from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Arrow, Circle, Line, Text
+from mars2d.output.layers.arrows import round_force
 from mars2d.output.layers.forces import (
     MAX_CONTACTS,
     MAX_LABELS,
@@ -16,7 +17,6 @@ from mars2d.output.layers.forces import (
     force_scale,
     forces,
     in_newtons,
-    round_force,
 )
 from mars2d.record.contact import CONTACT
 from mars2d.record.frame import Frame
@@ -55,7 +55,7 @@ def test_a_pair_has_two_opposite_arrows_from_the_point_of_contact_in_newtons():
     np.testing.assert_allclose([tail, other], [(1, 0), (1, 0)])
     np.testing.assert_allclose(on_a, -on_b)
     # 0.4 N s along x and 0.3 N s along y in 0.1 s are 4 N and 3 N.
-    np.testing.assert_allclose(on_b / force_scale(scenario).newton, (4.0, 3.0))
+    np.testing.assert_allclose(on_b / force_scale(scenario).unit, (4.0, 3.0))
     assert [text.text for text in of(Text, forces(frame))] == ["5.0 N"]
 
 
@@ -69,8 +69,8 @@ def test_an_obstacle_has_no_arrow_and_pushes_the_robot_away():
 def test_the_bound_of_the_strongest_drive_is_a_robot_and_a_half_long():
     robots = [Robot(pose=(0, 0, 0)), Robot(pose=(2, 0, 0), drive=Unicycle(max_force=8))]
     scale = force_scale(Scenario(robots=robots, workspace=[(-3, -3), (3, -3), (3, 3), (-3, 3)]))
-    assert scale.newton * 8 == pytest.approx(1.5 * 0.3)
-    assert scale.strongest == 8
+    assert scale.unit * 8 == pytest.approx(1.5 * 0.3)
+    assert scale.most == 8
 
 
 def test_an_impact_is_cut_short_and_says_how_hard_it_was():
@@ -107,7 +107,7 @@ def test_a_pushed_box_is_held_by_what_the_robot_can_push_with():
         world.step([[0.2], [0.0]])
     frame = world.frame
     (tail, on_box), (_, on_robot) = vectors(forces(frame))
-    size = force_scale(world.scenario).newton
+    size = force_scale(world.scenario).unit
     np.testing.assert_allclose(on_box / size, (5.0, 0.0), atol=0.01)
     np.testing.assert_allclose(on_robot, -on_box)
     np.testing.assert_allclose(tail, frame.pose[:2, 0] + (0.15, 0.0), atol=1e-3)

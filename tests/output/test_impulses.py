@@ -53,7 +53,7 @@ def meeting(offset=0.0, friction=0.0, restitution=1.0, speed=0.5, **changes):
 
 def test_a_central_blow_of_equal_balls_has_the_whole_momentum_along_the_normal():
     world = meeting()
-    scene, unit = impulses(world.frame), impulse_scale(world.scenario).newton_second
+    scene, unit = impulses(world.frame), impulse_scale(world.scenario).unit
     (arrow,) = of(Arrow, scene)
     assert length(arrow) / unit == pytest.approx(1.0 * 0.5)  # m v, for e = 1
     assert [text.text for text in of(Text, scene)] == ["0.50 N s"]
@@ -62,7 +62,7 @@ def test_a_central_blow_of_equal_balls_has_the_whole_momentum_along_the_normal()
 
 def test_normal_and_friction_stand_apart_and_their_sum_ends_on_the_cone_of_a_sliding_blow():
     world = meeting(offset=0.12, friction=0.3)
-    scene, unit = impulses(world.frame), impulse_scale(world.scenario).newton_second
+    scene, unit = impulses(world.frame), impulse_scale(world.scenario).unit
     (press,), (rub,) = of(Arrow, scene, NORMAL), of(Arrow, scene, FRICTION)
     np.testing.assert_allclose(rub.tail, press.tip)
     ahead, across = np.subtract(press.tip, press.tail), np.subtract(rub.tip, rub.tail)
@@ -81,7 +81,7 @@ def test_normal_and_friction_stand_apart_and_their_sum_ends_on_the_cone_of_a_sli
 
 def test_what_the_arrows_say_is_what_the_other_body_gets():
     world = meeting(offset=0.12, friction=0.4)
-    frame, unit = world.frame, impulse_scale(world.scenario).newton_second
+    frame, unit = world.frame, impulse_scale(world.scenario).unit
     arrows = of(Arrow, impulses(frame))
     total = sum(np.subtract(arrow.tip, arrow.tail) for arrow in arrows) / unit
     # Rolling begins: m v sin(a) / 6 beside m v cos(a), of discs with sin(a) = 0.6.
@@ -109,9 +109,7 @@ def test_on_an_obstacle_the_impulse_on_the_body_is_drawn():
         world.step(np.zeros((2, 1)))
     arrow = of(Arrow, impulses(world.frame), NORMAL)[0]
     assert arrow.tip[0] < arrow.tail[0]
-    assert length(arrow) / impulse_scale(world.scenario).newton_second == pytest.approx(1.0), (
-        "2 m v"
-    )
+    assert length(arrow) / impulse_scale(world.scenario).unit == pytest.approx(1.0), "2 m v"
 
 
 def test_steady_pushing_is_a_force_and_no_blow():
@@ -130,7 +128,7 @@ def test_of_many_blows_the_strongest_are_drawn():
     row = 5 * int(np.argmax(counts))
     found = blows(record.frame(row))
     log = record.frame(row).contact_log()
-    least = 0.05 * impulse_scale(record.scenario).strongest
+    least = 0.05 * impulse_scale(record.scenario).most
     last = log[(log["time"] > record.time[row] - 1.0) & log["began"] & (log["impulse"] >= least)]
     newest = {(a, b): size for a, b, size in sorted_by_time(last)}
     np.testing.assert_allclose(found["impulse"], sorted(newest.values())[-MAX_BLOWS:])

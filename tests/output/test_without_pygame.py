@@ -127,6 +127,31 @@ WINDOWS_AND_FILMS = [
 ]
 
 
+def test_pygame_over_pygame_ce_is_one_line_where_it_is_first_needed(tmp_path):
+    other = tmp_path / "pygame"
+    other.mkdir()
+    (other / "__init__.py").write_text("from pygame import version\n")
+    (other / "version.py").write_text("ver = '2.6.1'\n")
+    path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+    line = (
+        "pygame 2.6.1 has been installed over pygame-ce: "
+        "pip uninstall --yes pygame pygame-ce && pip install pygame-ce"
+    )
+
+    def done(*words):
+        command = [sys.executable, "-m", "mars2d", *words]
+        env = os.environ | {"PYTHONPATH": path, "DISPLAY": ":1"}
+        return subprocess.run(
+            command, check=False, cwd=tmp_path, env=env, capture_output=True, text=True
+        )
+
+    for words in (["demo", "random_walk"], ["run", "random_walk"], ["edit"]):
+        refused = done(*words)
+        assert (refused.returncode, refused.stderr) == (2, f"mars2d: {line}\n"), words
+    assert done("run", "random_walk", "--headless", "--stop-time", "2").returncode == 0
+    assert f"NO  display     {line}\n" in done("doctor").stdout
+
+
 def test_a_command_that_needs_pygame_says_so_in_one_line(tmp_path):
     mars2d.run("random_walk", stop_time=1.0).save(tmp_path / "run.npz")
     said = commands([words for words, _ in WINDOWS_AND_FILMS], tmp_path)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import tomllib
+from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 
 import pytest
@@ -21,17 +23,14 @@ AGAIN = "pip install --force-reinstall --no-deps"
 
 
 class Installed:
-    """An installed distribution: where it is, and what pip has noted of where it came from."""
+    """An installed distribution: what pip has noted of where it came from."""
 
-    def __init__(self, told: dict | None, folder: Path) -> None:
-        self.told, self.folder = told, folder
+    def __init__(self, told: dict | None) -> None:
+        self.told = told
 
     def read_text(self, name: str) -> str | None:
         assert name == "direct_url.json"
         return None if self.told is None else json.dumps(self.told)
-
-    def locate_file(self, name: str) -> Path:
-        return self.folder / name
 
 
 @pytest.fixture
@@ -51,7 +50,10 @@ def tools(monkeypatch):
 @each_case(
     "told, line",
     [
-        ({"url": "file:///a/my%20code", "dir_info": {}}, f"{AGAIN} file:///a/my%20code"),
+        (
+            {"url": "file:///a/my%20code", "dir_info": {}},
+            f"{AGAIN} --no-cache-dir file:///a/my%20code",
+        ),
         (
             {"url": "https://x.org/m.git", "vcs_info": {"vcs": "git", "commit_id": "abc"}},
             f"{AGAIN} --no-cache-dir git+https://x.org/m.git@abc",
@@ -69,7 +71,7 @@ def tools(monkeypatch):
 )
 @pytest.mark.usefixtures("tools")
 def test_it_installs_again_from_where_it_was_installed(told, line, monkeypatch):
-    monkeypatch.setattr(remedies, "distribution", lambda _: Installed(told, PACKAGE.parent))
+    monkeypatch.setattr(remedies, "distribution", lambda _: Installed(told))
     assert remedy() == line
 
 
@@ -86,6 +88,25 @@ def test_what_compiles_is_installed_first_where_it_is_missing(tools):
     assert remedy().startswith("dnf install gcc python3-devel && pip install ")
     tools("gcc", "apt-get")
     assert remedy().startswith("pip install ")
+
+
+def test_doctor_names_all_extras_and_the_line_for_those_that_are_missing(monkeypatch):
+    project = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = {*project["optional-dependencies"]} - {"all", "dev", "docs", "test"}
+    findings = {finding.name: finding for finding in examine()}
+    assert extras <= {*findings}
+    assert not {"dev", "docs", "test"} & {*findings}
+
+    def version(name):
+        if name == "av":
+            raise PackageNotFoundError
+        return "1"
+
+    monkeypatch.setattr("mars2d.reports.doctor.version", version)
+    findings = {finding.name: finding for finding in examine()}
+    assert findings["video"].text == 'for films as .mp4: pip install "av>=17"'
+    assert findings["video"].ok is None
+    assert findings["maps"].ok
 
 
 def test_doctor_and_long_runs_say_it(capsys, monkeypatch, tmp_path):

@@ -24,7 +24,7 @@ from mars2d.study.work import Failure, each_done
 pytest.importorskip("distributed")
 
 import dask
-from distributed import LocalCluster
+from distributed import Client, LocalCluster
 
 pytestmark = pytest.mark.slow
 
@@ -95,11 +95,23 @@ def test_nothing_is_lost_or_counted_twice_where_a_worker_is_killed_half_way(exec
         os.kill(found[killed], 0)
 
 
-def test_sweeps_and_tournaments_come_to_the_same_as_here(executor):
-    there = mars2d.sweep("random_walk", seeds=2, stop_time=5, executor=executor)
-    with ThreadPoolExecutor(1) as here:
-        again = mars2d.sweep("random_walk", seeds=2, stop_time=5, executor=here)
-    assert there == again
+def test_a_sweep_comes_to_the_same_bytes_by_whoever_does_it(executor, local, tmp_path):
+    with Client(local, set_as_default=False) as client, ThreadPoolExecutor(2) as threads:
+        ways = {
+            "one": {"workers": 1},
+            "two": {"workers": 2},
+            "threads": {"executor": threads},
+            "cluster": {"executor": executor},
+            "client": {"executor": client},
+        }
+        for name, way in ways.items():
+            grid = {"robots.*.diameter": [0.1, 0.2], "stop_time": 5}
+            mars2d.sweep("random_walk", grid, 3, "path_length", out=tmp_path / f"{name}.csv", **way)
+    [table] = {(tmp_path / f"{name}.csv").read_bytes() for name in ways}
+    assert table.count(b"\n") == 7
+
+
+def test_a_tournament_is_played_by_a_cluster(executor):
     players = sorted((examples()["sumo"].parent / "players").glob("*.py"))[:2]
     matches = mars2d.tournament(
         "sumo", players=players, seeds=1, stop_time=2, executor=executor, replays=False
@@ -153,3 +165,9 @@ def test_the_command_line_chooses_who_does_the_runs(local):
     ):
         with pytest.raises(InputError, match=said), chosen(*words):
             pass
+
+
+def test_a_task_that_ends_each_of_its_workers_is_the_one_that_fails(executor, tasks):
+    found = dict(each_done(tasks.ends_at_seven, range(12), executor))
+    assert found.pop(7).error.startswith("the process that ran it ended")
+    assert found == {k: k * k for k in range(12) if k != 7}

@@ -15,7 +15,7 @@ from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
 from mars2d.core.files import growing
 from mars2d.study.run import TRIALS
-from mars2d.study.table import load_table
+from mars2d.study.table import Table
 from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
 
@@ -161,7 +161,7 @@ def test_a_sweep_whose_every_run_fails_stops_with_the_reason_and_exit_code_1(her
     grid = ["--set", "gain=0.1:1:20", "--measure", "far", "--out", "r.csv"]
     assert main(["sweep", "drift.py", *grid, *workers]) == 1
     out, errors = capsys.readouterr()
-    table = load_table("r.csv")
+    table = Table.load("r.csv")
     assert out == ""
     assert TRIALS <= len(table) == len(table.failed) < 20
     assert len({result.options["gain"] for result in table.results}) == len(table)
@@ -183,10 +183,10 @@ def test_kept_records_are_measured_again_without_a_run(here, capsys):
     words = ["sweep", "drift.py", "--set", "gain=0.5,1", "--seeds", "2", "--keep"]
     assert main([*words, "--measure", "far", "--out", "r.csv"]) == 0
     assert capsys.readouterr().out.endswith("table:  r.csv\nrecords: r_records\n")
-    far, made = load_table("r.csv"), runs(here)
+    far, made = Table.load("r.csv"), runs(here)
     assert (made, len(list((here / "r_records").iterdir()))) == (4, 4)
     assert main([*words, "--measure", "near,far", "--out", "r.csv"]) == 0
-    table = load_table("r.csv")
+    table = Table.load("r.csv")
     assert runs(here) == made
     for before, result in zip(far.results, table.results, strict=True):
         assert (result.error, result.digest) == ("", before.digest)
@@ -269,14 +269,14 @@ def test_what_can_not_be_run_is_said_before_the_first_run(here, how, said):
 
 def test_what_is_in_the_file_is_not_run_again_and_seeds_and_values_may_become_more(here):
     first = sweep({"gain": [0.5, 1.0]}, 2, out="r.csv")
-    assert load_table("r.csv") == first
+    assert Table.load("r.csv") == first
     assert runs(here) == 4
     assert sweep({"gain": [0.5, 1.0]}, 2, out="r.csv") == first
     assert runs(here) == 4
     more = sweep({"gain": [0.25, 0.5, 1.0]}, 3, out="r.csv")
     assert runs(here) == 9
     again = sweep({"gain": [0.25, 0.5, 1.0]}, 3, out="again.csv")
-    assert more == again == load_table("r.csv")
+    assert more == again == Table.load("r.csv")
     assert (here / "r.csv").read_bytes() == (here / "again.csv").read_bytes()
 
 
@@ -373,7 +373,7 @@ def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(he
     once_rows(here / "r.csv", 3, process)
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does
     _, errors = process.communicate(timeout=PATIENCE)
-    rows = len(load_table("r.csv"))
+    rows = len(Table.load("r.csv"))
     assert process.returncode == 130, errors
     assert errors == f"mars2d: {rows} of 40 runs are in r.csv; the same command goes on\n"
     assert 3 <= rows < 40
@@ -384,7 +384,7 @@ def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(he
     process.communicate(timeout=PATIENCE)
     with (here / "r.csv").open("ab") as file:
         file.write(b"17,drift.py,0.5,1,0.2")  # what a full disk or a power failure leaves
-    there = len(load_table("r.csv"))
+    there = len(Table.load("r.csv"))
     assert rows + 3 <= there < 40
 
     (here / "ran.txt").unlink()
@@ -402,7 +402,7 @@ def test_a_row_is_run_again_alone(here, capsys):
     assert out.startswith("row 3 of sweep.csv: drift.py, gain = 1.0, seed 0\n")
     assert out.endswith(", the same\nrecord: run.npz\npage:   run.html\n")
     assert "there is no display, so this runs without a window" in errors
-    assert mars2d.load("run.npz").digest == load_table("sweep.csv").results[2].digest
+    assert mars2d.load("run.npz").digest == Table.load("sweep.csv").results[2].digest
     assert (here / "run.html").stat().st_size > 10_000
 
 
@@ -425,7 +425,7 @@ def test_points_that_can_not_be_opened_are_said_before_the_first_run(here, capsy
     out, errors = capsys.readouterr()
     assert errors.startswith("mars2d: drift.py, line 15, with n = 40")
     assert "1 run failed" in out
-    assert len(load_table("sweep.csv").failed) == 1
+    assert len(Table.load("sweep.csv").failed) == 1
 
 
 def test_ctrl_c_in_python_leaves_the_rows_that_were_made(here):

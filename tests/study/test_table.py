@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from mars2d import InputError, Table
-from mars2d.study.table import Result, load_table, save_table
+from mars2d import InputError
+from mars2d.study.table import Result, Table
 from tests.cases import each_case
 
 ROWS = (
@@ -26,12 +26,11 @@ def path(tmp_path):
 
 
 def test_a_table_comes_back_from_its_file_as_it_was(path):
-    assert load_table(save_table(TABLE, path)) == TABLE
     assert Table.load(TABLE.save(path)) == TABLE
 
 
 def test_the_file_is_as_rfc_4180_has_it(path):
-    save_table(TABLE, path)
+    TABLE.save(path)
     assert path.read_bytes().decode().split("\r\n") == [
         "row,experiment,n,red,seed,time,won,digest,code,error",
         '1,duel.py,1,"a, b.py",0,0.30000000000000004,red,ab,12,',
@@ -48,14 +47,14 @@ def test_words_that_a_spreadsheet_would_run_have_a_quote_and_come_back_as_they_w
         Result(k, {"n": 1, "red": "a"}, k, {"time": word, "won": word}, error=word)
         for k, word in enumerate(words, 1)
     ]
-    assert load_table(save_table(of(*results), path)) == of(*results)
+    assert Table.load(of(*results).save(path)) == of(*results)
     rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
     assert not any(row[k][:1] in ("=", "+", "-", "@") for row in rows for k in (5, 6, -1))
 
 
 def test_pandas_reads_the_file_without_options(path):
     pandas = pytest.importorskip("pandas")
-    frame = pandas.read_csv(save_table(TABLE, path))
+    frame = pandas.read_csv(TABLE.save(path))
     assert frame["time"].tolist()[::2] == [0.1 + 0.2, 3.0]
     assert frame["time"].isna().tolist() == [False, True, False]
     assert frame["error"][1] == 'a.py, line 3: "no"'
@@ -80,7 +79,7 @@ def test_pandas_reads_the_file_without_options(path):
 def test_what_is_no_table_says_so_in_one_line(path, data, said):
     path.write_bytes(data)
     with pytest.raises(InputError) as caught:
-        load_table(path)
+        Table.load(path)
     assert said in str(caught.value)
     assert str(path) in str(caught.value)
 

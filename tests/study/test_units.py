@@ -8,7 +8,7 @@ import pytest
 
 from mars2d import InputError
 from mars2d.study.summary import comparison, summary
-from mars2d.study.table import Result, Table, load_table
+from mars2d.study.table import Result, Table
 from mars2d.study.units import checked_units, parse_units, unit_of_field
 from tests.cases import each_case
 
@@ -55,7 +55,7 @@ def test_a_unit_that_is_stated_is_kept_in_the_file_and_no_other(tmp_path):
     table = study("stop_time", {"far": "1/s"})
     table.save(path)
     assert path.read_text().startswith("row,experiment,stop_time,seed,end_time,far [1/s],digest,")
-    assert load_table(path) == table
+    assert Table.load(path) == table
 
 
 @each_case(

@@ -113,6 +113,25 @@ def test_where_there_is_little_room_the_one_opened_last_is_seen_whole():
     assert seen.dock.plates["panel0"].height > 100 > seen.dock.plates["panel2"].height
 
 
+def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fitted():
+    panels = [Plain("scopes"), Plain("inspector", least=300.0, wanted=500.0)]
+    panels[1].frames = False
+    seen = Seen(panels, (1024, 768))
+    for framed in (False, True):
+        panels[0].is_open = framed
+        alone = seen.draw().arena
+        panels[1].is_open = True
+        assert seen.draw().arena == alone
+        seen.draw(alone.center)
+        assert not seen.dock.plates["inspector"].collidepoint(alone.center)
+        panels[1].is_open = False
+        assert seen.draw().arena == alone
+    panels[0].is_open, panels[1].is_open = False, True
+    seen.draw()
+    seen.dock.reframe()
+    assert not seen.draw().dock.plates["inspector"].colliderect(seen.arena)
+
+
 def test_a_panel_is_closed_by_its_button_and_opened_by_name():
     panels = some(2)
     seen = Seen(panels)

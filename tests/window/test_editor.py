@@ -336,6 +336,16 @@ def test_duplicate_undo_and_redo(open_editor):
     hands.until(lambda s: len(s["robots"]) == 2)
 
 
+def test_undo_of_a_deletion_selects_what_comes_back(open_editor):
+    hands = open_editor(team((0, 0), (2, 0)))
+    hands.click(2, 0)
+    hands.until(lambda s: s["selection"] == [["robot", 1, 0]])
+    hands.press("Delete")
+    hands.until(lambda s: len(s["robots"]) == 1 and s["selection"] == [])
+    hands.press("ctrl+z")
+    hands.until(lambda s: s["selection"] == [["robot", 1, 0]])
+
+
 # -- what is wrong --------------------------------------------------------------------------------
 
 
@@ -387,6 +397,9 @@ def test_saving_asks_for_a_name_once_and_before_it_overwrites(open_editor, tmp_p
     hands.press("Return", "Return")
     hands.until(lambda s: s["notice"] == "Saved room.toml" and not s["changed"])
     assert load_scenario(tmp_path / "room.toml").title == "Room"
+    hands.press("Escape", "Escape")
+    hands.until(lambda s: ["Title", "Room"] in s["rows"] and not s["changed"])
+    hands.press("r")
     hands.click(2, 2)
     hands.until(lambda s: len(s["robots"]) == 2 and s["changed"])
     hands.press("ctrl+s")

@@ -155,7 +155,7 @@ def test_history_goes_back_and_forth_and_merges_nudges():
     assert not history.changed
     assert [history.redo() for _ in range(4)] == [True, True, True, False]
     assert history.draft is drafts[-1]
-    history.mark_saved()
+    history.mark_saved(history.draft)
     assert not history.changed
     for _ in range(3):
         moved = history.draft.moved([Item("robot", 0)], Motion(by=(0.0, 0.1)))

@@ -8,8 +8,9 @@ import pytest
 
 from mars2d import Robot, Scenario
 from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.layout import Layout
 from mars2d.record.frame import Frame
-from mars2d.window.screen.viewpoint import Follow
+from mars2d.window.screen.viewpoint import Follow, Viewpoint
 
 PLOT = pygame.Rect(0, 52, 1280, 580)
 START = Camera(60.0, 100.0, 400.0)
@@ -72,3 +73,20 @@ def test_a_team_that_gathers_is_looked_at_from_nearer_up_to_a_bound():
         camera = follow.camera(camera, frame_of((0.0, 0.0), (0.5, 0.0)), PLOT, 1 / 60)
     assert 100 < camera.scale < 200
     np.testing.assert_allclose(camera.to_pixels([(0.25, 0.0)])[0], PLOT.center, atol=1)
+
+
+def test_who_is_driven_is_always_inside_and_who_is_inside_moves_no_picture():
+    scenario = frame_of((0, 0), (1, 1)).scenario
+    view = Viewpoint(scenario, Layout.of((1280, 720), controls=True))
+    room = pygame.Rect(60, 60, 800, 500)
+    view.arrange(view.layout, scenario, room)
+    view.keep(frame_of((0.5, 0.5), (1, 1)), (0, 1))
+    before = view.camera
+    for place in ((3, 2), (-20, 0), (0, 30), (500, -500)):
+        frame = frame_of(place, (1, 1))
+        view.keep(frame, ())
+        view.keep(frame, (0,))
+        (x, y), reach = view.camera.to_pixels([place])[0], 0.15 * view.camera.scale
+        assert room.left + reach - 2 <= x <= room.right - reach + 2
+        assert room.top + reach - 2 <= y <= room.bottom - reach + 2
+    assert view.camera != before

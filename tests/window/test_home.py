@@ -6,7 +6,7 @@ import pytest
 
 from mars2d.cli.command_line import main, parse
 from mars2d.output.raster.layout import TEXT_SIZES
-from mars2d.scenario.examples import examples, games, thumbnail_of
+from mars2d.scenario.examples import examples, games
 from mars2d.window.home import Home
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.memory import Memory
@@ -48,15 +48,6 @@ def press(home, key, modifiers=0):
 
 def all_cards(home):
     return [card for shelf in home.shelves for card in shelf.cards]
-
-
-# -- courses --------------------------------------------------------------------------------------
-
-
-def test_each_example_has_its_pictures():
-    for name in examples():
-        for looks in ("light", "dark"):
-            assert thumbnail_of(name, looks).is_file(), name
 
 
 # -- clicks ---------------------------------------------------------------------------------------
@@ -149,13 +140,15 @@ def test_the_buttons_change_colours_and_text(memory):
 def test_files_last_opened_come_first_with_their_pictures(memory, tmp_path):
     red = pygame.Surface((700, 500), 0, 32)
     red.fill("red")
-    for name in ("a.py", "b.toml", "gone.py", "a.py"):
+    (tmp_path / "tag").mkdir()
+    for name in ("tag/game.py", "a.py", "b.toml", "gone.py", "a.py"):
         (tmp_path / name).touch()
         memory.opened(tmp_path / name, red)
     (tmp_path / "gone.py").unlink()
-    assert Memory().recent == [tmp_path / "a.py", tmp_path / "b.toml"]
+    names = ["a.py", "b.toml", "tag/game.py"]
+    assert Memory().recent == [tmp_path / name for name in names]
     home, surface = shown(Memory())
-    assert [card.title for card in home.shelves[0].cards] == ["New drawing", "a.py", "b.toml"]
+    assert [card.title for card in home.shelves[0].cards] == ["New drawing", *names]
     place = home.page.places[1][1]
     pixels = pygame.surfarray.array3d(surface)
     near = pixels[place.left : place.right, place.top + 80 : place.top + 180].reshape(-1, 3)

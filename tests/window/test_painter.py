@@ -1,6 +1,7 @@
 """What is painted lies where it should, in its colour, with soft edges; without any display."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pygame
@@ -199,6 +200,25 @@ def test_while_the_camera_moves_a_slow_picture_is_enlarged_and_then_drawn_anew(m
     fresh = pygame.Surface((640, 480), 0, 32)
     Stage(painter).draw(fresh, now, zoomed, layers, plot)
     assert differing(fresh, fine) == 0
+
+
+def test_while_the_camera_moves_an_enlarged_picture_is_never_older_than_a_quarter_of_a_second(
+    monkeypatch,
+):
+    clock = SimpleNamespace(now=10.0)
+    monkeypatch.setattr("mars2d.output.raster.stage.PATIENCE", -1.0)
+    monkeypatch.setattr("mars2d.output.raster.stage.perf_counter", lambda: clock.now)
+    stage, surface = Stage(Painter()), pygame.Surface((640, 480), 0, 32)
+    now, ages = frame(), []
+    camera = Camera.fit(now.scenario.bounds, (640, 480), (20, 20, 20, 20))
+    for _ in range(60):
+        stage.draw(surface, now, camera, Layers(), surface.get_rect(), hurried=True)
+        if stage._canvas.camera.scale == camera.scale:
+            drawn = clock.now
+        ages.append(clock.now - drawn)
+        clock.now += 1 / 60
+        camera = camera.zoomed((320, 240), 1.01)
+    assert 0.2 < max(ages) <= 0.25 + 1 / 60
 
 
 # -- arrows and forces ----------------------------------------------------------------------------

@@ -20,14 +20,13 @@ def sprite(width, height):
     return pygame.Surface((width, height), pygame.SRCALPHA, 32), 0, 0
 
 
-def test_the_one_not_asked_for_the_longest_goes_first():
+def test_a_full_store_is_emptied_and_what_is_too_large_is_not_kept():
     sprites = Sprites(300)
-    for name in "abc":
+    for name in "abcd":
         sprites.keep(name, sprite(10, 10))
-    assert sprites.get("a") is not None
-    sprites.keep("d", sprite(10, 10))
-    assert [name for name in "abcd" if sprites.get(name)] == ["a", "c", "d"]
-    assert sprites.kept == 300
+    assert (list(sprites), sprites.kept) == (["d"], 100)
+    sprites.keep("e", sprite(20, 20))
+    assert (list(sprites), sprites.kept) == ([], 0)
 
 
 # -- pictures -------------------------------------------------------------------------------------
@@ -167,4 +166,4 @@ def test_what_is_kept_has_a_bound(record):
     for _ in range(30):
         viewer.play(2, draw=True)
         most = max(most, painter._sprites.kept)
-    assert 15_000 < most <= 20_000
+    assert 10_000 < most <= 20_000

@@ -397,3 +397,15 @@ def test_without_checks_there_is_no_button_for_predictions(open_window, room):
     assert "predictions" not in window.state["buttons"]
     window.press("F3")
     window.says("this file has no checks")
+
+
+def test_a_right_click_selects_and_neither_moves_the_picture_nor_leaves_its_menu(open_window):
+    window = open_window(1, experiment="push_box")
+    window.press("space")
+    view = window.state["scale"], window.state["origin"]
+    window.click(*window.state["robots"][1][:2], button=3)
+    window.until(lambda s: s["selected"] == 1 and "inspector" in s["panels"] and s["menu"])
+    assert (window.state["scale"], window.state["origin"]) == view
+    window.press("Escape", "Tab")
+    window.until(lambda s: s["selected"] == 2)
+    assert (window.state["scale"], window.state["origin"]) == view

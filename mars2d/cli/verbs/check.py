@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from mars2d.addons import maps
-from mars2d.bodies.joints import Joint
 from mars2d.cli import remarks
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import run_headless
@@ -28,7 +28,6 @@ from mars2d.scenario.options import options_in_words, parse_option, reading_opti
 from mars2d.scenario.policy import SUFFIX as LEARNED
 from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
-from mars2d.scenario.scenario import Scenario
 from mars2d.testing.file import trials
 from mars2d.testing.finding import Finding
 from mars2d.tournaments.match import play
@@ -87,20 +86,21 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.game is not None or arguments.role is not None:
         _check_in_game(path, arguments)
         return
-    if path.suffix.lower() in maps.SUFFIXES:
+    options = dict(map(parse_option, arguments.set))
+    suffix, laws, picture = path.suffix.lower(), arguments.laws, arguments.figure
+    if suffix in maps.SUFFIXES and laws is None:
         check_outputs(arguments, {"figure": figure.SUFFIXES})
-        _check_map(path, dict(map(parse_option, arguments.set)), arguments.figure)
+        _check_map(path, options, picture)
         return
-    of_record = path.suffix.lower() in formats.SUFFIXES
-    if arguments.laws is not None and not of_record:
+    if laws is not None and suffix not in formats.SUFFIXES:
         raise InputError(f"--laws is for records: {', '.join(formats.SUFFIXES)}")
-    for option in ("set", "figure"):
-        if getattr(arguments, option) and not (option == "set" and arguments.laws is not None):
-            raise InputError(f"--{option} is for maps: {', '.join(maps.SUFFIXES)}")
-    if of_record:
+    if picture or (options and laws is None):
+        name = "figure" if picture else "set"
+        raise InputError(f"--{name} is for maps: {', '.join(maps.SUFFIXES)}")
+    if suffix in formats.SUFFIXES:
         record = _check_record(path)
-        if arguments.laws is not None:
-            _ask_laws(path, record, arguments.laws, dict(map(parse_option, arguments.set)))
+        if laws is not None:
+            _ask_laws(path, record, laws, options)
     elif path.suffix in ("", ".py", ".toml", LEARNED):
         _check_code(arguments.file)
     else:
@@ -148,47 +148,63 @@ def _check_map(path: Path, options: dict[str, Any], picture: Path | None) -> Non
         if name not in known:
             raise InputError(f"--set {name}: no option{nearest(name, known)}")
     drawing = maps.read(path, **options)
-    for name, text in maps.described(drawing, maps.obstacles(drawing)):
-        tell(f"{name:<12}{text}")
+    _tell_all(maps.described(drawing, maps.obstacles(drawing)))
     if picture is not None:
         tell(f"picture     {save_map(drawing, picture)}")
 
 
 def _check_code(source: str) -> None:
     """Check a file of parts, laws, an experiment, or several of these."""
-    module, experiment = _opened(source)
-    limit = Deadline(PATIENCE, _give_up(source))
+    with _limited(source, LOADING) as limit, limit:
+        module, experiment = _opened(source)
     if experiment is not None:
-        for name, text in _description(experiment):
-            tell(f"{name:<12}{text}")
+        _tell_all(_description(experiment))
         for remark in remarks.before(experiment):
             tell(f"hint        {remark}")
-    wrong = _try_all(module, experiment, limit)
-    if len(wrong) == 1:
-        name = Path(source).name
-        place = "" if wrong[0].text.startswith(f"{name}, line") else f"{name}: "
-        raise InputError(place + wrong[0].text)
-    if wrong:
-        raise InputError(f"{source}: {len(wrong)} things are wrong, as said above")
+    with _limited(source, PATIENCE) as limit:
+        wrong = _try_all(module, experiment, limit)
+        if len(wrong) == 1:
+            name = Path(source).name
+            place = "" if wrong[0].text.startswith(f"{name}, line") else f"{name}: "
+            raise InputError(place + wrong[0].text)
+        if wrong:
+            raise InputError(f"{source}: {len(wrong)} things are wrong, as said above")
     if experiment is not None:
-        tell(f"sound: {counted(_run(experiment, source, limit), 'control step')} done")
+        scenario = experiment.scenario
+        stop_time = min(TRIAL_STEPS * scenario.sampling_time, scenario.stop_time)
+        trial = Experiment(scenario.replace(stop_time=stop_time), experiment.control)
+        with _limited(source, PATIENCE) as limit, limit:
+            rows = len(run_headless(trial, [lambda _: limit.alive()]).history)
+        tell(f"sound: {counted(rows, 'control step')} done")
+
+
+@contextmanager
+def _limited(source: str, seconds: float) -> Iterator[Deadline]:
+    """Yield a limit of time; code that it breaks off is named, or ends the process."""
+
+    def give_up(where: str) -> None:
+        tell()  # ends the line of what is tried
+        warn(f"{source}: does not come to an end{f' at {where}' if where else ''}")
+        os._exit(BAD_INPUT)
+
+    limit = Deadline(seconds, give_up)
+    try:
+        yield limit
+    except Late:
+        where = f" at {limit.where}" if limit.where else ""
+        raise InputError(f"{source}: did not come to an end within {seconds:g} s{where}") from None
 
 
 def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
     """Return a file as a module, and its experiment; None if it has only parts or laws."""
-    limit = Deadline(LOADING, _give_up(source))
-    try:
-        with limit:
-            if Path(source).suffix == ".toml":
-                return ModuleType(source), open_experiment(source)
-            if Path(source).suffix == LEARNED:
-                return ModuleType(source), _where_it_learned(Path(source))
-            module = open_module(source)
-            if not hasattr(module, "scenario") and any(True for _ in trials(module, None)):
-                return module, None
-            return module, open_experiment(module)
-    except Late:
-        raise _late(source, limit) from None
+    if Path(source).suffix == ".toml":
+        return ModuleType(source), open_experiment(source)
+    if Path(source).suffix == LEARNED:
+        return ModuleType(source), _where_it_learned(Path(source))
+    module = open_module(source)
+    if not hasattr(module, "scenario") and any(True for _ in trials(module, None)):
+        return module, None
+    return module, open_experiment(module)
 
 
 def _where_it_learned(path: Path) -> Experiment:
@@ -231,75 +247,42 @@ def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline)
     return wrong
 
 
-def _run(experiment: Experiment, source: str, limit: Deadline) -> int:
-    """Do some control steps and return the number of rows recorded."""
-    scenario = experiment.scenario
-    stop_time = min(TRIAL_STEPS * scenario.sampling_time, scenario.stop_time)
-    trial = Experiment(scenario.replace(stop_time=stop_time), experiment.control)
-    try:
-        with limit:
-            return len(run_headless(trial, [lambda _: limit.alive()]).history)
-    except Late:
-        raise _late(source, limit) from None
-
-
-def _late(source: str, limit: Deadline) -> InputError:
-    where = f" at {limit.where}" if limit.where else ""
-    return InputError(f"{source}: did not come to an end within {limit.patience:g} s{where}")
-
-
-def _give_up(source: str) -> Callable[[str], None]:
-    """Return a function that ends the process, for code that can't even be interrupted."""
-
-    def leave(where: str) -> None:
-        place = f" at {where}" if where else ""
-        tell()  # ends the line of what is tried
-        warn(f"{source}: does not come to an end{place}")
-        os._exit(BAD_INPUT)
-
-    return leave
+def _tell_all(rows: Iterable[tuple[str, str]]) -> None:
+    for name, text in rows:
+        tell(f"{name:<12}{text}")
 
 
 def _description(experiment: Experiment) -> list[tuple[str, str]]:
     """Return a description of an experiment as names and texts."""
     scenario = experiment.scenario
     xmin, xmax, ymin, ymax = scenario.bounds
-    rows = [("title", scenario.title)]
-    rows += [(str(robot.name), _robot(robot)) for robot in scenario.robots[:MAX_ROBOTS_LISTED]]
-    if len(scenario.robots) > MAX_ROBOTS_LISTED:
-        rows.append(("", f"and {counted(len(scenario.robots) - MAX_ROBOTS_LISTED, 'robot')} more"))
-    corners = "no limits"
+    more = len(scenario.robots) - MAX_ROBOTS_LISTED
+    limits = "no limits"
     if scenario.workspace is not None:
-        corners = f"{len(scenario.workspace)} corners, on_exit {scenario.on_exit!r}"
+        limits = f"{len(scenario.workspace)} corners, on_exit {scenario.on_exit!r}"
     law = getattr(experiment.control, "__name__", "")
     own = sum(robot.controller is not None for robot in scenario.robots)
-    laws = [f"{law}(world) of the team"] if law else []
-    laws += [f"{own} of robots' own"] if own else []
-    rows += [
-        ("workspace", f"{xmax - xmin:g} m x {ymax - ymin:g} m, {corners}"),
+    laws = [f"{law}(world) of the team"] * bool(law) + [f"{own} of robots' own"] * bool(own)
+    joints = (
+        f"{type(tie.joint).__name__} of {tie.joint.a} and {tie.joint.b or 'the world'}"
+        for tie in scenario.ties
+    )
+    checks = "checks(record), made after a whole run"
+    rows = [
+        ("title", scenario.title),
+        *((str(robot.name), _robot(robot)) for robot in scenario.robots[:MAX_ROBOTS_LISTED]),
+        ("", f"and {counted(more, 'robot')} more" if more > 0 else ""),
+        ("workspace", f"{xmax - xmin:g} m x {ymax - ymin:g} m, {limits}"),
         ("obstacles", str(len(scenario.obstacles))),
-        *_things(scenario),
+        ("props", ", ".join(str(prop.name) for prop in scenario.props)),
+        ("joints", ", ".join(joints)),
+        ("physics", "" if scenario.physics == "contact" else scenario.physics),
         ("add-ons", ", ".join(addon.key for addon in scenario.addons) or "none"),
         ("time", f"{scenario.stop_time:g} s in steps of {scenario.sampling_time:g} s"),
         ("laws", ", ".join(laws) or "none: all robots stand still"),
-    ]
-    if experiment.source.checks is not None:
-        rows.append(("checks", "checks(record), made after a whole run"))
-    return rows
-
-
-def _things(scenario: Scenario) -> list[tuple[str, str]]:
-    """Return the rows on props, joints and physics without forces, if there are any."""
-    rows = [
-        ("props", ", ".join(str(prop.name) for prop in scenario.props)),
-        ("joints", ", ".join(_joint(tie.joint) for tie in scenario.ties)),
-        ("physics", "" if scenario.physics == "contact" else scenario.physics),
+        ("checks", "" if experiment.source.checks is None else checks),
     ]
     return [(name, text) for name, text in rows if text]
-
-
-def _joint(joint: Joint) -> str:
-    return f"{type(joint).__name__} of {joint.a} and {joint.b or 'the world'}"
 
 
 def _robot(robot: Robot) -> str:
@@ -315,37 +298,51 @@ def _check_record(path: Path) -> Record:
     record = load(path)
     versions = ", ".join(f"{name} {version}" for name, version in record.versions.items())
     source = one_line(record.filename) or "a Scenario"
-    tell(f"record of   {record.scenario.title} ({source})")
-    tell(f"seed        {record.seed}")
-    tell(f"rows        {len(record)}, up to {record.time[-1] if len(record) else 0:g} s")
-    tell(f"ended       {one_line(record.over_message)}")
-    tell(f"made with   {one_line(versions)}")
-    tell(f"digest      {record.digest}")
+    rows = [
+        ("record of", f"{record.scenario.title} ({source})"),
+        ("seed", str(record.seed)),
+        ("rows", f"{len(record)}, up to {record.time[-1] if len(record) else 0:g} s"),
+        ("ended", one_line(record.over_message)),
+        ("made with", one_line(versions)),
+        ("digest", record.digest),
+    ]
     if record.options:
-        tell(f"options     {options_in_words(record.options)}")
+        rows.append(("options", options_in_words(record.options)))
     for change in record.changes:
         if change.options:
             when = change.row * record.scenario.sampling_time
-            tell(f"set         at {when:g} s: {options_in_words(dict(change.options))}")
+            rows.append(("set", f"at {when:g} s: {options_in_words(dict(change.options))}"))
     if record.missing:
-        tell(f"without     {', '.join(record.missing)}: of the user's own, not in the file")
+        what = f"{', '.join(record.missing)}: of the user's own, not in the file"
+        rows.append(("without", what))
+    _tell_all(rows)
     if not len(record):
         tell("run again   nothing: it has no rows")
         return record
-    bar = Progress(len(record), "rows")
+    with _repeating(path, record) as update:
+        departure = rerun(record, update)
+    if departure is not None:
+        others = [f"{k} {a}, here {b}" for k, (a, b) in other_versions(record).items()]
+        reason = f"; it was made with {', '.join(others)}" if others else ""
+        raise Mars2dError(
+            f"{path}: run again from its recorded commands, it departs at {departure}{reason}"
+        )
+    tell("run again   from its recorded commands: bit-identical")
+    return record
+
+
+@contextmanager
+def _repeating(path: Path, record: Record) -> Iterator[Callable[[int], None]]:
+    """Show a progress bar, and name the record in errors but those of laws."""
+    bar = Progress(max(len(record), 1), "rows")
     try:
-        departure = rerun(record, bar.update)
+        yield bar.update
+    except LawError:
+        raise
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
     finally:
         bar.close()
-    if departure is not None:
-        raise Mars2dError(
-            f"{path}: run again from its recorded commands, it departs at "
-            f"{departure}{_likely_reason(record)}"
-        )
-    tell("run again   from its recorded commands: bit-identical")
-    return record
 
 
 def _ask_laws(path: Path, record: Record, source: str, options: dict[str, Any]) -> None:
@@ -353,15 +350,8 @@ def _ask_laws(path: Path, record: Record, source: str, options: dict[str, Any]) 
     if source == SAME:
         source, options = _source_of(path, record), {**record.options, **options}
     experiment = open_experiment(source, options, seed=record.seed)
-    bar = Progress(max(len(record), 1), "rows")
-    try:
-        departures = ask_again(record, experiment, bar.update)
-    except LawError:
-        raise
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
-    finally:
-        bar.close()
+    with _repeating(path, record) as update:
+        departures = ask_again(record, experiment, update)
     if departures:
         more = len(departures) - 1
         also = f"; and in {counted(more, 'other row')}" if more else ""
@@ -380,9 +370,3 @@ def _source_of(path: Path, record: Record) -> str:
     if experiment_name(Path(name)) in examples():
         return experiment_name(Path(name))
     raise InputError(f"{path}: {name} is not here: name the experiment, --laws EXPERIMENT")
-
-
-def _likely_reason(record: Record) -> str:
-    """Return the versions that differ from those of the record, and may change its last bits."""
-    others = [f"{k} {then}, here {now}" for k, (then, now) in other_versions(record).items()]
-    return f"; it was made with {', '.join(others)}" if others else ""

@@ -81,7 +81,7 @@ def execute(arguments: argparse.Namespace) -> None:
         warn(remark)
     bounds, start = remarks.Bounds(), time.perf_counter()
     try:
-        with _live(arguments) as live:
+        with _live(arguments.foxglove) as live:
             watchers: list[Watcher] = [bounds, *live]
 
             def run() -> tuple[Record, Make | None]:
@@ -134,14 +134,14 @@ def _check(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, 
 
 
 @contextmanager
-def _live(arguments: argparse.Namespace) -> Iterator[list[Watcher]]:
-    """Serve the run to Foxglove, if that is asked for, and yield who sends it."""
-    if arguments.foxglove is None:
+def _live(port: int | None) -> Iterator[list[Watcher]]:
+    """Serve the run to Foxglove at a port, and yield who sends it."""
+    if port is None:
         yield []
         return
     from mars2d.output.formats.mcap.live import Live
 
-    with Live(arguments.foxglove) as live:
+    with Live(port) as live:
         warn(f"Foxglove: open {live.address}")
         yield [live]
 

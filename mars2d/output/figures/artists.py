@@ -19,7 +19,7 @@ from mars2d.core.scene import (
     Text,
     split_wake_style,
 )
-from mars2d.output.arrow import arrow_outline
+from mars2d.output.lines import MARK_SPACING, SHIFTS, TEXT_GAP, arrow_outline, spaced
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,9 +30,6 @@ Float = NDArray[np.float64]
 
 SHAPES = 2.0
 """The default zorder of shapes."""
-
-TEXT_GAP = 4.0  # points between a label and the point it names
-MARK_SPACING = 9.0  # points along a path from one mark to the next
 
 # Matlab's marks: matplotlib's name of each, whether it is filled, its diameter in points.
 MARKS: dict[str, tuple[Any, bool, float]] = {
@@ -135,24 +132,12 @@ def _line(shape: Line, scale: float, ppm: float) -> Line2D:
         line.set_markersize(size * scale)
         line.set_markeredgewidth(0.0 if mark == "." else shape.width * scale)
         line.set_markerfacecolor(shape.stroke if filled else "none")
-        line.set_markevery(_spaced(shape.points, MARK_SPACING * scale / ppm))
+        line.set_markevery(spaced(shape.points, MARK_SPACING * scale / ppm).tolist())
     return line
 
 
-def _spaced(points: Float, spacing: float) -> list[int]:
-    """Return the indices of the points (k, 2) to mark, about `spacing` metres apart."""
-    if len(points) == 0:
-        return []
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    kept: list[int] = np.unique(np.floor(along / spacing), return_index=True)[1].tolist()
-    return kept
-
-
 def _write(shape: Text, ax: Axes, scale: float, level: float) -> None:
-    # "left" puts the text's left end at the point, as in Matlab and matplotlib.
-    shifts = {"left": (1, 0), "right": (-1, 0), "above": (0, 1), "below": (0, -1)}
-    dx, dy = shifts.get(shape.anchor, (0, 0))
+    dx, dy = SHIFTS.get(shape.anchor, (0, 0))
     label = ax.annotate(
         shape.text,
         shape.position,

@@ -182,16 +182,15 @@ def _title(ax: Axes, mode: str, record: Rows) -> None:
     )  # fmt: skip
 
 
-def plot_drift(comparison: Comparison, ax: Axes) -> list[Float]:
+def plot_drift(comparison: Comparison, ax: Axes) -> None:
     """Draw the drift of "stop" and "ideal" from "contact" over time.
 
-    The scale is linear, unless one of the two would lie flat on the axis. Returns the curves, each
-    (T, 2) in seconds and metres: the largest and the mean drift of "stop", then of "ideal".
+    The scale is linear, unless one of the two would lie flat on the axis.
     """
     peaks = [float(drift.max.max()) for drift in comparison.drifts.values()]
     _set_limits(ax, comparison.end, min(peaks), max(peaks))
     low = ax.get_ylim()[0]
-    curves, entries = [], []
+    entries = []
     for mode, drift in comparison.drifts.items():
         for values, dash, width, name in (
             (drift.max, "-", 2.2, "max"),
@@ -204,14 +203,12 @@ def plot_drift(comparison: Comparison, ax: Axes) -> list[Float]:
                 clip_on=False, marker="o", markersize=6.5, markeredgecolor="white",
                 markeredgewidth=0.8, markevery=[-1], zorder=3, label=f"{mode}, {name}",
             )  # fmt: skip
-            curves.append(np.column_stack([drift.time, shown]))
     title = f"How far each {_body(comparison)} is from where contact puts it"
     ax.set_title(title, loc="left", fontsize=11, color=INK, pad=8)
     place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0)}
     add_legend(ax, entries, SCREEN, ncols=len(entries), **place)
     if max(peaks) < NO_DRIFT:
         say(ax, "no drift: the three runs agree", SCREEN)
-    return curves
 
 
 def _set_limits(ax: Axes, end: float, low: float, high: float) -> None:

@@ -29,10 +29,10 @@ from mars2d.output.figures.legend import (
     sign_scale,
 )
 from mars2d.output.figures.style import SCREEN, Style, style_of
-from mars2d.output.layers.arrows import has_cut
+from mars2d.output.layers.arrows import Sign, has_cut
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.impulses import impulses
-from mars2d.output.layers.legend import Sign, legends
+from mars2d.output.layers.legend import legends
 from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails
@@ -96,8 +96,7 @@ def plot_paths(
     entries = _entries(record.scenario, look) + _signs([last], layers, look, _ppm(look, view))
     with look.fonts():
         if ax is None:
-            width, height = _page(look, view, legend_size(entries, look))
-            ax = new_figure(width, height).add_subplot()
+            ax = new_figure(*_page(look, view, legend_size(entries, look))).add_subplot()
         else:
             check_axes(ax)
             if ax.has_data():  # a second record on top of a first one
@@ -113,22 +112,28 @@ def plot_paths(
     return ax
 
 
-def _page(look: Style, view: View, legend: tuple[float, float]) -> tuple[float, float]:
-    """Return the size of a figure with one drawing and its legend, inches."""
+def _page(
+    look: Style, view: View, legend: tuple[float, float], cols: int = 1, lines: int = 1
+) -> tuple[float, float]:
+    """Return the size of a figure with drawings in columns and lines, and a legend, inches."""
     if look.page is not None:
         return look.page
-    beside = 0.8 * look.label / SCREEN.label + legend[0]
-    if look.single is None:
-        width, height = view.inches(5.2, 4.8)
-        return width + beside, max(height, legend[1]) + 0.9
-    _, height = view.inches(look.single - beside, 1.5 * look.single)
-    return look.single, max(height, legend[1]) + 0.5
+    one, beside = cols * lines == 1, 0.8 * look.label / SCREEN.label + legend[0]
+    fixed = look.single if one else look.full
+    if fixed is None:
+        room = (5.2, 4.8) if one else (min(3.2, 9.6 / cols),) * 2
+        width, height = view.inches(*room)
+        gap = (0.0, 0.0) if one else (0.25, 0.4)
+        wide, tall = cols * (width + gap[0]), lines * (height + gap[1])
+        return wide + beside, max(tall, legend[1]) + 0.9
+    _, height = view.inches((fixed - beside) / cols - 0.1, 1.5 * fixed)
+    return fixed, max(lines * (height + 0.25), legend[1]) + 0.4
 
 
-def _ppm(look: Style, view: View, cols: int = 1) -> float:
-    """Return the points of a metre, approximately, in drawings side by side in a new figure."""
-    wide, tall = look.page or ((look.single if cols == 1 else look.full) or 7.0, 6.0)
-    return 72 * view.inches(0.75 * wide / cols, 0.8 * tall)[0] / view.width
+def _ppm(look: Style, view: View, cols: int = 1, lines: int = 1) -> float:
+    """Return the points of a metre, approximately, in drawings of a new figure."""
+    wide, tall = _page(look, view, (0.0, 0.0), cols, lines)
+    return 72 * view.inches(0.8 * wide / cols, 0.8 * tall / lines)[0] / view.width
 
 
 def plot_snapshots(
@@ -161,10 +166,9 @@ def _snapshots(
     lines = ceil(len(rows) / cols)
     own, frames = figure is None, [record.frame(row) for row in rows]
     layers = layers or layers_of(scenario)
-    entries = _entries(scenario, look) + _signs(frames, layers, look, _ppm(look, view, cols))
+    entries = _entries(scenario, look) + _signs(frames, layers, look, _ppm(look, view, cols, lines))
     if figure is None:
-        beside = legend_size(entries, look)[0]
-        figure = new_figure(*_page_of_panels(look, view, cols, lines, beside))
+        figure = new_figure(*_page(look, view, legend_size(entries, look), cols, lines))
     panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
     for unused in panels[len(rows) :]:
         unused.remove()
@@ -182,24 +186,6 @@ def _snapshots(
     for ax, row in zip(panels, rows, strict=False):
         paint_row(ax, record, row, look, layers)
     return figure
-
-
-def _page_of_panels(
-    look: Style, view: View, cols: int, lines: int, beside: float
-) -> tuple[float, float]:
-    """Return the size of a figure with drawings in columns and lines, inches.
-
-    beside: the width of the legend.
-    """
-    if look.page is not None:
-        return look.page
-    beside += 0.6
-    if look.full is None:
-        room = min(3.2, 9.6 / cols)
-        width, height = view.inches(room, room)
-        return cols * (width + 0.25) + beside, lines * (height + 0.4) + 0.9
-    _, height = view.inches((look.full - beside) / cols - 0.1, look.full)
-    return look.full, lines * (height + 0.25) + 0.4
 
 
 def save_figure(

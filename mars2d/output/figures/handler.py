@@ -10,9 +10,9 @@ from matplotlib.patches import Polygon
 from matplotlib.transforms import Affine2D
 
 from mars2d.core.scene import Image, Text
-from mars2d.output.arrow import arrow_outline
 from mars2d.output.figures.artists import artists, points_per_metre
-from mars2d.output.layers.legend import Sign
+from mars2d.output.layers.arrows import Sign
+from mars2d.output.lines import arrow_outline
 
 
 class SignHandler(HandlerBase):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mars2d.output.figures.style import SCREEN, Style
-from mars2d.output.layers.legend import Sign
+from mars2d.output.layers.arrows import Sign
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

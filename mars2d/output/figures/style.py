@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError, likely, shown
-from mars2d.core.scene import rgb
+from mars2d.core.scene import color_of, rgb
+from mars2d.output.raster.theme import contrast
 from mars2d.record.interventions import Change
 
 if TYPE_CHECKING:
@@ -154,20 +155,10 @@ def style_of(name: object) -> Style:
     return STYLES[name]
 
 
-def _dark_enough(color: str, contrast: float) -> str:
-    """Return a colour, darkened until it has a contrast to white.
-
-    Source: Web Content Accessibility Guidelines 2.2, relative luminance.
-    """
-    red, green, blue = rgb(color)
-    share = 1.0
-    while 1.05 / (_luminance(red * share, green * share, blue * share) + 0.05) < contrast:
+def _dark_enough(color: str, least: float) -> str:
+    """Return a colour, darkened until it has a contrast to white."""
+    found, share = color, 1.0
+    while contrast(found, "#ffffff") < least:
         share *= 0.95
-    if share == 1.0:
-        return color
-    return "#" + "".join(f"{round(255 * share * part):02x}" for part in (red, green, blue))
-
-
-def _luminance(*parts: float) -> float:
-    linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+        found = color_of(share * part for part in rgb(color))
+    return found

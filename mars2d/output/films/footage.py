@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,18 +79,6 @@ class Cut:
         return np.append(self.start + self.step * np.arange(self.count - 1), self.end)
 
 
-class Filmed(Protocol):
-    """The members of a `World` that a film needs."""
-
-    @property
-    def iteration(self) -> int:
-        """The number of control steps so far."""
-
-    @property
-    def frame(self) -> Frame:
-        """The instant as it is seen now."""
-
-
 def shots(
     cut: Cut, sampling_time: float, last: int, frame: Callable[[int], Frame]
 ) -> Iterator[Frame]:
@@ -132,8 +120,8 @@ class Footage:
         # Each moment lies between two rows, and both are needed.
         self._wanted = {*rows.tolist(), *(rows + 1).tolist()}
 
-    def __call__(self, world: Filmed) -> None:
-        """Take the world's frame, if the film needs it."""
+    def __call__(self, world: Any) -> None:
+        """Take the frame of a `World`, if the film needs it."""
         if world.iteration in self._wanted:
             self.take(world.frame)
 

@@ -12,7 +12,6 @@ from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import (
-    COLUMN_UNITS,
     CONTACT_UNITS,
     MESSAGE_UNITS,
     POSE_UNITS,
@@ -30,28 +29,23 @@ if TYPE_CHECKING:
 HEADER = "mars2d"
 """The attribute that holds a record's header, as JSON."""
 
-LONG_NAMES = {
-    "pose": "poses of the robots: x, y, heading",
-    "command": "commands issued",
-    "command_time": "when the command takes effect",
-    "prop_pose": "poses of the props: x, y, heading",
-    "effort": "largest share of its bounds that a drive used in the control step before",
-    "velocity": "velocities of the robots: x, y, heading",
-    "prop_velocity": "velocities of the props: x, y, heading",
-    "work": "work on all bodies since the start",
-}
+POSE, TWIST = "m, m, rad", "m/s, m/s, rad/s"
 
-DIMENSIONS = {
-    "time": ("time",),
-    "pose": ("time", "axis", "robot"),
-    "command": ("time", "input", "robot"),
-    "command_time": ("time",),
-    "prop_pose": ("time", "axis", "prop"),
-    "effort": ("time", "robot"),
-    "velocity": ("time", "axis", "robot"),
-    "prop_velocity": ("time", "axis", "prop"),
-    "work": ("time", "work_of"),
-}
+TOLD = {
+    "time": (("time",), "s", "time"),
+    "pose": (("time", "axis", "robot"), POSE, "poses of the robots: x, y, heading"),
+    "command": (("time", "input", "robot"), "", "commands issued"),
+    "command_time": (("time",), "s", "when the command takes effect"),
+    "prop_pose": (("time", "axis", "prop"), POSE, "poses of the props: x, y, heading"),
+    "effort": (
+        ("time", "robot"), "1",
+        "largest share of its bounds that a drive used in the control step before",
+    ),
+    "velocity": (("time", "axis", "robot"), TWIST, "velocities of the robots: x, y, heading"),
+    "prop_velocity": (("time", "axis", "prop"), TWIST, "velocities of the props: x, y, heading"),
+    "work": (("time", "work_of"), "J", "work on all bodies since the start"),
+}  # fmt: skip
+"""The dimensions, the unit and the long name of each column."""
 
 
 def to_xarray(record: Rows) -> Dataset:
@@ -85,11 +79,10 @@ def named_dataset(record: Rows, sensors: Mapping[str, str]) -> Dataset:
             carriers = [names[robot] for robot in robots]
             places[f"{sensors[name]}_robot"] = np.array(carriers, dtype=object)
     variables: dict[str, Any] = {
-        variable_of(name, sensors): (
-            _dimensions(record, name, sensors), column, _attributes(record, name),
-        )
+        variable: (dimensions, column, {"long_name": long_name} | ({"units": unit} if unit else {}))
         for name, column in headers.numbers_of(record).items()
-    }  # fmt: skip
+        for variable, dimensions, unit, long_name in [_told(record, name, sensors)]
+    }
     places["time"] = variables.pop("time")
     if record.contents:
         texts = np.array(record.contents, dtype=object)
@@ -126,38 +119,24 @@ def write(record: Rows, path: Path) -> None:
         file.write(content)
 
 
-def variable_of(column: str, sensors: Mapping[str, str]) -> str:
-    """Return the name of a column's variable: ``sensor_scan`` for ``sensor:scan``."""
+def _told(
+    record: Rows, column: str, sensors: Mapping[str, str]
+) -> tuple[str, tuple[str, ...], str, str]:
+    """Return the name of a column's variable, its dimensions, its unit and its long name."""
+    if column in TOLD:
+        dimensions, unit, long_name = TOLD[column]
+        return column, dimensions, unit or ", ".join(command_units(record)), long_name
     family, _, name = column.partition(":")
-    return f"sensor_{sensors[name]}" if family == "sensor" else column.replace(":", "_")
-
-
-def _dimensions(record: Rows, column: str, sensors: Mapping[str, str]) -> tuple[str, ...]:
-    if column in DIMENSIONS:
-        return DIMENSIONS[column]
-    family, _, name = column.partition(":")
-    if family != "sensor":
-        return (family, "xy") if name in ("point", "normal") else (family,)
-    called = sensors[name]
-    all_carry = len(record.sensor_robots[name]) == len(record.scenario.robots)
-    others = (f"{called}_{k}" for k in range(record.sensors[name].ndim - 2))
-    return ("time", "robot" if all_carry else f"{called}_robot", *others)
-
-
-def _attributes(record: Rows, column: str) -> dict[str, str]:
-    family, _, name = column.partition(":")
-    unit = COLUMN_UNITS.get(column)
-    if column in ("pose", "prop_pose"):
-        unit = ", ".join(POSE_UNITS.values())
-    elif column in ("velocity", "prop_velocity"):
-        unit = ", ".join(f"{each}/s" for each in POSE_UNITS.values())
-    elif column == "command":
-        unit = ", ".join(command_units(record)) or None
-    elif family == "sensor":
-        unit = ", ".join(sensor_units(record, name) or ()) or None
-    elif family in ("contact", "message"):
-        unit = (CONTACT_UNITS if family == "contact" else MESSAGE_UNITS).get(name)
-    long_name = LONG_NAMES.get(column, f"{family} {name}".strip().replace("_", " "))
+    if family == "sensor":
+        title = sensors[name]
+        all_carry = len(record.sensor_robots[name]) == len(record.scenario.robots)
+        others = (f"{title}_{k}" for k in range(record.sensors[name].ndim - 2))
+        dimensions = ("time", "robot" if all_carry else f"{title}_robot", *others)
+        units = ", ".join(sensor_units(record, name) or ())
+        return f"sensor_{title}", dimensions, units, f"sensor {name}".replace("_", " ")
+    long_name = f"{family} {name}".replace("_", " ")
     if column == "message:status":
         long_name = ", ".join(f"{k} {word}" for k, word in enumerate(STATUS))
-    return {"long_name": long_name} | ({"units": unit} if unit else {})
+    unit = (CONTACT_UNITS if family == "contact" else MESSAGE_UNITS).get(name, "")
+    dimensions = (family, "xy") if name in ("point", "normal") else (family,)
+    return f"{family}_{name}", dimensions, unit, long_name

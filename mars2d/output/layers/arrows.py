@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from math import floor, log10, sqrt
+from statistics import median
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.scene import Anchor, Line, Scene
+from mars2d.core.scene import INK, Anchor, Line, Scene
+from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
 
@@ -17,6 +23,12 @@ LABEL_SIZE = 13.0
 
 CUT_WIDTH = 2.0
 """The width of the strokes of a cut, points."""
+
+MAX_ARROW = 72.0
+"""The greatest length of an arrow, points; it means 1, 2, 5, 10 ... newtons or metres a second."""
+
+FEW_ROBOTS = 6
+"""With more robots, arrows are shorter and thinner."""
 
 LONGEST = 2.5
 """The length of the longest arrow, as a multiple of that of the quantity's usual bound."""
@@ -69,3 +81,72 @@ def beside(scene: Scene, point: Float, way: Float, words: str, color: str) -> No
     if not across and way[1] < 0:
         side = "below"
     scene.text(point, words, color=color, size=LABEL_SIZE, anchor=side, halo=EDGE)
+
+
+def crowd_factor(scenario: Scenario) -> float:
+    """Return how much smaller arrows are among many robots, where they pile up: 1 for few."""
+    return max(1.0, sqrt(len(scenario.robots) / FEW_ROBOTS))
+
+
+def usual_length(scenario: Scenario, diameters: float, share: float) -> float:
+    """Return a length of arrows, metres: in diameters of a robot, or a share of the workspace."""
+    xmin, xmax, ymin, ymax = scenario.bounds
+    sizes = [2 * robot.radius for robot in scenario.robots]
+    return max(diameters * median(sizes), share * max(xmax - xmin, ymax - ymin))
+
+
+class Sign(NamedTuple):
+    """A sign and its meaning. scene: round (0, 0), in points. room: its width, points.
+
+    color: of the words, where they are not on a plate. length: of an arrow to scale, metres.
+    """
+
+    scene: Scene
+    room: float
+    meaning: str
+    color: str = INK
+    length: float = 0.0
+
+
+class Ruler(NamedTuple):
+    """An arrow whose length is a quantity.
+
+    Its scale is the same in a whole experiment. width: points. unit: the metres that one unit is
+    long. longest: metres; see `shortening`. in_words: formats a number of units. most: the number
+    of units that is usual at most.
+    """
+
+    color: str
+    width: float
+    unit: float
+    longest: float
+    in_words: Callable[[float], str]
+    most: float
+
+    @property
+    def lengths(self) -> list[tuple[float, str]]:
+        """The arrows of round numbers that are not shortened: metres, and in words."""
+        numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
+        kept = [k for k in numbers if k * self.unit <= self.longest * (1 + 1e-9)]
+        return [(k * self.unit, self.in_words(k)) for k in kept or numbers[:1]]
+
+    def sign(self, point: float) -> Sign:
+        """Return the longest arrow of a round number up to `MAX_ARROW`, where a point is metres."""
+        number = round_force(min(MAX_ARROW * point, self.longest) / self.unit)
+        metres, scene = number * self.unit, Scene()
+        start, way = np.array([-0.5, 0.0]) * metres / point, np.array([metres / point, 0.0])
+        arrow(scene, start, way, fill=self.color, width=self.width)
+        return Sign(scene, metres / point, self.in_words(number), self.color, metres)
+
+    @property
+    def limit(self) -> Sign:
+        """The sign of an arrow that is drawn shorter than it is, as it stands for too much."""
+        scene, way = Scene(), np.array([32.0, 0.0])
+        arrow(scene, -way / 2, way, fill=self.color, width=self.width, shortened=True)
+        return Sign(scene, 36.0, f"over {self.in_words(self.longest / self.unit)}", self.color)
+
+
+def round_force(most: float) -> float:
+    """Return the largest number of 1, 2 or 5 times a power of ten that is at most `most`."""
+    power = 10.0 ** floor(log10(most) + 1e-9)
+    return next(k * power for k in (5.0, 2.0, 1.0) if k * power <= most * (1 + 1e-9))

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from math import floor, log10, sqrt
-from statistics import median
-from typing import NamedTuple
+from math import floor, log10
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene
 from mars2d.geometry.shapes import Shape
-from mars2d.output.layers.arrows import LONGEST, arrow, beside, shortening
+from mars2d.output.layers.arrows import (
+    LONGEST,
+    Ruler,
+    arrow,
+    beside,
+    crowd_factor,
+    shortening,
+    usual_length,
+)
 from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -35,43 +41,17 @@ LABELED, MAX_LABELS = 0.15, 6
 """The share of the strongest drive's force from which on an arrow has a number, and how many of
 the longest arrows have one."""
 
-FEW_ROBOTS = 6
-"""With more robots, arrows are shorter and thinner: in a crowd they pile up."""
 
+def force_scale(scenario: Scenario) -> Ruler:
+    """Return the scale of an experiment; what is usual at most is the largest bound of a drive.
 
-class ForceScale(NamedTuple):
-    """How forces are drawn, the same in a whole experiment.
-
-    strongest: newtons, the largest bound of a drive. newton: metres that 1 N is long. longest:
-    metres; see `arrows.shortening`. width: of an arrow, points. ring: the factor for the widths of
-    slip marks.
+    Among few robots that is as long as a robot and a half, or as a part of the workspace where
+    robots are small in it.
     """
-
-    strongest: float
-    newton: float
-    longest: float
-    width: float
-    ring: float
-
-
-def force_scale(scenario: Scenario) -> ForceScale:
-    """Return the scale of an experiment.
-
-    Among few robots the bound of the strongest drive is as long as a robot and a half, or as a part
-    of the workspace where robots are small in it.
-    """
-    xmin, xmax, ymin, ymax = scenario.bounds
-    sizes = [2 * robot.radius for robot in scenario.robots]
-    length = max(1.5 * median(sizes), 0.06 * max(xmax - xmin, ymax - ymin))
+    length, crowd = usual_length(scenario, 1.5, 0.06), crowd_factor(scenario)
     strongest = max(robot.drive.max_force for robot in scenario.robots)
-    crowd = max(1.0, sqrt(len(scenario.robots) / FEW_ROBOTS))
-    return ForceScale(
-        strongest=strongest,
-        newton=length / strongest / crowd,
-        longest=LONGEST * length / crowd,
-        width=ARROW_WIDTH / crowd**0.25,
-        ring=1 / sqrt(crowd),
-    )
+    width, unit = ARROW_WIDTH / crowd**0.25, length / strongest / crowd
+    return Ruler(FORCE, width, unit, LONGEST * length / crowd, in_newtons, strongest)
 
 
 def forces(frame: Frame) -> Scene:
@@ -89,18 +69,18 @@ def forces(frame: Frame) -> Scene:
     force = mean_forces(contacts, scenario.sampling_time)
     size = np.hypot(force[:, 0], force[:, 1])
     scale = force_scale(scenario)
-    drawn = np.flatnonzero(size >= FAINTEST * scale.strongest)
+    drawn = np.flatnonzero(size >= FAINTEST * scale.most)
     drawn = drawn[np.argsort(size[drawn], kind="stable")][-MAX_CONTACTS:]  # the strongest on top
     at = _touching_points(frame)
-    shorter = shortening(scale.newton * size[drawn], scale.longest)
-    reach = scale.newton * shorter[:, None] * force[drawn]
+    shorter = shortening(scale.unit * size[drawn], scale.longest)
+    reach = scale.unit * shorter[:, None] * force[drawn]
     for start, way, factor, solid in zip(
         at[drawn], reach, shorter, contacts["b"][drawn] >= 0, strict=True
     ):
         for each in (way, -way) if solid else (-way,):
             arrow(scene, start, each, fill=FORCE, width=scale.width, shortened=factor < 1)
     for k, row in list(enumerate(drawn.tolist()))[-MAX_LABELS:]:
-        if size[row] >= LABELED * scale.strongest:
+        if size[row] >= LABELED * scale.most:
             way = reach[k] if contacts["b"][row] >= 0 else -reach[k]
             beside(scene, at[row] + way, way, in_newtons(float(size[row])), FORCE)
     return scene
@@ -109,7 +89,7 @@ def forces(frame: Frame) -> Scene:
 def _slip_marks(scene: Scene, frame: Frame) -> None:
     """Draw a ring of the warning colour round each robot whose drive is at its bound."""
     slipping = np.flatnonzero(frame.effort >= SLIPPING).tolist()
-    share = force_scale(frame.scenario).ring if slipping else 1.0
+    share = crowd_factor(frame.scenario) ** -0.5
     for i in slipping:
         center, radius = bounding_circle(frame.scenario.robots[i].chassis, frame.pose[:, i])
         for color, width in ((SLIP_EDGE, 4.5), (SLIP, 2.7)):
@@ -150,9 +130,3 @@ def _decimals(force: float) -> int:
     if force >= 999.5:
         return 2 - floor(log10(force))
     return 2 if force < 0.995 else 1 if force < 9.95 else 0
-
-
-def round_force(most: float) -> float:
-    """Return the largest number of 1, 2 or 5 times a power of ten that is at most `most`."""
-    power = 10.0 ** floor(log10(most) + 1e-9)
-    return next(k * power for k in (5.0, 2.0, 1.0) if k * power <= most * (1 + 1e-9))

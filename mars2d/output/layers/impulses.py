@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from math import atan, hypot
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene, faded
-from mars2d.output.layers.arrows import EDGE, arrow, beside, shortening
+from mars2d.output.layers.arrows import EDGE, Ruler, arrow, beside, shortening
 from mars2d.output.layers.forces import force_scale
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -40,32 +39,19 @@ CONE = 1.15
 """The length of the cone's sides, as a multiple of that of the impulse."""
 
 
-class ImpulseScale(NamedTuple):
-    """How impulses are drawn, the same in a whole experiment.
+def impulse_scale(scenario: Scenario) -> Ruler:
+    """Return the scale of an experiment: the largest momentum is longer than the largest force.
 
-    strongest: N s, the largest momentum of a body: of robots at their drives' bounds, of props at
-    the start. newton_second: metres that 1 N s is long. longest: metres; see `arrows.shortening`.
-    width: of an arrow, points. aside: how far from the point of contact impulses stand, metres.
+    That is a momentum of robots at their drives' bounds, of props at the start.
     """
-
-    strongest: float
-    newton_second: float
-    longest: float
-    width: float
-    aside: float
-
-
-def impulse_scale(scenario: Scenario) -> ImpulseScale:
-    """Return the scale of an experiment: the largest momentum is longer than the largest force."""
     force, count = force_scale(scenario), len(scenario.robots)
     fastest = [robot.drive.max_linear_speed for robot in scenario.robots]
     fastest += [hypot(*body.velocity[:2]) for body in scenario.bodies[count:]]
-    momenta = (
+    strongest = max(
         body.inertia.mass * speed for body, speed in zip(scenario.bodies, fastest, strict=True)
     )
-    strongest, length = max(momenta), force.newton * force.strongest
-    unit = LONGER * length / strongest
-    return ImpulseScale(strongest, unit, force.longest, force.width, ASIDE * length)
+    unit = LONGER * force.unit * force.most / strongest
+    return Ruler(NORMAL, force.width, unit, force.longest, in_newton_seconds, strongest)
 
 
 def blows(frame: Frame) -> NDArray[np.void]:
@@ -82,7 +68,7 @@ def blows(frame: Frame) -> NDArray[np.void]:
     )
     recent = log[first:]
     now = (recent["time"] > since) & (recent["time"] <= frame.time + 1e-9)
-    felt = recent["impulse"] >= FAINTEST * impulse_scale(scenario).strongest
+    felt = recent["impulse"] >= FAINTEST * impulse_scale(scenario).most
     found = recent[recent["began"] & now & felt]
     _, pair = np.unique(np.column_stack([found["a"], found["b"]]), axis=0, return_inverse=True)
     newest = np.zeros(len(found))
@@ -100,27 +86,31 @@ def impulses(frame: Frame) -> Scene:
     the point of contact, where the arrows of forces are.
     """
     scene, scenario = Scene(), frame.scenario
-    scale = impulse_scale(scenario)
+    scale, force = impulse_scale(scenario), force_scale(scenario)
+    aside = ASIDE * force.unit * force.most
     for blow in blows(frame):
         a, b = int(blow["a"]), int(blow["b"])
         normal = blow["normal"] * (1.0 if b >= 0 else -1.0)
         there = b >= -len(scenario.surfaces)  # an obstacle may have been removed since
         mu = scenario.friction_between(a, b) if there else 0.0
         press, rub = float(blow["normal_impulse"]), float(blow["tangential_impulse"])
-        _diagram(scene, scale, blow["point"], normal, press, rub, mu)
+        _diagram(scene, scale, aside, blow["point"], normal, press, rub, mu)
     return scene
 
 
 def _diagram(
-    scene: Scene, scale: ImpulseScale, point: Float, normal: Float, press: float, rub: float,
+    scene: Scene, scale: Ruler, aside: float, point: Float, normal: Float, press: float, rub: float,
     mu: float,
 ) -> None:  # fmt: skip
-    """Draw the two parts of an impulse, and the cone; press, rub: N s."""
+    """Draw the two parts of an impulse, and the cone, `aside` metres beside a point.
+
+    press, rub: N s.
+    """
     tangent = np.array([-normal[1], normal[0]]) * (1.0 if rub >= 0 else -1.0)
-    length = scale.newton_second * hypot(press, rub)
+    length = scale.unit * hypot(press, rub)
     shorter = float(shortening(np.array(length), scale.longest))
-    unit, cut = scale.newton_second * shorter, shorter < 1
-    apex = point - scale.aside * tangent
+    unit, cut = scale.unit * shorter, shorter < 1
+    apex = point - aside * tangent
     scene.line([point, apex], stroke=NORMAL, width=1.2, style=":")
     scene.circle(point, 0.0, fill=NORMAL, stroke=EDGE, pixels=3.5)
     if mu > 0:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,7 +11,6 @@ import numpy as np
 from mars2d.addons.base import Addon
 from mars2d.core.plane import Point
 from mars2d.core.scene import (
-    INK,
     PALETTE,
     THEORY,
     Arrow,
@@ -23,69 +22,17 @@ from mars2d.core.scene import (
     faded,
 )
 from mars2d.core.usercode import called
-from mars2d.output.layers.arrows import arrow
-from mars2d.output.layers.forces import FORCE, SLIP, SLIP_EDGE, force_scale, in_newtons, round_force
-from mars2d.output.layers.impulses import FRICTION, NORMAL, impulse_scale, in_newton_seconds
+from mars2d.output.layers.arrows import Ruler, Sign, arrow
+from mars2d.output.layers.forces import SLIP, SLIP_EDGE, force_scale
+from mars2d.output.layers.impulses import FRICTION, impulse_scale
 from mars2d.output.layers.messages import LOST_LINK
-from mars2d.output.layers.velocities import VELOCITY, in_metres_a_second, speed_scale
+from mars2d.output.layers.velocities import VELOCITY, speed_scale
 from mars2d.scenario.scenario import Scenario
-
-MAX_ARROW = 72.0
-"""The greatest length of an arrow, points; it means 1, 2, 5, 10 ... newtons or metres a second."""
 
 SIGNED = ("messages", "theory", "sensors")
 """The layers whose signs have a legend in pictures without plates, too."""
 ROW = 16.0
 """The height of a row of signs without a plate, points."""
-
-
-class Ruler(NamedTuple):
-    """An arrow whose length is a quantity.
-
-    width: points. unit: the metres that one unit is long. longest: metres; see
-    `arrows.shortening`. in_words: formats a number of units.
-    """
-
-    color: str
-    width: float
-    unit: float
-    longest: float
-    in_words: Callable[[float], str]
-
-    @property
-    def lengths(self) -> list[tuple[float, str]]:
-        """The arrows of round numbers that are not shortened: metres, and in words."""
-        numbers = [digit * 10.0**power for power in range(-2, 6) for digit in (1, 2, 5)]
-        kept = [k for k in numbers if k * self.unit <= self.longest * (1 + 1e-9)]
-        return [(k * self.unit, self.in_words(k)) for k in kept or numbers[:1]]
-
-    def sign(self, point: float) -> Sign:
-        """Return the longest arrow of a round number up to `MAX_ARROW`, where a point is metres."""
-        number = round_force(min(MAX_ARROW * point, self.longest) / self.unit)
-        metres, scene = number * self.unit, Scene()
-        start, way = np.array([-0.5, 0.0]) * metres / point, np.array([metres / point, 0.0])
-        arrow(scene, start, way, fill=self.color, width=self.width)
-        return Sign(scene, metres / point, self.in_words(number), self.color, metres)
-
-    @property
-    def limit(self) -> Sign:
-        """The sign of an arrow that is drawn shorter than it is, as it stands for too much."""
-        scene, way = Scene(), np.array([32.0, 0.0])
-        arrow(scene, -way / 2, way, fill=self.color, width=self.width, shortened=True)
-        return Sign(scene, 36.0, f"over {self.in_words(self.longest / self.unit)}", self.color)
-
-
-class Sign(NamedTuple):
-    """A sign and its meaning. scene: round (0, 0), in points. room: its width, points.
-
-    color: of the words, where they are not on a plate. length: of an arrow to scale, metres.
-    """
-
-    scene: Scene
-    room: float
-    meaning: str
-    color: str = INK
-    length: float = 0.0
 
 
 class Legend(NamedTuple):
@@ -100,10 +47,7 @@ def legends(scenario: Scenario) -> list[Legend]:
     """Return the legends of all layers that have one in an experiment; none without robots."""
     if not scenario.robots:
         return []
-    force, speed, impulse = force_scale(scenario), speed_scale(scenario), impulse_scale(scenario)
-    newtons = Ruler(FORCE, force.width, force.newton, force.longest, in_newtons)
-    paces = Ruler(VELOCITY, speed.width, speed.meter_a_second, speed.longest, in_metres_a_second)
-    blow = Ruler(NORMAL, impulse.width, impulse.newton_second, impulse.longest, in_newton_seconds)
+    newtons, paces, blow = force_scale(scenario), speed_scale(scenario), impulse_scale(scenario)
     rubbing = Sign(_rubbing(), 24.0, "friction, and its cone")
     turning = Sign(_turning(), 24.0, "turn in 1 s")
     found = [

@@ -5,15 +5,19 @@ Robots with a least turning radius have the circles that they can't turn into.
 
 from __future__ import annotations
 
-from math import sqrt
-from statistics import median
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene, faded
-from mars2d.output.layers.arrows import EDGE, LONGEST, arrow, shortening
+from mars2d.output.layers.arrows import (
+    EDGE,
+    LONGEST,
+    Ruler,
+    arrow,
+    crowd_factor,
+    shortening,
+    usual_length,
+)
 from mars2d.output.layers.forces import bounding_circle
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -35,40 +39,19 @@ MAX_ARCS = 16
 HEAD = 0.5
 """The length of the arrow at an arc's end, radians at most."""
 
-FEW_ROBOTS, CROWD = 6, 30
-"""With more robots, arrows are shorter and thinner; with more bodies, they have no edge."""
-
+CROWD = 30
+"""With more bodies, arrows have no edge."""
 
 TIGHTEST = faded(VELOCITY, 0.45)
 """The colour of the circles of the least turning radius."""
 
 
-class SpeedScale(NamedTuple):
-    """How velocities are drawn, the same in a whole experiment.
-
-    fastest: m/s, the largest bound of a drive. meter_a_second: metres that 1 m/s is long. longest:
-    metres; see `arrows.shortening`. width: of an arrow, points.
-    """
-
-    fastest: float
-    meter_a_second: float
-    longest: float
-    width: float
-
-
-def speed_scale(scenario: Scenario) -> SpeedScale:
+def speed_scale(scenario: Scenario) -> Ruler:
     """Return the scale of an experiment: the fastest drive's bound is two robots long."""
-    xmin, xmax, ymin, ymax = scenario.bounds
-    sizes = [2 * robot.radius for robot in scenario.robots]
-    length = max(2.0 * median(sizes), 0.08 * max(xmax - xmin, ymax - ymin))
+    length, crowd = usual_length(scenario, 2.0, 0.08), crowd_factor(scenario) ** 0.5
     fastest = max(robot.drive.max_linear_speed for robot in scenario.robots)
-    crowd = max(1.0, sqrt(len(scenario.robots) / FEW_ROBOTS))
-    return SpeedScale(
-        fastest=fastest,
-        meter_a_second=length / fastest / sqrt(crowd),
-        longest=LONGEST * length / sqrt(crowd),
-        width=ARROW_WIDTH / crowd**0.25,
-    )
+    width, unit = ARROW_WIDTH / crowd**0.5, length / fastest / crowd
+    return Ruler(VELOCITY, width, unit, LONGEST * length / crowd, in_metres_a_second, fastest)
 
 
 def velocities(frame: Frame) -> Scene:
@@ -89,9 +72,9 @@ def velocities(frame: Frame) -> Scene:
             center, radius = bounding_circle(frame.scenario.bodies[i].shape, poses[:, i])
             _arc(scene, center, 1.3 * radius, float(poses[2, i]), float(velocity[2, i]))
     speed = np.hypot(velocity[0], velocity[1])
-    moving = np.flatnonzero(speed >= SLOWEST * scale.fastest)
-    shorter = shortening(scale.meter_a_second * speed[moving], scale.longest)
-    ways = scale.meter_a_second * shorter * velocity[:2, moving]
+    moving = np.flatnonzero(speed >= SLOWEST * scale.most)
+    shorter = shortening(scale.unit * speed[moving], scale.longest)
+    ways = scale.unit * shorter * velocity[:2, moving]
     edge = EDGE if len(speed) <= CROWD else None
     for tail, way, factor in zip(poses[:2, moving].T, ways.T, shorter, strict=True):
         arrow(scene, tail, way, fill=VELOCITY, width=scale.width, edge=edge, shortened=factor < 1)

@@ -23,8 +23,8 @@ from mars2d.core.scene import (
     Text,
     split_wake_style,
 )
-from mars2d.output.arrow import arrow_outline
 from mars2d.output.figures.extent import View
+from mars2d.output.lines import DASHES, MARK_SPACING, SHIFTS, TEXT_GAP, arrow_outline, spaced
 
 Float = NDArray[np.float64]
 
@@ -36,16 +36,10 @@ TOLERANCE = 0.3
 
 MAX_PIXEL = 1e6  # pixels: points farther out are moved to here
 
-TEXT_GAP = 4.0  # between a label and what it names, points
 LINE_HEIGHT = 1.25  # of text, in its size
 TEXT_RISE = 0.36  # from the middle of a line of text down to its base line, in its size
 HALO_WIDTH = 2.5  # the width of the rim round letters, points
 ARROW_EDGE = 0.8  # the width of the edge round an arrow, in widths of its shaft
-
-MARK_SPACING = 9.0  # points along a path from one mark to the next
-DASHES = {"--": (9.0, 6.0), "-.": (9.0, 5.0, 2.0, 5.0), ":": (2.0, 4.5)}
-
-SHIFTS = {"left": (1, 0), "right": (-1, 0), "above": (0, 1), "below": (0, -1)}
 
 # Characters that XML can't hold, such as the bell or half of a pair of surrogates.
 UNREADABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -148,7 +142,7 @@ class _Pen:
             ink = _ink(None, shape.stroke, width)
             yield f'<path d="{path}"{ink}{cap} stroke-linejoin="round"/>'
         if mark and pieces:
-            spots = np.concatenate([_spaced(piece, MARK_SPACING * scale) for piece in pieces])
+            spots = np.concatenate([each[spaced(each, MARK_SPACING * scale)] for each in pieces])
             yield _marks(spots, mark, shape.stroke, width, scale)
 
     def _arrow(self, shape: Arrow, scale: float) -> Iterator[str]:
@@ -249,12 +243,6 @@ def _simple(points: Float) -> Float:
         kept[-1] = True
         points = points[kept]
     return simple_line(points, TOLERANCE / 2)
-
-
-def _spaced(points: Float, spacing: float) -> Float:
-    """Return points (k, 2) of a path at distances of about `spacing` along it."""
-    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    return points[np.unique(np.floor(along / spacing), return_index=True)[1]]
 
 
 def _marks(points: Float, mark: str, color: str, width: float, scale: float) -> str:

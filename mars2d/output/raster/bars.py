@@ -84,8 +84,7 @@ def draw_header(
     room = right - pad - gap
     title = fonts.shorten(frame.scenario.title, 20 * ui, room, bold=True)
     if len(title) > 3 or title == frame.scenario.title:
-        image = fonts.render(title, 20 * ui, theme.ink, bold=True)
-        surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
+        painter.write(surface, title, 20 * ui, theme.ink, bold=True, midleft=(pad, bar.centery))
 
 
 def decimals(scenario: Scenario) -> int:
@@ -111,14 +110,12 @@ class _Figure:
         self, surface: pygame.Surface, painter: Painter, right: int, bar: pygame.Rect, ui: float
     ) -> int:
         """Draw it and return its left end."""
-        fonts, theme = painter.fonts, painter.theme
-        image = fonts.render(self.value, 18 * ui, theme.ink)
-        width = max(image.get_width(), fonts.width(self.longest, 18 * ui))
-        surface.blit(image, image.get_rect(midright=(right, bar.centery)))
-        label = fonts.render(self.name, 14 * ui, theme.muted)
-        place = label.get_rect(midright=(right - width - round(8 * ui), bar.centery + round(ui)))
-        surface.blit(label, place)
-        return place.left
+        theme = painter.theme
+        place = right, bar.centery
+        left = painter.write(surface, self.value, 18 * ui, theme.ink, midright=place).left
+        left = min(left, right - painter.fonts.width(self.longest, 18 * ui)) - round(8 * ui)
+        place = left, bar.centery + round(ui)
+        return painter.write(surface, self.name, 14 * ui, theme.muted, midright=place).left
 
 
 def _chip(
@@ -168,8 +165,7 @@ def draw_footer(
         text = text.rpartition(SEPARATOR)[0].rstrip()
     text = fonts.shorten(text, 14 * ui, end - 2 * pad)
     if len(text) > 3:
-        image = fonts.render(text, 14 * ui, theme.muted)
-        surface.blit(image, image.get_rect(midleft=(pad, bar.centery)))
+        painter.write(surface, text, 14 * ui, theme.muted, midleft=(pad, bar.centery))
 
 
 def _hints(
@@ -182,16 +178,15 @@ def _hints(
     """Write keys and their actions, from the right; return the left end."""
     fonts, theme = painter.fonts, painter.theme
     right = bar.right - round(20 * ui)
-    for name, meaning in reversed(hints):
-        word = fonts.render(meaning, 14 * ui, theme.muted)
-        key = fonts.render(name, 14 * ui, theme.text, bold=True)
-        if right - word.get_width() - key.get_width() < bar.left + round(26 * ui):
+    for key, meaning in reversed(hints):
+        wide = fonts.width(meaning, 14 * ui) + fonts.width(key, 14 * ui, bold=True)
+        if right - wide < bar.left + round(26 * ui):
             break
-        place = word.get_rect(midright=(right, bar.centery))
-        surface.blit(word, place)
-        place = key.get_rect(midright=(place.left - round(6 * ui), bar.centery))
-        surface.blit(key, place)
-        right = place.left - round(20 * ui)
+        place = right, bar.centery
+        right = painter.write(surface, meaning, 14 * ui, theme.muted, midright=place).left
+        place = right - round(6 * ui), bar.centery
+        right = painter.write(surface, key, 14 * ui, theme.text, bold=True, midright=place).left
+        right -= round(20 * ui)
     return right
 
 
@@ -237,7 +232,7 @@ def _banner_lines(
 def _draw_banner(
     surface: pygame.Surface, bar: pygame.Rect, painter: Painter, banner: Banner, ui: float
 ) -> None:
-    fonts, theme, pad = painter.fonts, painter.theme, round(20 * ui)
+    theme, pad = painter.theme, round(20 * ui)
     surface.fill(theme.failed if banner.error else theme.over, bar)
     lines, hint_below = _banner_lines(banner, surface.get_size(), painter, ui)
     rows = len(lines) + hint_below
@@ -251,14 +246,10 @@ def _draw_banner(
     text = pygame.Rect(bar.left, bar.top, bar.width, bar.height - round(_code_height(code) * ui))
     y = text.centery - step * (rows - 1) / 2
     for line in lines:
-        image = fonts.render(line, 18 * ui, theme.on_banner, bold=True)
-        surface.blit(image, image.get_rect(midleft=(pad, round(y))))
+        painter.write(surface, line, 18 * ui, theme.on_banner, bold=True, midleft=(pad, y))
         y += step
-    hint = fonts.render(banner.hint, 15 * ui, theme.on_banner_muted)
-    if hint_below:
-        surface.blit(hint, hint.get_rect(midleft=(pad, round(y))))
-    else:
-        surface.blit(hint, hint.get_rect(midright=(bar.right - pad, text.centery)))
+    at = {"midleft": (pad, y)} if hint_below else {"midright": (bar.right - pad, text.centery)}
+    painter.write(surface, banner.hint, 15 * ui, theme.on_banner_muted, **at)
     if banner.excerpt is not None and code > 0:
         place = pygame.Rect(pad, text.bottom, bar.width - 2 * pad, bar.bottom - text.bottom)
         place.height -= round(12 * ui)
@@ -280,12 +271,11 @@ def _draw_code(
         number, here = excerpt.first + k, excerpt.first + k == excerpt.line
         if here:
             painter.panel(surface, row.inflate(-round(6 * ui), 0), "#ffffff30", 4 * ui)
-            mark = fonts.render("▸", size, theme.on_banner, mono=True)
-            surface.blit(mark, mark.get_rect(midleft=(place.left + pad, row.centery)))
+            at = place.left + pad, row.centery
+            painter.write(surface, "▸", size, theme.on_banner, mono=True, midleft=at)
         color = theme.on_banner if here else theme.on_banner_muted
-        image = fonts.render(str(number), size, color, mono=True)
-        surface.blit(image, image.get_rect(midright=(left, row.centery)))
-        start = left + round(14 * ui)
-        text = fonts.shorten(line, size, place.right - pad - start, mono=True)
-        image = fonts.render(text, size, color, mono=True)
-        surface.blit(image, image.get_rect(midleft=(start, row.centery)))
+        at = left, row.centery
+        painter.write(surface, str(number), size, color, mono=True, midright=at)
+        at = left + round(14 * ui), row.centery
+        text = fonts.shorten(line, size, place.right - pad - at[0], mono=True)
+        painter.write(surface, text, size, color, mono=True, midleft=at)

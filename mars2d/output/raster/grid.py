@@ -20,14 +20,6 @@ MIN_SPACING = 42
 """Points between grid lines, at least."""
 
 
-def spacing(scale: float, least: float) -> float:
-    """Return the distance of grid lines, metres: 1, 2 or 5 times a power of ten.
-
-    The smallest for which lines are at least `least` pixels apart, at `scale` pixels a metre.
-    """
-    return grid_step(least / scale)
-
-
 def ticks(low: float, high: float, step: float) -> Float:
     """Return the multiples of `step` from `low` to `high`, both included."""
     first, last = ceil(low / step - 1e-6), floor(high / step + 1e-6)
@@ -53,7 +45,7 @@ def draw_grid(
     if shown is None:
         return
     left, top, right, bottom = shown
-    step = spacing(camera.scale, MIN_SPACING * ui)
+    step = grid_step(MIN_SPACING * ui / camera.scale)
     xmin, xmax, ymin, ymax = _metres(camera, *shown)
     for x in ticks(xmin, xmax, step).tolist():
         px = round(camera.x + camera.scale * x)
@@ -73,7 +65,7 @@ def labels(
     They lie along the left and lower side of the part of `bounds` that is visible in `clip`.
     """
     size, gap = 12 * ui, round(7 * ui)
-    step = spacing(camera.scale, MIN_SPACING * ui)
+    step = grid_step(MIN_SPACING * ui / camera.scale)
     shown = _visible(clip, camera, bounds)
     if shown is None:
         return []

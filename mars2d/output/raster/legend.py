@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import pygame
 
 from mars2d.core.scene import faded
-from mars2d.output.layers.legend import Legend, Sign
+from mars2d.output.layers.arrows import Sign
+from mars2d.output.layers.legend import Legend
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 
@@ -57,8 +58,7 @@ def _drawn(
     column, row = max(sign.room for sign in signs) * ui, ROW_HEIGHT * ui
     left, middle = plate.left + PAD * ui, plate.top + 4 * ui + row / 2
     for k, sign in enumerate(signs):
-        image = painter.fonts.render(sign.meaning, TEXT_SIZE * ui, theme.text)
-        place = round(left + column + GAP * ui), round(middle + k * row)
-        surface.blit(image, image.get_rect(midleft=place))
+        place = left + column + GAP * ui, middle + k * row
+        painter.write(surface, sign.meaning, TEXT_SIZE * ui, theme.text, midleft=place)
         at = Camera(ui, left + column / 2, middle + k * row)
         painter.paint(surface, sign.scene.shapes, at)

@@ -7,7 +7,6 @@ sprites, at quarters of a pixel so that slow movement stays smooth.
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from math import ceil, floor
 
@@ -25,15 +24,12 @@ from mars2d.core.scene import (
     Text,
     split_wake_style,
 )
-from mars2d.output.arrow import arrow_outline
+from mars2d.output.lines import DASHES, MARK_SPACING, arrow_outline, spaced
 from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Rgba, rgba
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.strokes import (
-    DASHES,
-    MARK_SPACING,
-    arc_length,
     clip_polygon,
     dashes,
     simplified,
@@ -68,35 +64,27 @@ Sprite = tuple[pygame.Surface, int, int]
 """A small picture, and the offset of its corner from the whole pixel at which it is drawn."""
 
 
-class Sprites:
-    """A cache of sprites with at most `pixels` pixels in total; drops those unused for longest.
+class Sprites(dict[Hashable, Sprite]):
+    """A cache of sprites with at most `pixels` pixels in total; when it is full, it is emptied.
 
     It only saves time: pictures are the same without it.
     """
 
     def __init__(self, pixels: int) -> None:
         """Start with none; `pixels` may be 0."""
-        self.pixels = pixels
-        self.kept = 0
-        self._sprites: OrderedDict[Hashable, Sprite] = OrderedDict()
-
-    def __len__(self) -> int:
-        """Return the number of sprites."""
-        return len(self._sprites)
-
-    def get(self, key: Hashable) -> Sprite | None:
-        """Return the sprite of a key, or None."""
-        sprite = self._sprites.get(key)
-        if sprite is not None:
-            self._sprites.move_to_end(key)
-        return sprite
+        super().__init__()
+        self.pixels, self.kept = pixels, 0
 
     def keep(self, key: Hashable, sprite: Sprite) -> None:
-        """Keep a sprite under a new key, and drop others to make room."""
-        self._sprites[key] = sprite
+        """Keep a sprite under a new key, if there is room for it at all."""
         self.kept += _area(sprite)
-        while self.kept > self.pixels:
-            self.kept -= _area(self._sprites.popitem(last=False)[1])
+        if self.kept > self.pixels:
+            self.clear()
+            self.kept = _area(sprite)
+        if self.kept <= self.pixels:
+            self[key] = sprite
+        else:
+            self.kept = 0
 
 
 def _area(sprite: Sprite) -> int:
@@ -120,7 +108,6 @@ class Painter:
         self._shade: Callable[[str], str] = theme.shade
         self._sprites = Sprites(kept)
         self._labels: dict[Hashable, pygame.Surface] = {}
-        self._memory = memoryview(b"")
 
     def paint(
         self,
@@ -170,30 +157,28 @@ class Painter:
         radius = round(8 * radius) / 8
         fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
         if reach > MAX_SPRITE_SIDE:
-            self._large_circle(surface, brushes.ring(x, y, radius), fill, stroke, width)
+            ring = brushes.ring(x, y, radius)
+            if fill:
+                self._fill(surface, ring, fill)
+            if stroke:
+                brushes.stroke(surface, stroke, [ring], width)
             return
-        px, fx = _phase(x)
-        py, fy = _phase(y)
-        key = (fill, stroke, radius, width, fx, fy)
-        sprite = self._sprites.get(key)
-        if sprite is None:
-            layers = _disc_layers(fill, stroke, radius, width, fx, fy)
-            sprite = self._keep(key, brushes.box_round(fx, fy, reach), layers)
-        surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
+        self._stamp(
+            surface, x, y, (fill, stroke, radius, width),
+            lambda fx, fy: (
+                brushes.box_round(fx, fy, reach),
+                _disc_layers(fill, stroke, radius, width, fx, fy),
+            ),
+        )  # fmt: skip
 
-    def _large_circle(
-        self,
-        surface: pygame.Surface,
-        ring: Float,
-        fill: Rgba | None,
-        stroke: Rgba | None,
-        width: float,
-    ) -> None:
-        """Draw a circle as a polygon of many corners."""
-        if fill:
-            self._fill(surface, ring, fill)
-        if stroke:
-            brushes.stroke(surface, stroke, [ring], width)
+    def _stamp(
+        self, surface: pygame.Surface, x: float, y: float, key: Hashable,
+        made: Callable[[float, float], tuple[pygame.Rect, Sequence[Layer]]],
+    ) -> None:  # fmt: skip
+        """Draw a sprite at a point; made: returns its box and layers, given quarters of a pixel."""
+        (px, fx), (py, fy) = _phase(x), _phase(y)
+        sprite = self._sprites.get((key, fx, fy)) or self._keep((key, fx, fy), *made(fx, fy))
+        surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
 
     # -- polygons -----------------------------------------------------------------------------
 
@@ -227,23 +212,10 @@ class Painter:
             return
         box = brushes.extent_of(visible, 1.0)
         if color[3] < FAINT_OPACITY and box.width * box.height > LARGE_AREA:
-            self._area(surface, visible, color, box.clip(surface.get_clip()))
+            draw = brushes.filled(simplified(visible, EDGE_TOLERANCE))
+            brushes.cover(surface, color, box, draw, factor=1)
         else:
             brushes.cover(surface, color, box, brushes.filled(visible))
-
-    def _area(self, surface: pygame.Surface, points: Float, color: Rgba, box: pygame.Rect) -> None:
-        """Fill the part within `box` of a large faint polygon, such as the area of a laser scan.
-
-        It reuses the same memory, since fresh memory is slow to write to.
-        """
-        size = 4 * box.width * box.height
-        if size <= 0:
-            return
-        if len(self._memory) < size:
-            self._memory = memoryview(bytearray(size))
-        area = pygame.image.frombuffer(self._memory[:size], box.size, "BGRA")
-        brushes.draw_on(area, color, box, brushes.filled(simplified(points, EDGE_TOLERANCE)))
-        surface.blit(area, box.topleft)
 
     # -- lines --------------------------------------------------------------------------------
 
@@ -262,8 +234,7 @@ class Painter:
         elif line:
             brushes.stroke(surface, color, [points], width)
         if marker:
-            buckets = np.floor(arc_length(points) / (MARK_SPACING * self.ui))
-            kept = np.concatenate([[True], np.diff(buckets) > 0])
+            kept = spaced(points, MARK_SPACING * self.ui)
             self.marks(surface, points[kept], marker, ink, shape.width)
 
     def _segment(self, surface: pygame.Surface, shape: Line, camera: Camera) -> None:
@@ -283,23 +254,20 @@ class Painter:
             and -MAX_UNCUT < y < MAX_UNCUT
             and abs(dx) + abs(dy) < MAX_UNCUT
         ):
-            if width < 1.0:
-                color = (*color[:3], round(width * color[3]))  # thinner is fainter
+            color = (*color[:3], round(width * color[3]))  # thinner is fainter
             brushes.hairline(surface, color, x, y, x + dx, y + dy)
             return
         if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE / 2:
             brushes.stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
             return
-        px, fx = _phase(x)
-        py, fy = _phase(y)
         dx, dy = round(dx * PHASES) / PHASES, round(dy * PHASES) / PHASES
-        key = (color, width, fx, fy, dx, dy)
-        sprite = self._sprites.get(key)
-        if sprite is None:
+
+        def made(fx: float, fy: float) -> tuple[pygame.Rect, list[Layer]]:
             points = np.array([(fx, fy), (fx + dx, fy + dy)])
             box = brushes.extent_of(points, width / 2 + 1)
-            sprite = self._keep(key, box, [(color, brushes.stroked([points], width), 0)])
-        surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
+            return box, [(color, brushes.stroked([points], width), 0)]
+
+        self._stamp(surface, x, y, (color, width, dx, dy), made)
 
     def _arrow(self, surface: pygame.Surface, shape: Arrow, camera: Camera) -> None:
         """Draw an arrow, from a sprite unless it is long."""
@@ -313,21 +281,18 @@ class Painter:
         if not around.colliderect(surface.get_clip()):
             return
         fill, ink = (rgba(self._shade(color)) for color in (shape.fill, shape.stroke or shape.fill))
-        if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE:
-            points = arrow_outline((x, y), (x + dx, y + dy), width)
-            draw = brushes.edged(points, fill, edge)
-            brushes.cover(surface, ink, brushes.extent_of(points, edge + 1), draw)
-            return
-        px, fx = _phase(x)
-        py, fy = _phase(y)
-        dx, dy = round(dx * PHASES) / PHASES, round(dy * PHASES) / PHASES
-        key = ("arrow", fill, ink, edge, width, fx, fy, dx, dy)
-        sprite = self._sprites.get(key)
-        if sprite is None:
+
+        def made(fx: float, fy: float) -> tuple[pygame.Rect, list[Layer]]:
             points = arrow_outline((fx, fy), (fx + dx, fy + dy), width)
-            draw = brushes.edged(points, fill, edge)
-            sprite = self._keep(key, brushes.extent_of(points, edge + 1), [(ink, draw, 4)])
-        surface.blit(sprite[0], (px + sprite[1], py + sprite[2]))
+            box = brushes.extent_of(points, edge + 1)
+            return box, [(ink, brushes.edged(points, fill, edge), 4)]
+
+        if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE:
+            box, ((_, draw, _),) = made(x, y)
+            brushes.cover(surface, ink, box, draw)
+            return
+        dx, dy = round(dx * PHASES) / PHASES, round(dy * PHASES) / PHASES
+        self._stamp(surface, x, y, ("arrow", fill, ink, edge, width, dx, dy), made)
 
     def marks(
         self, surface: pygame.Surface, points: Float, marker: str, color: str, width: float
@@ -419,7 +384,17 @@ class Painter:
             part = pygame.transform.smoothscale(part, size)
         surface.blit(part, place)
 
-    # -- plates of the window -----------------------------------------------------------------
+    # -- words and plates of the window -------------------------------------------------------
+
+    def write(
+        self, surface: pygame.Surface, text: str, size: float, color: str, *, bold: bool = False,
+        mono: bool = False, **place: tuple[float, float],
+    ) -> pygame.Rect:  # fmt: skip
+        """Write a line of text; return where. place: a point of its box, as of `get_rect`."""
+        image = self.fonts.render(text, size, color, bold, mono)
+        box = image.get_rect(**{name: (round(x), round(y)) for name, (x, y) in place.items()})
+        surface.blit(image, box)
+        return box
 
     def panel(
         self,

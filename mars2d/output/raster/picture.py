@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pygame
 
@@ -24,8 +25,9 @@ class Artist:
     """Paints one frame after another, and keeps the parts that do not change.
 
     size: pixels. camera: by default one that shows the whole workspace. status: the text beside the
-    time, such as "10x". footer: whether to leave room for the message at the end. grid, trails,
-    forces, theory: None takes the setting of the scenario's animation; impulses go with forces.
+    time, such as "10x". footer: whether to leave room for the message at the end. switches: of
+    layers by name, such as grid=False; None takes the setting of the scenario's animation, and
+    sensors are off. Impulses go with forces.
     """
 
     def __init__(
@@ -33,13 +35,9 @@ class Artist:
         size: tuple[int, int] = (1280, 720),
         *,
         camera: Camera | None = None,
-        sensors: bool = False,
-        grid: bool | None = None,
-        trails: bool | None = None,
-        forces: bool | None = None,
-        theory: bool | None = None,
         footer: bool = True,
         status: str = "",
+        **switches: bool | None,
     ) -> None:
         """Check the size; nothing is drawn yet."""
         if not all(isinstance(side, int) and 16 <= side <= 16_384 for side in size):
@@ -50,11 +48,8 @@ class Artist:
         self.painter.ui = self.layout.ui
         self._stage = Stage(self.painter)
         self._camera = camera
-        asked = {
-            "grid": grid, "trails": trails, "forces": forces, "impulses": forces, "theory": theory,
-        }  # fmt: skip
+        asked = {"sensors": False, "impulses": switches.get("forces")} | switches
         self._switches = {name: on for name, on in asked.items() if on is not None}
-        self._switches["sensors"] = sensors
         self._status = Status(status) if status else None
 
     def paint(self, frame: Frame, surface: pygame.Surface | None = None) -> pygame.Surface:
@@ -97,23 +92,10 @@ def summary(frame: Frame) -> str:
 
 
 def paint_frame(
-    frame: Frame,
-    size: tuple[int, int] = (1280, 720),
-    *,
-    camera: Camera | None = None,
-    sensors: bool = False,
-    grid: bool | None = None,
-    trails: bool | None = None,
-    forces: bool | None = None,
-    theory: bool | None = None,
-    footer: bool = True,
+    frame: Frame, size: tuple[int, int] = (1280, 720), **options: Any
 ) -> pygame.Surface:
-    """Return the picture of one frame, with title, time, step and message; see `Artist`."""
-    artist = Artist(
-        size, camera=camera, sensors=sensors, grid=grid, trails=trails, forces=forces,
-        theory=theory, footer=footer,
-    )  # fmt: skip
-    return artist.paint(frame)
+    """Return the picture of one frame, with title, time, step and message; options: of `Artist`."""
+    return Artist(size, **options).paint(frame)
 
 
 def save_png(surface: pygame.Surface, path: str | os.PathLike[str]) -> None:

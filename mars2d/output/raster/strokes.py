@@ -8,26 +8,11 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from mars2d.output.lines import arc_length
+
 Float = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax."""
-
-# Lengths on, off, on, off ... in multiples of a screen point.
-DASHES: dict[str, tuple[float, ...]] = {
-    "--": (9.0, 6.0),
-    ":": (2.0, 4.5),
-    "-.": (9.0, 5.0, 2.0, 5.0),
-}
-MARK_SPACING = 9.0
-"""Marks nearer than this to the one before, in points along the path, are left out."""
-
-
-def arc_length(points: Float) -> Float:
-    """Return the length along a polyline (k, 2) up to each of its points, (k,)."""
-    if len(points) < 2:
-        return np.zeros(len(points))
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def dashes(points: Float, pattern: tuple[float, ...], start: float = 0.0) -> list[Float]:
@@ -122,35 +107,13 @@ def clip_polygon(points: Float, box: Box) -> Float:
 
 
 def clip_lines(points: Float, box: Box) -> list[Float]:
-    """Return the parts of a polyline (k, 2) within a box, each a polyline.
-
-    Source: Liang & Barsky (1984), for all segments at once.
-    """
+    """Return the parts of a polyline (k, 2) within a box, each a polyline."""
     if len(points) < 2 or _inside(points, box):
         return [points]
-    start, delta = points[:-1], np.diff(points, axis=0)
-    enter = np.zeros(len(start))
-    leave = np.ones(len(start))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        for axis in (0, 1):
-            low = (box[axis] - start[:, axis]) / delta[:, axis]
-            high = (box[axis + 2] - start[:, axis]) / delta[:, axis]
-            # A segment along the box's side divides by zero: NaN where it lies on the side.
-            enter = np.fmax(enter, np.fmin(low, high))
-            leave = np.fmin(leave, np.fmax(low, high))
-    pieces: list[Float] = []
-    run: list[Float] = []
-    for k in np.nonzero(enter <= leave)[0].tolist():
-        a, b = start[k] + enter[k] * delta[k], start[k] + leave[k] * delta[k]
-        if run and enter[k] == 0 and np.array_equal(run[-1], a):
-            run.append(b)
-        else:
-            if run:
-                pieces.append(np.array(run))
-            run = [a, b]
-    if run:
-        pieces.append(np.array(run))
-    return pieces
+    import shapely
+
+    parts = shapely.get_parts(shapely.clip_by_rect(shapely.linestrings(points), *box))
+    return [shapely.get_coordinates(part) for part in parts]
 
 
 def simplified(points: Float, tolerance: float) -> Float:

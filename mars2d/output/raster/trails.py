@@ -16,10 +16,11 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
+from mars2d.output.lines import DASHES, MARK_SPACING
 from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.strokes import DASHES, MARK_SPACING, dashes, hair_shifts, hairlines
+from mars2d.output.raster.strokes import dashes, hair_shifts, hairlines
 from mars2d.output.raster.theme import Theme, mixed
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario

@@ -73,9 +73,10 @@ class History:
         self._place = place
         return True
 
-    def mark_saved(self) -> None:
-        """Count the present draft as saved."""
-        self._saved, self._tag = self.draft, ""
+    def mark_saved(self, saved: Draft) -> None:
+        """Count the present draft as saved; saved: it, with the title that it has got."""
+        self._drafts[self._place] = self._saved = saved
+        self._tag = ""
 
     def mark_unsaved(self) -> None:
         """Count no draft as saved."""
@@ -152,16 +153,18 @@ class Desk:
 
     def undo(self) -> None:
         """Undo the last change."""
+        before = self.draft
         if not self.drop() and not self.history.undo():
             self.say("there is nothing to undo")
-        self._forget()
+        self._show(before)
 
     def redo(self) -> None:
         """Redo the last change that was undone."""
+        before = self.draft
         self.drop()
         if not self.history.redo():
             self.say("there is nothing to redo")
-        self._forget()
+        self._show(before)
 
     # -- the selection ----------------------------------------------------------------------------
 
@@ -182,6 +185,11 @@ class Desk:
         corners = None if self.only is None else self.draft.corners(self.only)
         if self.corner is not None and self.corner >= len(corners or ()):
             self.corner = None
+
+    def _show(self, before: Draft) -> None:
+        """Select the items that a draft before did not have, if there are such."""
+        self._forget()
+        self.select(self.draft.new_since(before) or self.selection)
 
     def say(self, text: str, *, warns: bool = False) -> None:
         """Show a text in the footer, until the next action."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -99,12 +99,13 @@ class Dialogs:
         if scenario is None:
             return
         try:
-            said = self._document.save(scenario, path)
+            scenario, said = self._document.save(scenario, path)
         except InputError as error:
             self._desk.say(str(error), warns=True)
             return
         if not self._live:
-            self._desk.history.mark_saved()
+            titled = self._desk.draft.base.replace(title=scenario.title)
+            self._desk.history.mark_saved(replace(self._desk.draft, base=titled))
         self._desk.say(said)
         if then is not None:
             then()

@@ -75,12 +75,15 @@ class Document:
                 return path
         return None
 
-    def save(self, scenario: Scenario, path: Path) -> str:
-        """Save a scenario to a file, which is the open one from now on; return a text about it."""
+    def save(self, scenario: Scenario, path: Path) -> tuple[Scenario, str]:
+        """Save a scenario to a file, which is the open one from now on.
+
+        Return it with the title that it has got if it had none, and a text about it.
+        """
         if scenario.title == UNTITLED:
             scenario = scenario.replace(title=path.stem.replace("_", " ").capitalize())
         missing = toml_file.save_scenario(scenario, path, self.control)
         self.path, self._wanted, self.new = path, path, False
         if missing:
-            return f"Saved {path}, without what is code: {', '.join(missing)}"
-        return f"Saved {path}"
+            return scenario, f"Saved {path}, without what is code: {', '.join(missing)}"
+        return scenario, f"Saved {path}"

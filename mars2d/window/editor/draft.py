@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import count
-from typing import Any, Self
+from typing import Any, Self, cast
 
 import numpy as np
 
@@ -162,6 +162,18 @@ class Draft:
         ]
         return (*found, *ways)
 
+    def new_since(self, before: Draft) -> list[Item]:
+        """Return the items that an earlier draft did not have as they are now."""
+        known = {id(before.value(item)) for item in before.items()}
+        return [item for item in self.items() if id(self.value(item)) not in known]
+
+    def value(self, item: Item) -> object:
+        """Return what an item is: a robot, a prop, corners, a beacon, or a waypoint's point."""
+        if item.kind == "workspace":
+            return self.workspace
+        listed = getattr(self, FIELDS[item.kind])[item.number]
+        return listed[item.part] if item.kind == "waypoint" else listed
+
     def holds(self, item: Item) -> bool:
         """Return whether an item exists."""
         if item.kind == "workspace":
@@ -187,11 +199,8 @@ class Draft:
 
     def corners(self, item: Item) -> Outline | None:
         """Return the corners of an outline, a wall or the workspace; None for other items."""
-        if item.kind == "workspace":
-            return self.workspace
-        if item.kind in ("outline", "wall"):
-            corners: Outline = getattr(self, FIELDS[item.kind])[item.number]
-            return corners
+        if item.kind in ("outline", "wall", "workspace"):
+            return cast("Outline | None", self.value(item))
         return None
 
     def pose(self, item: Item) -> tuple[float, float, float] | None:

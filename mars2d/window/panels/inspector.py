@@ -69,7 +69,7 @@ class Inspector(Panel):
     whether somebody drives it, who needs no plot of forces before there are any.
     """
 
-    name, title, headed, remembered = "inspector", "Inspector", False, False
+    name, title, headed, frames, remembered = "inspector", "Inspector", False, False, False
 
     def __init__(
         self,

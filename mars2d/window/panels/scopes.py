@@ -90,7 +90,7 @@ class Scopes(Panel):
     traces: what is plotted, one below the other. span: the time shown, seconds; None: all.
     """
 
-    name, title = "scopes", "Scopes"
+    name, title, remembered = "scopes", "Scopes", False
 
     def __init__(
         self,

@@ -215,6 +215,8 @@ class Window(PlayerWindow):
         if self._predictions.look(playing=self.player.playing):
             self._rest.stir()
         self.viewpoint.step(self.player.frame, seconds)
+        if self.player.playing:
+            self.viewpoint.keep(self.player.frame, self.director.driven)
 
     def _go_near(self) -> None:
         """Let the camera follow the robots of a game that are small in its first picture."""
@@ -334,7 +336,8 @@ class Window(PlayerWindow):
 
     def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the panels, away from the selected body where the arena makes no room for them."""
-        spot = None if self.viewpoint.makes_room else self._selected_pixel(frame)
+        beside = self.viewpoint.makes_room and self.dock.beside
+        spot = None if beside else self._selected_pixel(frame)
         drives = self._drives and self.viewpoint.following is None
         free = self._seen_arena(frame) if drives else None
         self.dock.draw(surface, frame, spot, self._pointer, free=free)
@@ -492,6 +495,11 @@ class Window(PlayerWindow):
         self.grab.cancel()
         self.director.other_branch()
         self._meet()
+
+    def _fit(self) -> None:
+        """Show the whole workspace, beside all panels."""
+        self.dock.reframe()
+        super()._fit()
 
     def _follow_or_not(self) -> None:
         """Let the camera follow the selected body or all robots, or stop following."""

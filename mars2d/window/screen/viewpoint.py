@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from math import exp, hypot, log
 
@@ -13,6 +14,7 @@ from mars2d.output.layers.forces import bounding_circle
 from mars2d.output.raster.camera import FARTHEST, NEAREST, Camera
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.record.frame import Float, Frame
+from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 
 WHEEL_FACTOR = 1.15
@@ -117,9 +119,21 @@ class Viewpoint:
     def step(self, frame: Frame, seconds: float) -> None:
         """Move the camera after the followed bodies, for seconds of the wall clock."""
         if self.following is not None:
-            camera = self.following.camera(self.camera, frame, self.layout.plot, seconds)
+            camera = self.following.camera(self.camera, frame, self._room, seconds)
             if camera != self.camera:
                 self._look(camera)
+
+    def keep(self, frame: Frame, robots: Sequence[int]) -> None:
+        """Move the picture as far as robots, such as those that people drive, would leave it."""
+        if not robots:
+            return
+        low, high = _round([frame.scenario.robots[i] for i in robots], frame.pose.T[[*robots]])
+        (left, top), (right, bottom) = self.camera.to_pixels([(low[0], high[1]), (high[0], low[1])])
+        room = self._room
+        dx = max(room.left - left, 0.0) + min(room.right - max(right, left + 1), 0.0)
+        dy = max(room.top - top, 0.0) + min(room.bottom - max(bottom, top + 1), 0.0)
+        if dx or dy:
+            self._look(self.camera.panned(dx, dy))
 
     def _look(self, camera: Camera) -> None:
         """Set a camera other than that of the whole workspace."""
@@ -204,15 +218,21 @@ def _position(frame: Frame, body: int) -> tuple[float, float]:
 
 def _box(frame: Frame) -> tuple[Float, Float]:
     """Return the lower and upper corner (2,) of a box of some least size round all robots."""
+    robots = frame.scenario.robots
+    low, high = _round(robots, frame.pose.T)
+    widest = 2 * max(robot.chassis.bound[1] for robot in robots)
+    short = np.maximum(MIN_DIAMETERS * widest - (high - low), 0.0) / 2
+    return low - short, high + short
+
+
+def _round(robots: Sequence[Robot], poses: Float) -> tuple[Float, Float]:
+    """Return the lower and upper corner (2,) of the box round robots at poses (k, 3)."""
     circles = [
-        bounding_circle(robot.chassis, pose)
-        for robot, pose in zip(frame.scenario.robots, frame.pose.T, strict=True)
+        bounding_circle(robot.chassis, pose) for robot, pose in zip(robots, poses, strict=True)
     ]
     centers = np.array([center for center, _ in circles])
     radii = np.array([radius for _, radius in circles])[:, None]
-    low, high = (centers - radii).min(axis=0), (centers + radii).max(axis=0)
-    short = np.maximum(MIN_DIAMETERS * 2 * float(radii.max()) - (high - low), 0.0) / 2
-    return low - short, high + short
+    return (centers - radii).min(axis=0), (centers + radii).max(axis=0)
 
 
 def _damped(off: Float, speed: Float, dt: float) -> tuple[Float, Float]:

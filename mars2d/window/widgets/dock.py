@@ -45,13 +45,15 @@ class Panel:
     name: one word, by which the panel is opened and remembered. title: written at its top, and all
     that is seen of it where there is no room. headed: whether the dock writes the title; else the
     panel draws a head of its own, and leaves the corner at the upper right to the close button.
-    is_open: whether it is wanted. remembered: whether the next window opens it again. pointer:
+    frames: whether the arena moves aside when it opens or changes its size. is_open: whether it is
+    wanted. remembered: whether the next window opens it again. pointer:
     where the mouse is, if it is over the panel; the dock sets it before each drawing.
     """
 
     name = ""
     title = ""
     headed = True
+    frames = True
     remembered = True
     is_open = False
     pointer: Pixel | None = None
@@ -118,7 +120,8 @@ class Dock:
         self._folded: set[str] = set()
         self._recent: list[str] = []  # names, the one opened last first
         self._place: Place | None = None
-        self._plot = pygame.Rect(0, 0, 0, 0)
+        self._plot = self._room = pygame.Rect(0, 0, 0, 0)
+        self._framed: tuple[object, ...] | None = None  # the panels for which the room was made
         self._mirrored = False
         self._held: Panel | None = None
 
@@ -169,6 +172,7 @@ class Dock:
     ) -> pygame.Rect:
         """Choose where the open panels stand; return the part of the picture for the arena.
 
+        It stays where it is when a panel opens that does not frame, such as for what is selected.
         fit: returns the camera that shows all of an arena that is `tall` metres high.
         """
         self._plot, self._place = layout.plot, None
@@ -176,8 +180,33 @@ class Dock:
         names = [panel.name for panel in shown]
         new = [name for name in names if name not in self._recent]
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
+        self._choose(layout, frame, fit, tall, shown)
+        framed = layout, *(panel.name for panel in shown if panel.frames)
+        if framed != self._framed:
+            place = self._place if self._framed is None or len(framed) > 1 else None
+            self._framed, self._room = framed, self._plot if place is None else place.room
+        return self._room
+
+    @property
+    def beside(self) -> bool:
+        """Whether all panels stand beside the arena, whose room is where it would be anew."""
+        return self._place is None or self._place.room == self._room
+
+    def reframe(self) -> None:
+        """Let the arena move aside for all open panels, when they are arranged next."""
+        self._framed = None
+
+    def _choose(
+        self,
+        layout: Layout,
+        frame: Frame,
+        fit: Callable[[Layout], Camera],
+        tall: float,
+        shown: Sequence[Panel],
+    ) -> None:
+        """Choose the place of panels."""
         if not shown:
-            return self._plot
+            return
 
         def scale(plot: pygame.Rect) -> float:
             return fit(replace(layout, plot=plot)).scale
@@ -199,7 +228,6 @@ class Dock:
             self._place = max(beside, key=worth)
         elif places:
             self._place = places[0]._replace(room=self._plot)
-        return self._plot if self._place is None else self._place.room
 
     def _places(self, panels: int, frame: Frame, arena: int) -> Iterator[Place]:
         """Yield the places for some panels: columns at the right, and a strip below.

@@ -10,7 +10,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from mars2d.output.layers.forces import round_force
+from mars2d.output.layers.arrows import round_force
 from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import hairlines

@@ -9,6 +9,7 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
+from ezdxf.xclip import XClip
 from PIL import Image
 
 from mars2d import InputError
@@ -186,6 +187,92 @@ def test_a_map_far_away_is_moved_to_where_it_is_wanted(plan):
     assert read(plan, at=(1, 2)).bounds == pytest.approx((1, 11, 2, 7))
 
 
+def clipped(document):
+    block = document.blocks.new("B")
+    block.add_circle((0, 0), 5)
+    clip = XClip(document.modelspace().add_blockref("B", (0, 0)))
+    clip.set_block_clipping_path([(0, 0), (9, 0), (9, 9), (0, 9)])
+
+
+def framed(document):
+    line = document.modelspace().add_polyline2d([(0, 0), (1, 0), (0, 9), (9, 9)])
+    line.dxf.flags |= 4
+    for vertex, flag in zip(line.vertices, (8, 8, 16, 16), strict=True):
+        vertex.dxf.flags = flag
+
+
+def pierced(document):
+    paths = document.modelspace().add_hatch().paths
+    paths.add_polyline_path([(0, 0), (4, 0), (4, 4), (0, 4)], flags=1)
+    paths.add_polyline_path([(1, 1), (2, 1), (2, 2), (1, 2)], flags=16)
+
+
+def mirrored(document):
+    document.blocks.new("B").add_lwpolyline([(0, 0), (3, 0), (3, 1)])
+    document.modelspace().add_blockref("B", (5, 0), dxfattribs={"extrusion": (0, 0, -1)})
+
+
+def of_zero_height(document):
+    document.blocks.new("B").add_line((0, 0), (3, 0))
+    document.modelspace().add_blockref("B", (5, 0), dxfattribs={"zscale": 0})
+
+
+@each_case(
+    ("draw", "expected"),
+    [
+        (clipped, "LINESTRING (5 0, 4.04508497 2.93892626, 1.545085 4.755283, 0 5)"),
+        (framed, "LINESTRING (0 0, 1 0)"),
+        (pierced, "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 2 1, 2 2, 1 2, 1 1))"),
+        (mirrored, "LINESTRING (-5 0, -8 0, -8 1)"),
+        (of_zero_height, "LINESTRING (5 0, 8 0)"),
+        (
+            lambda d: d.modelspace().add_lwpolyline(
+                [(0, 0), (4, 0)], dxfattribs={"const_width": 1}
+            ),
+            "POLYGON ((0 -0.5, 4 -0.5, 4 0.5, 0 0.5, 0 -0.5))",
+        ),
+        (
+            lambda d: d.modelspace().add_mline([(0, 0), (4, 0)]),
+            "MULTILINESTRING ((0 0, 4 0), (0 -1, 4 -1))",
+        ),
+        (lambda d: d.layout("Layout1").add_line((0, 0), (9, 9)), "LINESTRING EMPTY"),
+    ],
+)
+def test_a_dxf_is_read_as_its_own_program_shows_it(plan, draw, expected):
+    document, space = dxf(plan)
+    space.add_line((20, 0), (21, 0))
+    draw(document)
+    document.saveas(plan)
+    found = shapely.union_all([p.geometry for p in read(plan, tolerance=0).pieces])
+    whole = shapely.from_wkt(expected).union(shapely.box(20, 0, 21, 0))
+    assert found.difference(whole.buffer(0.25)).is_empty
+    assert whole.difference(found.buffer(0.25)).is_empty
+
+
+def test_a_block_on_a_frozen_layer_is_hidden_as_a_whole(plan):
+    document, space = dxf(plan)
+    block = document.blocks.new("B")
+    block.add_line((0, 0), (1, 0))
+    block.add_line((0, 1), (1, 1), dxfattribs={"layer": "WALLS"})
+    for name, hide in (("FROZEN", "freeze"), ("OFF", "off")):
+        getattr(document.layers.add(name), hide)()
+        space.add_blockref("B", (0, 0), dxfattribs={"layer": name})
+    document.saveas(plan)
+    assert read(plan).layers == {"WALLS": 1}
+    assert read(plan).others == {"FROZEN": 2, "OFF": 1}
+
+
+def test_a_damaged_dxf_is_repaired_and_said_to_be(plan):
+    document, space = dxf(plan)
+    space.add_line((0, 0), (3, 0))
+    document.saveas(plan)
+    text = plan.read_text()
+    plan.write_text(text[: text.rindex("OBJECTS")])
+    drawing = read(plan)
+    assert same(drawing, "LINESTRING (0 0, 3 0)")
+    assert "missing ENDSEC" in dict(drawing.notes)["damaged"]
+
+
 # -- SVG ---------------------------------------------------------------------------------------
 
 
@@ -200,6 +287,7 @@ def svg(tmp_path, content, head='viewBox="0 0 10 8"'):
 
 
 LINE = 'fill="none" stroke="black"'
+STYLE = "<style>#w g > rect{fill:none;stroke:red}</style>"
 
 
 def test_what_is_filled_is_solid_what_has_a_line_alone_is_a_wall_y_points_up(tmp_path):
@@ -230,6 +318,15 @@ def test_what_is_filled_is_solid_what_has_a_line_alone_is_a_wall_y_points_up(tmp
         (f'<path d="M0 0H1" {LINE}/><marker><circle r="1"/></marker>', 0, 1),
         ('<defs><circle id="c" r="1"/></defs><use href="#c" x="5"/><use xlink:href="#c"/>', 2, 0),
         ('<symbol id="c"><circle r="1"/></symbol><use href="#c" x="5"/>', 1, 0),
+        (f'<g opacity="0"><circle r="1"/></g><path d="M0 0H1" {LINE}/>', 0, 1),
+        (f'<path d="M0 0H1" {LINE}/><path d="M0 1H1" stroke="red" opacity="0"/>', 0, 1),
+        (f'<path d="M0 0H1" {LINE}/><path d="M0 1H1" stroke="red" stroke-width="0"/>', 0, 1),
+        (f'<path d="M0 0H1" {LINE}/><path d="M0 1H1" stroke="white"/>', 0, 1),
+        (
+            f'{STYLE}<g id="w"><g><rect width="2" height="1"/></g></g><rect width="1" height="1"/>',
+            1,
+            1,
+        ),
     ],
 )
 def test_what_is_seen_is_read(tmp_path, content, areas, walls):
@@ -238,10 +335,43 @@ def test_what_is_seen_is_read(tmp_path, content, areas, walls):
     assert (kinds.count("Polygon"), kinds.count("LineString")) == (areas, walls)
 
 
-def test_transforms_of_groups_and_shapes_are_done(tmp_path):
-    turned = '<g transform="translate(4 4)"><rect width="2" height="1" transform="rotate(90)"/></g>'
-    drawing = read(svg(tmp_path, turned))
-    assert same(drawing, shapely.box(3, 2, 4, 4).wkt)
+BOX = '<rect width="100" height="100" fill="red"/>'
+USE = '<use href="#s" x="5" y="5" width="2" height="2"/>'
+SIZE = 'markerWidth="2" markerHeight="2" markerUnits="userSpaceOnUse"'
+MARKER = f'<marker id="m" {SIZE}>{BOX}</marker>'
+HALF = (
+    '<clipPath id="c"><rect width="1" height="1" transform="translate(0 2) scale(2)"/></clipPath>'
+)
+
+
+@each_case(
+    ("content", "expected"),
+    [
+        (
+            '<g transform="translate(4 4)"><rect width="2" height="1" transform="rotate(90)"/></g>',
+            shapely.box(3, 2, 4, 4),
+        ),
+        ('<rect x="4" width="4" height="2" transform="rotate(90)" transform-origin="5 3"/>',
+         shapely.box(6, 2, 8, 6)),
+        ('<rect width="2" height="2" style="transform:rotate(45deg);transform-origin:1px 1px"/>',
+         shapely.Point(1, 7).buffer(2**0.5, quad_segs=1)),
+        (f'<symbol id="s" viewBox="0 0 100 100">{BOX}</symbol>{USE}', shapely.box(5, 1, 7, 3)),
+        (f'<svg x="2" y="1" width="4" height="2" viewBox="0 0 100 100">{BOX}</svg>',
+         shapely.box(3, 5, 5, 7)),  # in the middle of its place
+        (f'<svg x="2" y="1" width="4" height="2" viewBox="0 0 50 50">{BOX}</svg>',
+         shapely.box(3, 5, 6, 7)),  # cut off at its edge
+        (f'<svg width="4" height="2" viewBox="0 0 50 50" preserveAspectRatio="none">{BOX}</svg>',
+         shapely.box(0, 6, 4, 8)),
+        ('<rect x="10%" y="25%" width="50%" height="50%"/>', shapely.box(1, 2, 6, 6)),
+        (f'{HALF}<g clip-path="url(\'#c\')"><rect width="9" height="3"/></g>',
+         shapely.box(0, 5, 2, 6)),
+        ('<rect width="3" height="3"/><rect x="1" width="1" height="9" fill="white"/>',
+         shapely.union(shapely.box(0, 5, 1, 8), shapely.box(2, 5, 3, 8))),  # white covers
+        (f'{MARKER}<path d="M1 1V2" marker-end="url(#m)"/>', shapely.box(1, 4, 3, 6)),
+    ],
+)  # fmt: skip
+def test_shapes_are_where_a_browser_shows_them(tmp_path, content, expected):
+    assert same(read(svg(tmp_path, content)), expected.wkt, 1e-4)
 
 
 @each_case(
@@ -277,12 +407,40 @@ def test_a_layer_is_the_innermost_group_with_a_label_or_an_id(tmp_path):
         ('width="96in" height="80in"', 50 * 0.0254 / 96),
         ('width="100%" height="100%" viewBox="0 0 100 80"', 50),
         ('viewBox="-20 -20 100 80"', 50),
+        ('width="1000mm" height="100mm" viewBox="0 0 100 50"', 0.1),  # the height decides
+        ('width="200mm" height="900mm" viewBox="0 0 100 5" preserveAspectRatio="none"', 0.1),
     ],
 )
 def test_the_unit_is_that_of_the_width_or_else_a_metre(tmp_path, head, width):
-    path = svg(tmp_path, f'<path d="M0 0H50" {LINE}/>', head)
+    path = svg(tmp_path, f'<path d="M0 0H50" {LINE}/><text>A</text>', head)
+    assert read(path).skipped == {"text": 1}
     assert read(path).size[0] == pytest.approx(width)
     assert read(path, unit="cm").size[0] == pytest.approx(0.5)
+
+
+@each_case(
+    ("head", "corner"),
+    [
+        ('width="200mm" height="100mm" viewBox="0 0 100 100"', (0.05, 0.1)),
+        ('width="200mm" height="100mm" viewBox="0 0 100 100" preserveAspectRatio="xMinYMin"',
+         (0, 0.1)),
+        ('width="200mm" height="100mm" viewBox="0 0 100 100" preserveAspectRatio="xMidYMid slice"',
+         (0, 0.15)),
+        ('width="297mm" height="210mm"', (0, 0.21)),
+    ],
+)  # fmt: skip
+def test_the_lower_left_corner_of_the_page_is_the_origin(tmp_path, head, corner):
+    drawing = read(svg(tmp_path, f'<path d="M0 0H50" {LINE}/>', head))
+    assert (drawing.bounds[0], drawing.bounds[3]) == pytest.approx(corner)
+
+
+def test_an_svg_with_a_doctype_and_entities_is_read(tmp_path):
+    path = svg(tmp_path, '<path d="M0 0H5" style="&line;"/>')
+    path.write_text(
+        '<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "svg11.dtd" '
+        f'[<!ENTITY line "fill:none;stroke:red">]>{path.read_text()}'
+    )
+    assert same(read(path), "LINESTRING (0 8, 5 8)")
 
 
 # -- GeoJSON and WKT ---------------------------------------------------------------------------
@@ -293,7 +451,7 @@ def test_geojson_has_solid_polygons_walls_and_layers(tmp_path):
     rings = [[[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]], [[1, 1], [3, 1], [3, 3], [1, 3], [1, 1]]]
     features = [
         ({"layer": "walls"}, {"type": "Polygon", "coordinates": rings}),
-        ({"name": "doors"}, {"type": "MultiLineString", "coordinates": [[[5, 0], [6, 0, 9]]]}),
+        ({"name": "doors"}, {"type": "MultiLineString", "coordinates": [[[5, 0, 1], [6, 0, 9]]]}),
         (None, {"type": "LineString", "coordinates": [[7, 0], [8, 0]]}),
         ({}, {"type": "Point", "coordinates": [1, 1]}),
         ({}, None),

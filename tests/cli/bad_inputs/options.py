@@ -9,6 +9,11 @@ RUN = "mars2d run random_walk --headless --stop-time 2"
 
 ANYWHERE = [
     ("a misspelt verb", "mars2d rnu random_walk", "'rnu'", "did you mean 'run'?"),
+    ("no verb at all", "mars2d nosuch", "'nosuch'", "known: check, compare"),
+    ("an example for a verb", "mars2d random_walk", "write mars2d run random_walk"),
+    ("a misspelt example for a verb", "mars2d random_wal", "did you mean 'run random_walk'?"),
+    ("an option of another verb", "mars2d replay run.npz --seed 3", "--seed 3 (see mars2d replay"),
+    ("a shell without a script", "mars2d doctor --completion nushell", "nushell", "powershell"),
     ("an unknown option", "mars2d --verbose", "--verbose", "mars2d --help"),
 ]
 

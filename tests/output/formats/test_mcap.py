@@ -17,9 +17,8 @@ import mars2d
 from mars2d import InputError, LawError, Record, Robot, Scenario, World
 from mars2d.core.extras import pip_line
 from mars2d.output.formats.mcap import Log
-from mars2d.output.formats.mcap.reading import BROKEN_OFF
+from mars2d.output.formats.mcap.reading import BROKEN_OFF, records
 from mars2d.output.formats.mcap.row import Row, decoded, encoded, schema
-from mars2d.output.formats.mcap.scanning import scan
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE
 from mars2d.scenario import serialize
@@ -144,7 +143,7 @@ def test_a_row_is_a_message_that_protocol_buffers_can_read(tmp_path) -> None:
         pool.Add(file)
     kind = message_factory.GetMessageClass(pool.FindMessageTypeByName("mars2d.Row"))
     with (tmp_path / "run.mcap").open("rb") as file:
-        told = scan(tmp_path / "run.mcap", file)
+        told = records(tmp_path / "run.mcap", file)
         rows = [each.data for each in told if isinstance(each, Message)]
     mine = [row for row in rows if _is_row(row)]
     assert len(mine) == len(record)
@@ -340,12 +339,12 @@ def test_a_run_that_is_killed_while_it_is_packed_keeps_all(tmp_path, child) -> N
     path = tmp_path / "run.mcap"
     code = (
         "import os, signal, mcap.writer as w\n"
-        "calls, add = [0], w.Writer.add_message\n"
+        "calls, add = [0], w.ChunkBuilder.add_message\n"
         "def dying(*args, **kwargs):\n"
         "    calls[0] += 1\n"
         "    if calls[0] == 30: os.kill(os.getpid(), signal.SIGKILL)\n"
         "    return add(*args, **kwargs)\n"
-        "w.Writer.add_message = dying\n"  # only packing uses it
+        "w.ChunkBuilder.add_message = dying\n"  # only packing uses it
         f"import mars2d; mars2d.run('token_ring', stop_time=20, record={str(path)!r})"
     )
     assert child(code).returncode == -signal.SIGKILL

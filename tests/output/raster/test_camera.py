@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from mars2d.core.plane import grid_step
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.grid import label, spacing, ticks
+from mars2d.output.raster.grid import label, ticks
 from mars2d.output.raster.strokes import clip_lines, clip_polygon
 from tests.cases import each_case
 
@@ -44,7 +45,7 @@ def test_zoom_keeps_the_point_beneath_the_pointer():
     "scale, expected", [(50, 1.0), (40, 2.0), (21, 2.0), (9, 5.0), (500, 0.1), (0.05, 1000.0)]
 )
 def test_grid_lines_are_1_2_or_5_apart(scale, expected):
-    assert spacing(scale, 42) == pytest.approx(expected)
+    assert grid_step(42 / scale) == pytest.approx(expected)
 
 
 def test_labels_have_the_decimals_of_their_step_and_no_minus_zero():

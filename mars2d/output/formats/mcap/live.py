@@ -8,7 +8,7 @@ from typing import Any
 from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
-from mars2d.output.formats.mcap.log import Logged, newest_row
+from mars2d.output.formats.mcap.log import newest_row
 
 HOST = "127.0.0.1"
 """It serves this machine alone."""
@@ -37,7 +37,7 @@ class Live:
         self._context = foxglove.Context()
         self._channels: dict[str, Any] = {}
         self._stale = True  # the scene is sent again, for programs that have just come
-        self._world: Logged | None = None
+        self._world: Any = None
         self._counts = 0, 0, 0, 0
 
         class Listener(foxglove.ServerListener):  # type: ignore[misc]
@@ -61,8 +61,8 @@ class Live:
         """The address to open in Foxglove."""
         return f"ws://{HOST}:{self.port}"
 
-    def __call__(self, world: Logged) -> None:
-        """Send the row that a world has recorded last, if it is a new one."""
+    def __call__(self, world: Any) -> None:
+        """Send the row that a `World` has recorded last, if it is a new one."""
         recorder = world.recorder
         if world is not self._world:
             self._world = world

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-import struct
-from array import array
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +13,7 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.guard import check_size, reading
-from mars2d.output.formats.mcap.row import Row, decoded
-from mars2d.output.formats.mcap.scanning import MAGIC, Torn, scan
+from mars2d.output.formats.mcap.row import decoded
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
@@ -23,14 +21,10 @@ from mars2d.record.message import MESSAGE as MESSAGES
 from mars2d.record.message import as_of
 from mars2d.record.rows import Rows
 
+MAGIC = b"\x89MCAP0\r\n"
+
 BROKEN_OFF = "The log breaks off here: the run was killed, or still goes on"
 """The `over_message` of a record whose log does not tell how the run ended."""
-
-SIZES = {
-    "pose": 3, "command": 2, "prop_pose": 3, "effort": 1, "velocity": 3, "prop_velocity": 3,
-    "work": 1,
-}  # fmt: skip
-"""How many numbers a body, or whatever works on bodies, has in each column."""
 
 
 def read(path: Path, largest: int) -> Rows:
@@ -42,35 +36,69 @@ def read(path: Path, largest: int) -> Rows:
     with reading(path), path.open("rb") as file:
         from mcap.records import Channel, Message, Metadata
 
-        rows, count, size = _Rows(), 0, 0
+        rows: list[bytes] = []
+        count, size = 0, 0
         header: Any = None
         end: Any = None
         channels: set[int] = set()
-        try:
-            for told in scan(path, file):
-                if isinstance(told, Message):
-                    if told.channel_id in channels:
-                        size += len(told.data)
-                        check_size(path, size, largest)
-                        rows.add(decoded(told.data))
-                elif isinstance(told, Channel):
-                    if told.topic == TOPIC:
-                        channels.add(told.id)
-                elif isinstance(told, Metadata):
-                    if told.name == BEGIN:
-                        header = json.loads(told.metadata["header"])
-                        headers.check_format(header)
-                        headers.check_sums(header, header["format"])
-                        rows.cut(int(told.metadata["row"]))
-                    elif told.name == END:
-                        end, count = json.loads(told.metadata["end"]), int(told.metadata["rows"])
-                        headers.check_sums(end, header["format"])
-        except Torn:
-            if len(rows) < count:
-                end = None
+        for told in records(path, file):
+            if isinstance(told, Message) and told.channel_id in channels:
+                size += len(told.data)
+                check_size(path, size, largest)
+                _cut(rows, told.sequence)
+                rows.append(told.data)
+            elif isinstance(told, Channel) and told.topic == TOPIC:
+                channels.add(told.id)
+            elif isinstance(told, Metadata) and told.name == BEGIN:
+                header = json.loads(told.metadata["header"])
+                headers.check_format(header)
+                headers.check_sums(header, header["format"])
+                _cut(rows, int(told.metadata["row"]))
+            elif isinstance(told, Metadata) and told.name == END:
+                end, count = json.loads(told.metadata["end"]), int(told.metadata["rows"])
+                headers.check_sums(end, header["format"])
         if header is None:
             raise InputError(_why_nothing(path, channels))
-        return rows.record(header, end)
+        return _record(rows, header, end if len(rows) == count else None)
+
+
+def records(path: Path, file: IO[bytes]) -> Iterator[Any]:
+    """Yield the records of the library `mcap`, up to the end of the data or where the file ends.
+
+    Raises InputError for another kind of file, and the library's errors where it is damaged.
+    """
+    from mcap.exceptions import EndOfFile, RecordLengthLimitExceeded
+    from mcap.records import DataEnd
+    from mcap.stream_reader import StreamReader
+
+    class Whole:
+        """A file that reads all bytes that are asked for; the library takes fewer."""
+
+        def read(self, size: int) -> bytes:
+            data = file.read(size)
+            if len(data) < size:
+                raise EndOfFile
+            return data
+
+    if not MAGIC.startswith(file.read(len(MAGIC))):
+        raise InputError(f"{path}: this is no MCAP file")
+    whole: Any = Whole()
+    size = path.stat().st_size  # a record that claims to be longer breaks off
+    reader = StreamReader(whole, skip_magic=True, validate_crcs=True, record_size_limit=size)
+    try:
+        for record in reader.records:
+            if isinstance(record, DataEnd):
+                return
+            yield record
+    except (EndOfFile, RecordLengthLimitExceeded):
+        return
+
+
+def _cut(rows: list[bytes], count: int) -> None:
+    """Drop all rows from `count` on. Raises ValueError where there are fewer."""
+    if count > len(rows):
+        raise ValueError("a row that does not follow the one before")
+    del rows[count:]
 
 
 def _why_nothing(path: Path, channels: set[int]) -> str:
@@ -82,105 +110,61 @@ def _why_nothing(path: Path, channels: set[int]) -> str:
     return "an MCAP file, but not of MARS2D: it has no rows of a run"
 
 
-class _Rows:
-    """The rows of a log while it is read, column by column."""
+def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | None) -> Rows:
+    """Return the record of encoded rows. Raises the exceptions of `headers.to_record`.
 
-    def __init__(self) -> None:
-        self._count = 0
-        self._columns = {name: bytearray() for name in ("time", "command_time", *SIZES)}
-        self._sensors: dict[str, tuple[tuple[int, ...], np.dtype[Any], bytearray]] = {}
-        self._contacts, self._messages = bytearray(), bytearray()
-        self._contents: list[str] = []
-        self._changes: list[tuple[int, str]] = []
-        # Lists of which a row has any number of items, each with the ends of all rows' items.
-        lists: list[Any] = [self._contacts, self._messages, self._contents]
-        self._lists = [(array("q"), things) for things in lists]
-
-    def __len__(self) -> int:
-        return self._count
-
-    def add(self, row: Row) -> None:
-        """Add a row. If there is one of its number already, it replaces that and all later ones."""
-        if row.row != self._count:
-            self.cut(row.row)
-        for name in ("time", "command_time"):
-            self._columns[name] += struct.pack("<d", getattr(row, name))
-        for name in SIZES:
-            values = getattr(row, name)
-            if self._count and len(self._columns[name]) != self._count * values.nbytes:
+    end: how the run ended, None where the log does not tell.
+    """
+    columns: dict[str, NDArray[Any]] = {}
+    contacts, messages = [np.empty(0, CONTACT)], [np.empty(0, MESSAGES)]
+    contents: list[str] = []
+    changes: list[Any] = []
+    robots = header["sensor_robots"]
+    names = [f"sensor:{name}" for name in robots] if rows else []
+    for name, shape in _shapes(header).items():
+        columns[name] = np.empty((len(rows), *shape))
+    for k, data in enumerate(rows):
+        row = decoded(data)
+        if row.row != k:
+            raise ValueError("row")
+        readings = {f"sensor:{name}": values for name, values in row.readings.items()}
+        if k == 0:
+            names = [name for name in names if name in readings]
+            for name in names:
+                first = readings[name]
+                columns[name] = np.empty((len(rows), *first.shape), first.dtype)
+        for name, column in columns.items():
+            values = readings[name] if name in readings else getattr(row, name)
+            if name in readings and (values.shape, values.dtype) != (column[k].shape, column.dtype):
                 raise ValueError(name)
-            self._columns[name] += values.tobytes()
-        self._add_readings(row)
-        self._contacts += row.contacts.tobytes()
-        self._messages += row.messages.tobytes()
-        self._contents += row.contents
-        self._changes += [(row.row, change) for change in row.changes]
-        for ends, things in self._lists:
-            ends.append(len(things))
-        self._count += 1
+            column[k] = np.reshape(values, column[k].shape)
+        contacts.append(row.contacts)
+        messages.append(row.messages)
+        contents += row.contents
+        changes += map(json.loads, row.changes)
+    now = columns["time"][-1] if rows else 0.0
+    for family, dtype, table in (
+        ("contact", CONTACT, np.concatenate(contacts)),
+        ("message", MESSAGES, as_of(np.concatenate(messages), now)),
+    ):
+        columns |= {f"{family}:{name}": table[name] for name in dtype.names or ()}
+    texts = [text.encode() for text in contents]
+    columns["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
+    columns["content_sizes"] = np.array([len(text) for text in texts], dtype=np.int64)
+    whole = header | {
+        "interventions": [*header["interventions"], *changes],
+        "messages": bool(contents),
+        "sensor_robots": {name: robots[name] for name in robots if f"sensor:{name}" in columns},
+    }
+    whole |= end or {"over_message": BROKEN_OFF, "finished": False}
+    return headers.to_record(whole, columns, torn=end is None)
 
-    def _add_readings(self, row: Row) -> None:
-        if self._count == 0:
-            self._sensors = {
-                name: (values.shape, values.dtype, bytearray())
-                for name, values in row.readings.items()
-            }
-        if row.readings.keys() != self._sensors.keys():
-            raise ValueError("sensors")
-        for name, values in row.readings.items():
-            shape, dtype, data = self._sensors[name]
-            if (values.shape, values.dtype) != (shape, dtype):
-                raise ValueError(name)
-            data += values.tobytes()
 
-    def cut(self, count: int) -> None:
-        """Drop all rows from `count` on. Raises ValueError where there are fewer."""
-        if not 0 <= count <= self._count:
-            raise ValueError("a row that does not follow the one before")
-        columns = [*self._columns.values(), *(data for _, _, data in self._sensors.values())]
-        for data in columns if self._count else ():
-            del data[len(data) // self._count * count :]
-        for ends, things in self._lists:
-            del things[ends[count - 1] if count else 0 :]
-            del ends[count:]
-        self._changes = [each for each in self._changes if each[0] < count]
-        self._count = count
-
-    def record(self, header: dict[str, Any], end: dict[str, Any] | None) -> Rows:
-        """Return the record. Raises the exceptions of `headers.to_record`.
-
-        end: how the run ended, None where the log does not tell.
-        """
-        changes = [json.loads(text) for _, text in self._changes]
-        robots = header["sensor_robots"]
-        whole = header | {
-            "interventions": [*header["interventions"], *changes],
-            "messages": bool(self._contents),
-            "sensor_robots": {name: robots[name] for name in robots if name in self._sensors},
-        }
-        whole |= end or {"over_message": BROKEN_OFF, "finished": False}
-        return headers.to_record(whole, self._all(header), torn=end is None)
-
-    def _all(self, header: dict[str, Any]) -> dict[str, NDArray[Any]]:
-        """Return the columns as `Record.columns` does."""
-        n, scenario = self._count, header["scenario"]
-        robots, props = len(scenario["robots"]), len(scenario.get("props", ()))
-        columns = {name: np.frombuffer(self._columns[name]) for name in headers.columns_in(header)}
-        for name, numbers in SIZES.items():
-            if name not in columns:
-                continue
-            bodies = props if name.startswith("prop_") else robots
-            bodies = len(WORK) if name == "work" else bodies
-            shape = (n, bodies) if numbers == 1 else (n, numbers, bodies)
-            columns[name] = columns[name].reshape(shape)
-        for name, (reading_shape, dtype, data) in self._sensors.items():
-            columns[f"sensor:{name}"] = np.frombuffer(data, dtype).reshape(n, *reading_shape)
-        contacts = np.frombuffer(self._contacts, CONTACT)
-        columns |= {f"contact:{name}": contacts[name] for name in CONTACT.names or ()}
-        now = columns["time"][-1] if n else 0.0
-        messages = as_of(np.frombuffer(self._messages, MESSAGES), now)
-        columns |= {f"message:{name}": messages[name] for name in MESSAGES.names or ()}
-        texts = [text.encode() for text in self._contents]
-        columns["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
-        columns["content_sizes"] = np.array([len(text) for text in texts], dtype=np.int64)
-        return columns
+def _shapes(header: dict[str, Any]) -> dict[str, tuple[int, ...]]:
+    """Return the shape of a row of each column that every log with this header holds."""
+    n, p = len(header["scenario"]["robots"]), len(header["scenario"].get("props", ()))
+    shapes: dict[str, tuple[int, ...]] = {
+        "time": (), "command_time": (), "pose": (3, n), "command": (2, n), "prop_pose": (3, p),
+        "effort": (n,), "velocity": (3, n), "prop_velocity": (3, p), "work": (len(WORK),),
+    }  # fmt: skip
+    return {name: shapes[name] for name in headers.columns_in(header)}

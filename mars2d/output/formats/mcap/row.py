@@ -113,36 +113,24 @@ KINDS = {"f": ("double", "<f8"), "i": ("sfixed32", "<i4"), "u": ("fixed32", "<u4
 """How arrays are stored, by the kinds of their numbers: as messages call it, and as numpy does."""
 
 
+def _fields(text: str) -> dict[str, str]:
+    """Return the kinds of fields by their names, in order."""
+    kinds = (line.split() for line in text.split("; "))
+    return {name: kind for kind, *names in kinds for name in names}
+
+
 def _fields_of(dtype: np.dtype[Any]) -> dict[str, str]:
     """Return the fields of a message that holds the rows of a structured array."""
     return {name: f"{KINDS[dtype[name].base.kind][0]}[]" for name in dtype.names or ()}
 
 
 FIELDS = {
-    "Row": {
-        "row": "uint64",
-        "time": "double",
-        "command_time": "double",
-        "pose": "double[]",
-        "command": "double[]",
-        "prop_pose": "double[]",
-        "effort": "double[]",
-        "readings": "Readings[]",
-        "contacts": "Contacts",
-        "messages": "Messages",
-        "contents": "string[]",
-        "changes": "string[]",
-        "velocity": "double[]",
-        "prop_velocity": "double[]",
-        "crc": "fixed32",
-        "work": "double[]",
-    },
-    "Readings": {
-        "sensor": "string",
-        "shape": "fixed32[]",
-        "numbers": "double[]",
-        "flags": "bool[]",
-    },
+    "Row": _fields(
+        "uint64 row; double time command_time; double[] pose command prop_pose effort; "
+        "Readings[] readings; Contacts contacts; Messages messages; string[] contents changes; "
+        "double[] velocity prop_velocity; fixed32 crc; double[] work"
+    ),
+    "Readings": _fields("string sensor; fixed32[] shape; double[] numbers; bool[] flags"),
     "Contacts": _fields_of(CONTACT),
     "Messages": _fields_of(MESSAGE),
 }

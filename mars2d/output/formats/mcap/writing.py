@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import accumulate
+from collections.abc import Mapping
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
@@ -15,8 +14,6 @@ from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
 from mars2d.output.formats.mcap.row import Row, cut, encoded, schema
-from mars2d.output.formats.mcap.scanning import scan
-from mars2d.record.columns import DiskError
 from mars2d.record.message import as_of
 from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
@@ -35,9 +32,6 @@ CHUNK_SIZE = 2**20
 
 LATEST = 2**64 / 1e9 - 1
 """The latest time in an MCAP file, seconds: it counts nanoseconds in 64 bits."""
-
-NEVER = 2**64
-"""A row that no run gets to."""
 
 
 def require(path: Path) -> None:
@@ -74,13 +68,12 @@ class Tape:
         self._writer.add_metadata(BEGIN, {"header": headers.as_text(header), "row": str(row)})
         self._topics = Topics(scenario, sensor_robots, self._foxglove)
 
-    def messages(self, row: Row, scenario: Scenario) -> Iterator[tuple[int, bytes]]:
-        """Yield the channel and the bytes of each message of a row.
-
-        scenario: as it is at that row.
-        """
-        yield from self._topics.messages(row, scenario)
-        yield self._row, encoded(row)
+    def add(self, row: Row, scenario: Scenario) -> None:
+        """Write a row. scenario: as it is at that row."""
+        ns, number = nanoseconds(row.time), row.row & 0xFFFFFFFF
+        for channel, data in self._topics.messages(row, scenario):
+            self._writer.add_message(channel, ns, data, ns, number)
+        self._writer.add_message(self._row, ns, encoded(row), ns, number)
 
     def end(self, record: Rows) -> None:
         """Write how the run ended."""
@@ -108,17 +101,22 @@ def write(record: Rows, path: Path) -> None:
     """
     require(path)
     _check_whole(record, path)
+    write_whole(record, path)
+
+
+def write_whole(record: Rows, path: Path, held: BinaryIO | None = None) -> None:
+    """Write the record of a whole run, compressed and with an index; held: see `atomic_write`."""
+    from mcap.writer import Writer
+
     header = headers.of_record(record)
     if len(record):
         header["interventions"] = []  # they come with their rows
-    with atomic_write(path) as file:
-        writer = _writer(file)
+    with atomic_write(path, held) as file:
+        writer: Any = Writer(file, chunk_size=CHUNK_SIZE)
         tape = Tape(writer)
         tape.begin(header, record.scenario, record.sensor_robots)
         for row in cut(record):
-            ns = nanoseconds(row.time)
-            for channel, data in tape.messages(row, record.scenario_at(row.row)):
-                writer.add_message(channel, ns, data, ns, row.row & 0xFFFFFFFF)
+            tape.add(row, record.scenario_at(row.row))
         tape.end(record)
         writer.finish()
 
@@ -136,46 +134,3 @@ def _check_whole(record: Rows, path: Path) -> None:
             f"{path}: can't be written: a log is of a whole run, and this record is not, as if "
             "rows had been cut off: save it as .npz"
         )
-
-
-def pack(path: Path, header: Mapping[str, Any], begun: Sequence[int], held: BinaryIO) -> None:
-    """Replace a log that was written step by step by a file that is quick to open.
-
-    header: of the run that it ends with. begun: the rows at which it went on with other worlds;
-    rows that they replaced are left out. held: see `atomic_write`. Raises DiskError, and leaves the
-    file as it is.
-    """
-    from mcap.records import Channel, Message, Metadata, Schema
-
-    # Each world's rows count up to the first row at which a later world began.
-    ends = [*accumulate([NEVER, *begun[:0:-1]], min)][::-1]
-    world = -1
-    try:
-        with path.open("rb") as source, atomic_write(path, held) as file:
-            writer = _writer(file)
-            writer.start(profile="", library="mars2d")
-            for told in scan(path, source):
-                if isinstance(told, Message):
-                    row, time = told.sequence, told.log_time
-                    if row < ends[world]:
-                        writer.add_message(told.channel_id, time, told.data, time, row)
-                elif isinstance(told, Schema):
-                    writer.register_schema(told.name, told.encoding, told.data)
-                elif isinstance(told, Channel):
-                    writer.register_channel(told.topic, told.message_encoding, told.schema_id)
-                elif isinstance(told, Metadata):
-                    world += told.name == BEGIN
-                    if told.name != BEGIN:
-                        writer.add_metadata(told.name, told.metadata)
-                    elif world == 0:
-                        writer.add_metadata(BEGIN, {"header": headers.as_text(header), "row": "0"})
-            writer.finish()
-    except (OSError, MemoryError, InputError) as error:
-        reason = error.__cause__ or error
-        raise DiskError(f"{path}: complete, but it can't be packed: {reason}") from error
-
-
-def _writer(file: IO[bytes]) -> Any:
-    from mcap.writer import Writer
-
-    return Writer(file, chunk_size=CHUNK_SIZE)

@@ -13,6 +13,7 @@ from mars2d.core.description import snake_case
 from mars2d.core.quantity import ANGLE, DISTANCE, UNKNOWN, Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
+from mars2d.output.layers.arrows import MAX_ARROW
 from mars2d.output.layers.forces import (
     FAINTEST,
     MAX_CONTACTS,
@@ -20,7 +21,7 @@ from mars2d.output.layers.forces import (
     as_read,
     force_scale,
 )
-from mars2d.output.layers.legend import MAX_ARROW, Legend, legends
+from mars2d.output.layers.legend import Legend, legends
 from mars2d.output.layers.rings import RING, has_ring
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
 from mars2d.output.layers.trails import (
@@ -356,7 +357,7 @@ class _Content:
             self.notes.append(f"not drawn, since their code is not in the record: {listed}")
         if not self.carried:
             return
-        drawings, stride = sensors.drawings(self.carried, self.poses, self.scenario.colors)
+        drawings, stride = sensors.drawings(self.carried, self.scenario.colors)
         headers: list[dict[str, Any]] = []
 
         def packed(every: int) -> tuple[Columns, int]:
@@ -464,7 +465,7 @@ def pack_contacts(record: Rows, kept: Int, shown: Sequence[int]) -> Columns:
     kept: the record's rows of the replay. shown: those of them that have arrows.
     """
     columns = Columns()
-    strongest = force_scale(record.scenario).strongest
+    strongest = force_scale(record.scenario).most
     rows = record.contact_rows
     place = np.searchsorted(kept, rows)
     at = np.minimum(place, len(kept) - 1)

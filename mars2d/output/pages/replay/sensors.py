@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
@@ -28,18 +27,28 @@ ELSEWHERE = np.array([0.7, -0.4, 1.1])
 
 
 class Carried:
-    """A sensor on a robot, and its readings at the rows of a replay, (R, ...)."""
+    """A sensor on a robot, and its readings at the rows of a replay, (R, ...).
 
-    def __init__(self, name: str, robot: int, sensor: Sensor, readings: NDArray[Any]) -> None:
-        """Keep them together."""
-        self.name, self.robot, self.sensor, self.readings = name, robot, sensor, readings
+    pose: (R, 3), of the robot where each was measured. lags: whether some were so at earlier rows.
+    """
+
+    def __init__(self, record: Rows, kept: Int, name: str, k: int, sensor: Sensor) -> None:
+        """Take the k-th robot that has a sensor; kept: the rows of the replay, (R,)."""
+        self.name, self.robot, self.sensor = name, record.sensor_robots[name][k], sensor
+        self.readings = record.sensors[name][kept, k]
+        dt = record.scenario.sampling_time
+        measured = [sensor.measured_at(row, dt) for row in kept.tolist()]
+        self.pose: Float = record.pose[measured, :, self.robot]
+        self.lags = sensor.period(dt) > 1 or sensor.age(dt) > 0
 
     def changes(self) -> Int:
-        """Return the rows at which its reading changes."""
+        """Return the rows at which its reading changes, or from where it is drawn if it lags."""
         if not len(self.readings):
             return np.empty(0, dtype=np.int64)
         bits = np.ascontiguousarray(self.readings).view(np.uint8).reshape(len(self.readings), -1)
         changed = np.any(bits[1:] != bits[:-1], axis=1)
+        if self.lags:
+            changed |= np.any(np.diff(self.pose, axis=0) != 0, axis=1)
         return np.concatenate([[0], np.flatnonzero(changed) + 1])
 
 
@@ -49,22 +58,17 @@ def carried(record: Rows, kept: Int) -> Iterator[Carried]:
         for k, robot in enumerate(robots):
             sensor = record.scenario.robots[robot].sensor(name)
             if sensor is not None:
-                yield Carried(name, robot, sensor, record.sensors[name][kept, k])
+                yield Carried(record, kept, name, k, sensor)
 
 
-def drawings(
-    sensors: list[Carried], pose: Float, colors: tuple[str, ...]
-) -> tuple[list[Drawing], int]:
-    """Return the sensors' drawings of their readings, one for each `stride` rows, and the stride.
-
-    pose: (R, 3, n), of the rows of a replay.
-    """
+def drawings(sensors: list[Carried], colors: tuple[str, ...]) -> tuple[list[Drawing], int]:
+    """Return the drawings of readings, one for each `stride` rows, and the stride."""
     changes = [each.changes() for each in sensors]
     stride, many = 1, [rows for rows in changes if len(rows) > FEW_SCENES]
     while sum(len(np.unique(rows // stride)) for rows in many) > MAX_DRAWN:
         stride *= 2
     found = [
-        _drawing(each, rows if len(rows) <= FEW_SCENES else _last(rows, stride), pose, colors)
+        _drawing(each, rows if len(rows) <= FEW_SCENES else _last(rows, stride), colors)
         for each, rows in zip(sensors, changes, strict=True)
     ]
     return found, stride
@@ -76,10 +80,10 @@ def _last(rows: Int, stride: int) -> Int:
     return np.array(sorted({int(rows[0]), *last.values()}), dtype=np.int64)
 
 
-def _drawing(each: Carried, rows: Int, pose: Float, colors: tuple[str, ...]) -> Drawing:
+def _drawing(each: Carried, rows: Int, colors: tuple[str, ...]) -> Drawing:
     color = colors[each.robot]
-    if len(rows) and not _rigid(each, rows, color):
-        pairs = zip(pose[rows, :, each.robot], each.readings[rows], strict=True)
+    if len(rows) and (each.lags or not _rigid(each, rows, color)):
+        pairs = zip(each.pose[rows], each.readings[rows], strict=True)
         return Drawing(rows.tolist(), [_drawn(each, *pair, color) for pair in pairs])
     known: dict[bytes, Flat] = {}
     scenes: list[Flat] = []
