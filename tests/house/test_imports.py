@@ -21,10 +21,13 @@ LAYERS = [
     {"physics", "output"},
     {"world"},
     {"window", "study", "testing", "rl"},
-    {"reports"},
+    {"reports", "tournaments"},
     {"cli"},
 ]
 """The rooms of the house, low to high: each imports from below only, for types and late as well."""
+
+DERIVED = {"recorder.py"}
+"""Modules whose classes derive from those of a heavy library: they are imported where used."""
 
 HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "wasmtime", "yaml"}
 
@@ -74,7 +77,7 @@ def _room(path: Path) -> str:
 def test_the_top_of_the_package_shows_its_rooms_and_nothing_else() -> None:
     there = {_room(path) for path in FILES} - {"__init__", "__main__"}
     assert there == set(ROOMS)
-    assert len(there) <= 16
+    assert len(there) <= 17
 
 
 @each_case("path", FILES)
@@ -108,7 +111,7 @@ def test_physics_alone_knows_the_engine_library() -> None:
 
 def test_no_module_imports_anything_heavy_when_it_is_imported() -> None:
     for path in FILES:
-        if _room(path) in ("window", "output"):
+        if _room(path) in ("window", "output") or path.name in DERIVED:
             continue
         at_once = {module.split(".")[0] for module, kind in _own_imports(path) if kind == "module"}
         assert not at_once & HEAVY, path
