@@ -21,7 +21,7 @@ import outcome
 
 from mars2d import Robot, Scenario, World, load_law
 from mars2d.sensors import RangeFinder
-from mars2d.study.isolation import Guard
+from mars2d.tournaments.isolation import Guard
 
 LAW = """
 def control(robot):

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from mars2d.sensors import Sensor
     from mars2d.study.run import sweep
     from mars2d.study.table import Table
-    from mars2d.study.tournament.tournament import tournament
+    from mars2d.tournaments.tournament import tournament
     from mars2d.window.entry import run
     from mars2d.world.record import Record, load
     from mars2d.world.world import World
@@ -95,7 +95,7 @@ _HOMES = {
     "sensors": ("Sensor",),
     "study.run": ("sweep",),
     "study.table": ("Table",),
-    "study.tournament.tournament": ("tournament",),
+    "tournaments.tournament": ("tournament",),
     "window.entry": ("run",),
     "world.record": ("Record", "load"),
     "world.world": ("World",),

@@ -8,6 +8,7 @@ import itertools
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import ModuleType
 from typing import Any, cast
@@ -22,14 +23,16 @@ from mars2d.scenario.policy import SUFFIX, Policy
 _counter = itertools.count()
 
 
-def module_in(path: Path, what: str = "an experiment") -> ModuleType:
-    """Run a file as a module of its own, which no other module can see."""
+def module_in(
+    path: Path, what: str = "an experiment", loader: type[SourceFileLoader] = SourceFileLoader
+) -> ModuleType:
+    """Run a file as a module of its own, which no other module can see. loader: reads it."""
     if path.suffix != ".py":
         other = ".toml" if what == "an experiment" else SUFFIX
         raise InputError(f"{path}: expected {what}, a file that ends in .py or {other}")
     note_file(path)
     name = f"_mars2d_experiment_{next(_counter)}_{path.stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
+    spec = importlib.util.spec_from_file_location(name, path, loader=loader(name, str(path)))
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -80,16 +83,18 @@ def law_in(
     name: str,
     subject: str = "the robot",
     given: tuple[Sequence[Any], Mapping[str, Any]] = ((), {}),
+    loader: type[SourceFileLoader] = SourceFileLoader,
 ) -> Callable[[Any], Any]:
     """Return the law called `name` in a file, which is run again.
 
-    subject: the robot or world. given: the arguments of the function that are given.
+    subject: the robot or world. given: the arguments of the function that are given. loader: reads
+    the file.
     """
     if file.suffix == SUFFIX:
         if name != "control" or given != ((), {}):
             raise InputError(f"{file.name}: a learned law has no other names and no arguments")
-        return Policy(file)
-    module, (args, values) = module_in(file, "a law"), given
+        return Policy(file, loader(name, str(file)).get_data)
+    module, (args, values) = module_in(file, "a law", loader), given
     law = getattr(module, name, None)
     if law is None:
         functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]

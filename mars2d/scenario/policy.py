@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -41,8 +42,11 @@ class Policy:
     largest. The file's metadata say which observation and commands these are, see `mars2d.rl`.
     """
 
-    def __init__(self, file: Path) -> None:
-        """Read a file. Raises InputError, which names it, and MissingExtraError."""
+    def __init__(self, file: Path, read: Callable[[str], bytes] | None = None) -> None:
+        """Read a file, by a function if it is given.
+
+        Raises InputError, which names the file, and MissingExtraError.
+        """
         note_file(file)
         self.file = file
         self.__name__ = file.stem
@@ -53,7 +57,9 @@ class Policy:
         options.log_severity_level = 4
         try:
             self._session = onnxruntime.InferenceSession(
-                file.read_bytes(), options, providers=["CPUExecutionProvider"]
+                read(str(file)) if read else file.read_bytes(),
+                options,
+                providers=["CPUExecutionProvider"],
             )
         except Exception as error:  # of many kinds, of the library's own
             raise InputError(f"{file}: no network in the format ONNX: {one_line(error)}") from error

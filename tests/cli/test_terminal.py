@@ -16,7 +16,7 @@ from mars2d.cli import command_line as cli
 from mars2d.core.terminal import tell, warn
 from mars2d.output.formats.header import as_text
 from mars2d.study.table import Result, Table
-from mars2d.study.tournament import league
+from mars2d.tournaments import league
 
 EVIL = "\x1b]0;owned\x07\x9b31m\u202egnp\u2066\r\nmars2d: all is well\ud800"
 """Codes of a terminal, text that is turned round, a line that is forged, half a character."""

@@ -28,11 +28,11 @@ from mars2d.scenario.options import options_in_words, parse_option, reading_opti
 from mars2d.scenario.policy import SUFFIX as LEARNED
 from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
-from mars2d.study.tournament.match import play
-from mars2d.study.tournament.schedule import trial_matches
-from mars2d.study.tournament.tournament import LIMITS
 from mars2d.testing.file import trials
 from mars2d.testing.finding import Finding
+from mars2d.tournaments.match import play
+from mars2d.tournaments.schedule import trial_matches
+from mars2d.tournaments.tournament import LIMITS
 from mars2d.world.record import Record, load
 from mars2d.world.verify import ask_again, other_versions, rerun
 

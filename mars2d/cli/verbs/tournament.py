@@ -6,72 +6,54 @@ import argparse
 from dataclasses import replace
 from math import dist
 from pathlib import Path
+from typing import Any
 
 from mars2d.cli.arguments import add_preferences, add_workers, preferences_of, workers_of
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import has_display
-from mars2d.core.errors import InputError, counted, one_line
-from mars2d.core.files import atomic_write
+from mars2d.core.errors import InputError, Mars2dError, counted, one_line
 from mars2d.core.scene import NAMED, rgb
 from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import experiment_name
-from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import contest_of
-from mars2d.study.isolation.limits import Limits
-from mars2d.study.plan import Plan, parse_all, settings_of
-from mars2d.study.tournament.folder import played_before
-from mars2d.study.tournament.league import Tournament
-from mars2d.study.tournament.league_text import league_text, matches
-from mars2d.study.tournament.match import Match, Played, replayed
-from mars2d.study.tournament.page.rules import rules_page
-from mars2d.study.tournament.rules import Rules
-from mars2d.study.tournament.schedule import Schedule, schedule
-from mars2d.study.tournament.tournament import LIMITS, PAGE, TournamentInterrupted, play_schedule
+from mars2d.study.plan import parse_all
 from mars2d.study.work import worker_count
-from mars2d.world.record import Record
+from mars2d.tournaments.folder import played_before
+from mars2d.tournaments.isolation.limits import Limits
+from mars2d.tournaments.league import matches_of
+from mars2d.tournaments.league_text import league_text
+from mars2d.tournaments.match import Match, Played, replayed
+from mars2d.tournaments.page.rules import save_rules
+from mars2d.tournaments.schedule import Schedule, schedule
+from mars2d.tournaments.tournament import (
+    LIMITS,
+    PAGE,
+    TournamentInterrupted,
+    missing,
+    play_schedule,
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     add = parser.add_argument
+    each: dict[str, Any] = {"action": "append", "nargs": "+", "default": []}
+    laws = "the laws of a role: files, a folder, or a pattern such as pursuers/*.py"
     add("scenario", metavar="SCENARIO", help="a file with a contest, or the name of an example")
-    add(
-        "--role",
-        action="append",
-        nargs="+",
-        default=[],
-        metavar="ROLE=FILES",
-        help="the laws of a role: files, a folder, or a pattern such as pursuers/*.py",
-    )
-    add(
-        "--players",
-        action="append",
-        nargs="+",
-        default=[],
-        metavar="FILES",
-        help="laws of all roles",
-    )
+    add("--role", **each, metavar="ROLE=FILES", help=laws)
+    add("--players", **each, metavar="FILES", help="laws of all roles")
     add("--seeds", type=int, default=10, metavar="N", help="matches of each pairing (default: 10)")
     add("--first-seed", type=int, default=0, metavar="K", help="the seeds are K to K + N - 1")
     add("--stop-time", type=float, metavar="S", help="seconds to simulate")
-    add(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY=VALUES",
-        help="an option; several values make rounds: mu=0.8,0.9 or mu=0.8:1.0:5",
-    )
+    rounds = "an option; several values make rounds: mu=0.8,0.9 or mu=0.8:1.0:5"
+    add("--set", action="append", default=[], metavar="KEY=VALUES", help=rounds)
     add("--tick-limit", type=float, metavar="S", help="seconds that a law may take for a step")
     add("--match-limit", type=float, metavar="S", help="seconds that a law may take for a match")
     add("--memory", type=float, metavar="MB", help="memory that a law may use")
-    add(
-        "--out",
-        type=Path,
-        metavar="FOLDER",
-        help="folder of the tables and the page (default: tournament_SCENARIO)",
-    )
+    add("--reads", **each, metavar="FILES", help="files and folders that laws may read")
+    folder = "folder of the tables and the page (default: tournament_SCENARIO)"
+    add("--out", type=Path, metavar="FOLDER", help=folder)
     add("--no-replays", action="store_true", help="a small page, for very many matches")
     add("--rules", type=Path, metavar="OUT.html", help="write the game's rules as a page")
     add("--match", type=int, metavar="N", help="play only this match, again")
@@ -83,30 +65,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace) -> None:
     """Let the laws of files play each other; print the league, and write a page with replays."""
-    _check(arguments)
-    limits, roles = _limits(arguments), _roles(arguments)
-    if arguments.rules is not None:
-        _write_rules(arguments, limits)
-        if not (roles or arguments.players):
-            return
-    planned = schedule(
-        arguments.scenario,
-        roles,
-        [file for files in arguments.players for file in files],
-        seeds=arguments.seeds,
-        first_seed=arguments.first_seed,
-        settings=parse_all(arguments.set),
-        stop_time=arguments.stop_time,
-    )
-    path = arguments.out or Path(f"tournament_{experiment_name(Path(planned.experiment))}")
-    if arguments.match is not None:
-        _play_one(arguments, planned, path, limits)
-    else:
-        _play_all(arguments, planned, path, limits)
-
-
-def _check(arguments: argparse.Namespace) -> None:
-    """Raise InputError at the start for requests that can't be met."""
     for name in ("view", "record"):
         if getattr(arguments, name) and arguments.match is None:
             raise InputError(f"--{name} needs --match N")
@@ -115,6 +73,21 @@ def _check(arguments: argparse.Namespace) -> None:
     if arguments.view and not has_display():
         require_pygame("a window")
         raise InputError("--view: there is no display; save the match with --record OUT.npz")
+    limits, roles, settings = _limits(arguments), _roles(arguments.role), parse_all(arguments.set)
+    seeds = {"seeds": arguments.seeds, "first_seed": arguments.first_seed}
+    more: dict[str, Any] = {**seeds, "settings": settings, "stop_time": arguments.stop_time}
+    if arguments.rules is not None:
+        save_rules(arguments.rules, arguments.scenario, limits, **more)
+        tell(f"rules: {arguments.rules}")
+        if not (roles or arguments.players):
+            return
+    players = [file for files in arguments.players for file in files]
+    planned = schedule(arguments.scenario, roles, players, **more)
+    path = arguments.out or Path(f"tournament_{experiment_name(Path(planned.experiment))}")
+    if arguments.match is None:
+        _play_all(arguments, planned, path, limits)
+    else:
+        _play_one(arguments, planned, path, limits)
 
 
 def _limits(arguments: argparse.Namespace) -> Limits:
@@ -122,28 +95,15 @@ def _limits(arguments: argparse.Namespace) -> Limits:
         "tick": arguments.tick_limit,
         "match": arguments.match_limit,
         "memory": arguments.memory,
+        "reads": [file for files in arguments.reads for file in files] or None,
     }
     return replace(LIMITS, **{name: value for name, value in given.items() if value is not None})
 
 
-def _write_rules(arguments: argparse.Namespace, limits: Limits) -> None:
-    """Write the page of the game's rules, and print its path."""
-    points = Plan(settings_of(parse_all(arguments.set)), (arguments.first_seed,)).points()
-    options = dict(next(iter(points)))
-    if arguments.stop_time is not None:
-        options["stop_time"] = arguments.stop_time
-    experiment = open_experiment(arguments.scenario, options, seed=arguments.first_seed)
-    contest = contest_of(experiment.scenario, arguments.scenario)
-    rules = replace(Rules.of(experiment, contest), limits=limits)
-    with atomic_write(arguments.rules) as file:
-        file.write(rules_page(rules).encode("utf-8", errors="replace"))
-    tell(f"rules: {arguments.rules}")
-
-
-def _roles(arguments: argparse.Namespace) -> dict[str, list[str]]:
+def _roles(given: list[list[str]]) -> dict[str, list[str]]:
     """Return the files of each role; the shell may have expanded a pattern into several words."""
     roles: dict[str, list[str]] = {}
-    for words in arguments.role:
+    for words in given:
         role = ""
         for word in words:
             name, equals, file = word.partition("=")
@@ -158,44 +118,29 @@ def _roles(arguments: argparse.Namespace) -> dict[str, list[str]]:
     return roles
 
 
-# -- all matches -----------------------------------------------------------------------------------
-
-
 def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
     """Play the matches not played yet, and print the league, also after Ctrl-C."""
-    tell(_announced(planned, len(played_before(path, planned, limits))))
+    laws = {role: {match.laws[role] for match in planned.matches} for role in planned.roles}
+    who = ", ".join(f"{len(names)} as {role}" for role, names in laws.items())
+    count = len(planned.matches)
+    before = count - len(missing(planned, played_before(path, planned, limits)))
+    known = f", {before} of them played before" if before else ""
+    tell(f"{planned.title}: {who}: {matches_of(count)}{known}")
+    replays = not arguments.no_replays
+    interrupt = None
     with workers_of(arguments) as (executor, workers):
         try:
             result = play_schedule(
-                planned,
-                limits,
-                path,
-                executor=executor,
-                workers=workers,
-                replays=not arguments.no_replays,
+                planned, limits, path, executor=executor, workers=workers, replays=replays
             )
-        except TournamentInterrupted as interrupt:
-            _report(interrupt.tournament, path)
-            raise
-    _report(result, path)
-
-
-def _announced(planned: Schedule, before: int) -> str:
-    """Return a line on the matches, `before` of which were played before."""
-    laws = {role: {match.laws[role] for match in planned.matches} for role in planned.roles}
-    who = ", ".join(f"{len(names)} as {role}" for role, names in laws.items())
-    known = f", {before} of them played before" if before else ""
-    return f"{planned.title}: {who}: {matches(len(planned.matches))}{known}"
-
-
-def _report(result: Tournament, path: Path) -> None:
-    """Print the league, and the path of the page."""
+        except TournamentInterrupted as error:
+            result, interrupt = error.tournament, error
     if result.matches:
-        tell(f"\n{league_text(result)}\n")
-        tell(f"page: {path / PAGE}")
-
-
-# -- one match -------------------------------------------------------------------------------------
+        tell(f"\n{league_text(result)}\n\npage: {path / PAGE}")
+    if interrupt is not None:
+        raise interrupt
+    if failed := sum(bool(played.error) for played in result.matches):
+        raise Mars2dError(f"{matches_of(failed)} without a result: play again by the same command")
 
 
 def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
@@ -204,38 +149,37 @@ def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     if not 1 <= arguments.match <= count:
         raise InputError(f"--match {arguments.match}: expected a number from 1 to {count}")
     match = planned.matches[arguments.match - 1]
-    tell(f"match {match.number}: {_described(match, planned.rules)}")
+    options = "".join(f", {name} = {value}" for name, value in match.options.items())
+    tell(f"match {match.number}: {_who(match, planned, ', ')}, seed {match.seed}{options}")
     played, record = replayed(match, limits)
     steps = counted(played.steps, "step")
     tell(f"{one_line(played.message)}. {steps}, digest {played.digest[:16]}")
-    tell(_compared(played, planned, path, limits))
+    tell(_compared(played, played_before(path, planned, limits), path))
     for role, text in played.output.items():
         tell(f"{match.laws[role]} printed:\n{text.rstrip()}")
     if arguments.record is not None:
         record.save(arguments.record)
     if arguments.view:
-        _view(arguments, record, _who(match, planned.rules, " against "))
+        from mars2d.window.show import show_record
+
+        title = _who(match, planned, " against ")
+        titled = replace(record, scenario=record.scenario.replace(title=title))
+        show_record(titled, record.scenario.animation.playback_speed, preferences_of(arguments))
 
 
-def _described(match: Match, rules: Rules | None) -> str:
-    options = "".join(f", {name} = {value}" for name, value in match.options.items())
-    return f"{_who(match, rules, ', ')}, seed {match.seed}{options}"
-
-
-def _who(match: Match, rules: Rules | None, between: str) -> str:
+def _who(match: Match, planned: Schedule, between: str) -> str:
     """Return which law plays which role, and the colours of its robots."""
-    colors = {} if rules is None else rules.colors
-    words = {role: ", ".join(dict.fromkeys(map(_color_word, of))) for role, of in colors.items()}
-    return between.join(
-        f"{role} {law}" + (f" ({words[role]})" if words.get(role, role) != role else "")
-        for role, law in match.laws.items()
-    )
+    told = []
+    for role, law in match.laws.items():
+        colors = planned.rules.colors[role] if planned.rules else ()
+        words = ", ".join(dict.fromkeys(map(_color_word, colors)))
+        told.append(f"{role} {law}" + (f" ({words})" if words not in ("", role) else ""))
+    return between.join(told)
 
 
-def _compared(played: Played, planned: Schedule, path: Path, limits: Limits) -> str:
+def _compared(played: Played, known: tuple[Played, ...], path: Path) -> str:
     """Return a line that compares a match with the same one in the tournament's folder."""
-    found = played_before(path, planned, limits)
-    before = next((each for each in found if each.match == played.match), None)
+    before = next((each for each in known if each.match == played.match), None)
     if before is None:
         return f"it was not played before with these files, as far as {path} says"
     if before.digest == played.digest:
@@ -243,15 +187,9 @@ def _compared(played: Played, planned: Schedule, path: Path, limits: Limits) -> 
     return f"not as before: {before.message}. Digest {before.digest[:16]}"
 
 
-def _view(arguments: argparse.Namespace, record: Record, title: str) -> None:
-    from mars2d.window.show import show_record
-
-    speed = record.scenario.animation.playback_speed
-    titled = replace(record, scenario=record.scenario.replace(title=title))
-    show_record(titled, speed, preferences_of(arguments))
-
-
 def _color_word(value: str) -> str:
     """Return the word for a colour ``#rrggbb``: the nearest named one."""
-    words = (word for word in NAMED if len(word) > 1)
-    return min(words, key=lambda word: dist(rgb(NAMED[word]), rgb(value)))
+    return min(
+        (word for word in NAMED if len(word) > 1),
+        key=lambda word: dist(rgb(NAMED[word]), rgb(value)),
+    )

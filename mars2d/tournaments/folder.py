@@ -1,0 +1,189 @@
+"""A tournament's folder, to which matches are written as they are played."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
+
+from mars2d.core.errors import InputError
+from mars2d.core.files import growing, writing
+from mars2d.physics.settings import versions
+from mars2d.tournaments.isolation.limits import Limits, Verdict
+from mars2d.tournaments.match import Match, Played
+from mars2d.tournaments.schedule import Schedule
+
+PLAYED = "played.jsonl"
+"""The file that is written while matches are played."""
+
+FORMAT = 3
+"""The version of the file's format; a folder with another version is refused."""
+
+
+def _prints(schedule: Schedule, limits: Limits) -> dict[int, str]:
+    """Return a hash for each match, by number, of everything that determines its result.
+
+    That is the experiment, laws, options, seed, limits and versions, but not the match's number.
+    """
+    code = {
+        file: _hash(match.code[role].values())
+        for match in schedule.matches
+        for role, file in match.files.items()
+    }
+    others = sorted(schedule.files - {*map(Path, code)})
+    common = _hash([f"{versions()} {limits}".encode(), *(path.read_bytes() for path in others)])
+    return {
+        match.number: _hash(
+            [
+                common.encode(),
+                repr((match.options, match.seed, match.laws)).encode(),
+                *(code[file].encode() for file in match.files.values()),
+            ]
+        )
+        for match in schedule.matches
+    }
+
+
+def _hash(parts: Iterable[bytes]) -> str:
+    """Return a hash of a sequence of bytes objects."""
+    sha = hashlib.sha256()
+    for part in parts:
+        sha.update(f"{len(part)} ".encode() + part)
+    return sha.hexdigest()
+
+
+class Folder:
+    """Writes each match to a file when it is done, and finds matches that were played before.
+
+    Each line is a match, as JSON; if the process is killed within a line, only that match is lost.
+    A match is played again if its experiment, a law, a limit or a version has changed, or if it had
+    no result. A line that was changed after it was written is refused, by its checksum. Raises
+    InputError for a folder that holds anything else, or can't be written.
+    """
+
+    def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
+        self._path, self._schedule, self._replays = path, schedule, replays
+        self._head = _head(schedule)
+        self._prints = _prints(schedule, limits)
+        _make(path)
+        _known(path, schedule, self._prints)  # raises for a folder that holds anything else
+        self.before: tuple[Played, ...] = ()
+
+    def keep(self, played: Played) -> None:
+        """Write a match that is done."""
+        row = asdict(replace(played, match=_named(played.match)))
+        row = {"print": self._prints[played.match.number], **row}
+        self._write({"sum": _sum(row), **row})
+
+    def __enter__(self) -> Folder:
+        self._file = growing(self._path / PLAYED)
+        try:
+            self._file.seek(0)
+            data = self._file.read()
+            if not data:
+                self._write(self._head)
+            elif not data.endswith(b"\n"):
+                self._file.write(b"\n")  # after a line that was not written to its end
+            self.before = self._found()
+        except BaseException:
+            self._file.close()
+            raise
+        return self
+
+    def _found(self) -> tuple[Played, ...]:
+        """Return the matches in the file, now that no other process adds any."""
+        found = _known(self._path, self._schedule, self._prints)
+        return tuple(p for p in found if p.replay or not (self._replays and p.steps))
+
+    def __exit__(self, *_: object) -> None:
+        with suppress(OSError):  # a full disk, which `keep` has reported already
+            self._file.close()
+
+    def _write(self, row: Mapping[str, Any]) -> None:
+        with writing(self._path / PLAYED):
+            self._file.write(json.dumps(row).encode() + b"\n")
+            self._file.flush()
+
+
+def played_before(path: Path, schedule: Schedule, limits: Limits) -> tuple[Played, ...]:
+    """Return the matches of a schedule that a folder holds; the folder need not exist."""
+    return _known(path, schedule, _prints(schedule, limits)) if path.is_dir() else ()
+
+
+def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[Played, ...]:
+    """Return the matches of a schedule that a log holds with a result, found by their hash."""
+    log = path / PLAYED
+    if not log.exists():
+        others = sorted(each.name for each in path.iterdir() if not each.name.startswith("."))
+        if others:
+            raise InputError(
+                f"{path}: holds {others[0]}, which is not of a tournament; nothing was changed. "
+                "Name a new folder by --out, or an empty one"
+            )
+        return ()
+    with writing(log):
+        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+    head = _json(lines[0]) if lines else _head(schedule)
+    if head != _head(schedule):
+        written = head if isinstance(head, dict) else {}
+        other = written.get("experiment")
+        same = written.get("mars2d tournament") == FORMAT and other
+        of = f"of a tournament of {other}" if same else "not of this version"
+        raise InputError(f"{path}: is {of}; name another folder by --out")
+    known = {}
+    for number, line in enumerate(lines[1:], 2):
+        kept = _json(line)
+        if kept is None:
+            continue
+        if not isinstance(kept, dict) or kept.pop("sum", "") != _sum(kept):
+            raise InputError(
+                f"{log}, line {number}: was changed after it was written, so its match is not "
+                "counted; delete this line, and the match is played again"
+            )
+        if not kept["error"]:
+            known[kept.pop("print")] = kept
+    return tuple(
+        _played(known[mark], match)
+        for match in schedule.matches
+        if (mark := prints[match.number]) in known
+    )
+
+
+def _sum(row: Mapping[str, Any]) -> str:
+    """Return the checksum of a line. It is no signature: who recomputes it is not detected."""
+    return _hash([json.dumps(row).encode()])
+
+
+def _head(schedule: Schedule) -> dict[str, Any]:
+    return {"mars2d tournament": FORMAT, "experiment": Path(schedule.experiment).name}
+
+
+def _make(path: Path) -> None:
+    if path.exists() and not path.is_dir():
+        raise InputError(f"{path}: this is a file; expected a folder")
+    if not path.absolute().parent.is_dir():
+        raise InputError(f"{path}: there is no folder {path.parent}")
+    with writing(path):
+        path.mkdir(exist_ok=True)
+
+
+def _named(match: Match) -> Match:
+    """Return a match with its options as text for people; its hash identifies it."""
+    options = {name: repr(value) for name, value in match.options.items()}
+    return replace(match, options=options, code={})
+
+
+def _played(kept: Mapping[str, Any], match: Match) -> Played:
+    verdicts = {role: Verdict(*verdict) for role, verdict in kept["verdicts"].items()}
+    return Played(**{**kept, "match": match, "verdicts": verdicts})
+
+
+def _json(line: str) -> Any:
+    try:
+        return json.loads(line)
+    except ValueError:
+        return None  # a line that was not written to its end

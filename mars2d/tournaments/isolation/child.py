@@ -1,0 +1,230 @@
+"""The process in which an isolated law runs: it receives observations and sends commands."""
+
+from __future__ import annotations
+
+import errno
+import faulthandler
+import io
+import json
+import math
+import os
+import pickle
+import random
+import socket
+import struct
+import sys
+import traceback
+from collections.abc import Mapping, Sequence
+from importlib.machinery import (
+    EXTENSION_SUFFIXES,
+    ExtensionFileLoader,
+    FileFinder,
+    SourceFileLoader,
+)
+from pathlib import Path
+from types import ModuleType
+from typing import Any, ClassVar, NoReturn
+
+import numpy as np
+
+from mars2d.core.errors import Mars2dError
+from mars2d.core.hints import described
+from mars2d.core.usercode import stack_of, users_line
+from mars2d.scenario.code_file import law_in
+from mars2d.tournaments.isolation import jail
+from mars2d.tournaments.isolation.limits import MB, Limits
+from mars2d.tournaments.isolation.mirror_world import MirrorWorld
+from mars2d.tournaments.isolation.observation import Briefing
+from mars2d.world.laws import Law, robot_command
+
+HEAD = struct.Struct("<I")
+"""What comes before each message to a law, which is pickled: its length in bytes. Messages from it
+are lines of JSON, which runs no code."""
+
+CUT_OFF = 70
+"""The exit code of a process whose law has closed the connection to the match."""
+
+KEPT = ("LANG", "LC_ALL", "PATH", "PYTHONHASHSEED", "TZ", "OPENBLAS_NUM_THREADS")
+"""The variables of the environment that a law sees."""
+
+MAX_FILES = 256
+"""How many files a law may have open at once."""
+
+
+class Sent(SourceFileLoader):
+    """Loads code from the bytes that the match has sent, which it knows, not from the disk."""
+
+    contents: ClassVar[Mapping[Path, bytes]] = {}
+
+    def get_data(self, path: str) -> bytes:
+        """Return the contents of a file."""
+        return self.contents.get(Path(path)) or super().get_data(path)
+
+    def path_stats(self, path: str) -> NoReturn:
+        """Refuse: so that no compiled code is read in place of the file."""
+        raise OSError(path)
+
+
+def serve(channel: socket.socket, output: str) -> NoReturn:
+    """Serve one match and end the process.
+
+    channel: the connection to the match. output: the file that gets everything that is printed.
+    """
+    code = CUT_OFF
+    try:
+        if sys.platform != "win32":
+            os.setsid()
+        _redirect(output)
+        os.closerange(3, channel.fileno())
+        os.closerange(channel.fileno() + 1, MAX_FILES)
+        _Host(channel).serve()
+        code = 0
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        os._exit(code)  # despite threads, handlers and exit functions that the law left behind
+
+
+def _redirect(output: str) -> None:
+    """Make the standard input empty, and let everything that is printed go to a file."""
+    sys.stdin = Path(os.devnull).open(encoding="utf-8")  # noqa: SIM115 - for as long as it runs
+    os.dup2(sys.stdin.fileno(), 0)
+    file = os.open(output, os.O_WRONLY | os.O_APPEND)
+    for number, name in ((1, "stdout"), (2, "stderr")):
+        os.dup2(file, number)
+        raw: Any = io.FileIO(number, "w", closefd=False)
+        stream = io.TextIOWrapper(raw, "utf-8", "backslashreplace", write_through=True)
+        setattr(sys, name, stream)
+        setattr(sys, f"__{name}__", stream)
+    faulthandler.enable(2, all_threads=False)  # says where a law was when it was ended
+
+
+class _Host:
+    """Runs the law of one role for its robots."""
+
+    def __init__(self, channel: socket.socket) -> None:
+        """Take the connection to the match."""
+        self._channel = channel
+        self._most = 0
+
+    def serve(self) -> None:
+        """Load the law, then answer each control step, until the match is over."""
+        briefing: Briefing = pickle.loads(self._next())
+        self._most = int(briefing.limits.output * MB)
+        self._shut_in(briefing)
+        mirror = MirrorWorld(briefing)
+        try:
+            loaded = [law_in(briefing.file, "control", loader=Sent) for _ in mirror.mine]
+        except BaseException as error:
+            self._blame("start", error, briefing.file.name)
+            return
+        laws = [Law(law, view) for law, view in zip(loaded, mirror.mine, strict=True)]
+        self._answer({})
+        while True:
+            mirror.show(pickle.loads(self._next()))
+            commands = self._commands(laws)
+            if commands is None:
+                return
+            self._answer({"commands": commands, "letters": mirror.letters()})
+
+    def _shut_in(self, briefing: Briefing) -> None:
+        """Prepare this process for the law, and take from it what it does not need."""
+        kept = {name: os.environ[name] for name in KEPT if name in os.environ}
+        os.environ.clear()
+        os.environ.update(kept)
+        os.chdir(briefing.folder)
+        random.seed(briefing.chance)
+        np.random.seed(briefing.chance)  # noqa: NPY002 - laws that draw from it
+        Sent.contents = briefing.code
+        folders = {str(path.parent) for path in briefing.code}
+
+        def finder(folder: str) -> FileFinder:
+            if folder not in folders:
+                raise ImportError(folder)
+            return FileFinder(folder, (ExtensionFileLoader, EXTENSION_SUFFIXES), (Sent, [".py"]))
+
+        sys.path_hooks.insert(0, finder)
+        sys.path_importer_cache.clear()
+        sys.modules["__main__"] = ModuleType("__main__")
+        _limit(briefing.limits)
+        if jail.is_protected():
+            jail.close_in(_readable(briefing), [briefing.file.parent])
+
+    def _commands(self, laws: Sequence[Law]) -> list[Any] | None:
+        """Return the commands of all robots; None after reporting a fault."""
+        asked = []
+        for law in laws:
+            kind = "error"
+            try:
+                command: Any = law.command()
+                kind = "command"
+                asked.append([*map(float, robot_command(command, law.refuse))])
+            except BaseException as error:
+                self._blame(kind, error, None)
+                return None
+        return asked
+
+    def _blame(self, kind: str, error: BaseException, file: str | None) -> None:
+        """Report an exception from loading or calling the law."""
+        place = users_line(stack_of(error)) or file
+        text = f"raised {described(error)}"
+        if isinstance(error, Mars2dError):
+            place, text = error.where or place, str(error.args[0])
+        causes = (error, error.__cause__)
+        if any(isinstance(each, MemoryError) for each in causes):
+            kind, text = "memory", "took too much memory"
+        if any(getattr(each, "errno", None) == errno.EFBIG for each in causes):
+            kind, text = "output", f"printed more than {self._most} bytes"
+        self._answer({"kind": kind, "where": place, "text": text[:2000]})
+
+    def _answer(self, told: Mapping[str, Any]) -> None:
+        self._channel.sendall(json.dumps(told).encode() + b"\n")
+
+    def _next(self) -> bytes:
+        """Return the next message. Raises EOFError when the match is over."""
+        (length,) = HEAD.unpack(self._read(HEAD.size))
+        return self._read(length)
+
+    def _read(self, length: int) -> bytes:
+        found = b""
+        while len(found) < length:
+            piece = self._channel.recv(length - len(found))
+            if not piece:
+                raise EOFError
+            found += piece
+        return found
+
+
+def _readable(briefing: Briefing) -> list[Path]:
+    """Return what lies beside the law, without the files of other laws, and what is allowed."""
+    hidden = [path.resolve() for path in briefing.hidden]
+    beside = [
+        path
+        for path in briefing.file.parent.iterdir()
+        if not any(other.is_relative_to(path.resolve()) for other in hidden)
+    ]
+    return [*beside, *map(Path, briefing.limits.reads)]
+
+
+def _limit(limits: Limits) -> None:
+    """Set the limits of the system for this process, as far as it has them."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    seconds = math.ceil(used.ru_utime + used.ru_stime + limits.start + limits.match) + 1
+    most = {
+        "CORE": (0, 0),
+        "CPU": (seconds, seconds + 1),
+        "FSIZE": (int(limits.output * MB),) * 2,
+        "NOFILE": (MAX_FILES, MAX_FILES),
+    }
+    if sys.platform == "linux":  # writable memory; what is only reserved, as by torch, is not used
+        data = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[5])
+        most["DATA"] = (int(data * os.sysconf("SC_PAGE_SIZE") + limits.memory * MB),) * 2
+    for name, (soft, hard) in most.items():
+        number = getattr(resource, f"RLIMIT_{name}")
+        before = resource.getrlimit(number)[1]
+        before = hard if before == resource.RLIM_INFINITY else before
+        resource.setrlimit(number, (min(soft, before), min(hard, before)))

@@ -1,0 +1,303 @@
+"""An isolated law as the match sees it: a process with a clock, asked by messages."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+import pickle
+import re
+import signal
+import socket
+import sys
+import tempfile
+import threading
+import time
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+
+from mars2d.core.errors import InputError, Mars2dError, one_line
+from mars2d.core.usercode import users_line
+from mars2d.study import ONE_THREAD
+from mars2d.tournaments.isolation.child import CUT_OFF, HEAD, serve
+from mars2d.tournaments.isolation.limits import MB
+from mars2d.tournaments.isolation.observation import Briefing, look
+from mars2d.world.laws import LARGEST
+
+if TYPE_CHECKING:
+    from mars2d.world.simulation import Simulation
+
+T = TypeVar("T")
+
+KEPT_OUTPUT = 64_000
+"""How many characters of a law's output are kept."""
+
+GRACE = 0.5
+"""How long a process may take to end, seconds."""
+
+PATIENCE = 3
+"""How many times its time a law may take by the clock on the wall, on a machine that is busy."""
+
+FAULTS = ("start", "memory", "error", "command", "output")
+"""The kinds of faults that a law's process reports itself."""
+
+CRASH = "Fatal Python error"
+"""How the traceback begins that Python prints when a signal ends it."""
+
+_starting = threading.Lock()
+
+
+class Fault(NamedTuple):
+    """The reason why a law has failed: the kind of a verdict, and a line of text."""
+
+    kind: str
+    text: str
+
+
+class LawProcess:
+    """A law in a process of its own.
+
+    fault: why it has failed, or None. printed: the beginning of its output, once it has ended.
+    """
+
+    def __init__(self, briefing: Briefing) -> None:
+        """Start the process. Raises InputError if that fails."""
+        self._briefing, self._limits = briefing, briefing.limits
+        self._most = int(self._limits.output * MB)
+        self._commands: dict[int, tuple[float, float]] = {}
+        self._letters: list[Any] = []
+        self._used = 0.0  # seconds of its clock for the match
+        self.fault: Fault | None = None
+        self.printed = ""
+        with ExitStack() as resources:
+            try:
+                folder = resources.enter_context(tempfile.TemporaryDirectory(prefix="mars2d-"))
+                self._output = Path(folder) / "output"
+                self._output.touch()
+                self._channel, theirs = socket.socketpair()
+                resources.enter_context(self._channel)
+                with theirs:
+                    self._process = _started(theirs, str(self._output))
+            except OSError as error:
+                raise InputError(f"can't start a process for a law: {error}") from error
+            resources.callback(self._end)
+            self._clock = resources.enter_context(_Clock(self._process.pid))
+            self._resources = resources.pop_all()
+
+    def load(self) -> None:
+        """Let it load its file."""
+        with self._judged(self._limits.start, "not loaded"):
+            self._ask(self._briefing)
+
+    def ask(self, world: Simulation) -> None:
+        """Ask it for the commands of a control step."""
+        seen, robots = look(world, self._briefing), self._briefing.robots
+        with self._judged(min(self._limits.tick, self._limits.match - self._used), "no command"):
+            answer = self._ask(seen)
+            self._used += self._clock.used
+            if self.fault is None:
+                pairs = [(first, second) for first, second in answer["commands"]]
+                # Such a test is false for NaN, too.
+                if not all(type(x) is float and abs(x) <= LARGEST for pair in pairs for x in pair):
+                    raise ValueError(pairs)
+                self._commands = dict(zip(robots, pairs, strict=True))
+                self._letters = answer["letters"]
+
+    def command(self, world: Simulation, robot: int) -> tuple[float, float]:
+        """Return the command of one of its robots, after sending that robot's messages.
+
+        Invalid messages are a fault: the law's process checks messages, so the law must have
+        written to the match itself.
+        """
+        with self._judged():
+            for sender, text, receivers in self._letters:
+                if sender == robot:
+                    world.channel.send(robot, json.loads(text), receivers)
+        return self._commands[robot]
+
+    # -- questions and answers -----------------------------------------------------------------
+
+    def _ask(self, question: object) -> Any:
+        """Send a message and return the answer; see `_judged` for what it raises."""
+        body = pickle.dumps(question, 5)
+        rest = memoryview(HEAD.pack(len(body)) + body)
+        while rest:
+            rest = rest[self._in_time(self._channel.send, rest) :]
+        told = b""
+        while not told.endswith(b"\n"):
+            piece = self._in_time(self._channel.recv, 1 << 16)
+            told += piece
+            if not piece:
+                raise ConnectionError
+            if len(told) > 2 * self._most + KEPT_OUTPUT:
+                raise ValueError("its answer is too long")
+        answer = json.loads(told)
+        if "kind" in answer:
+            where, text = answer["where"], str(answer["text"])
+            self._fail(FAULTS[FAULTS.index(answer["kind"])], where and str(where)[:200], text)
+        return answer
+
+    def _in_time(self, transfer: Callable[[Any], T], what: object) -> T:
+        while (left := self._clock.left) > 0:
+            self._channel.settimeout(left)
+            with suppress(TimeoutError):
+                return transfer(what)
+        raise TimeoutError
+
+    @contextmanager
+    def _judged(self, allowed: float = 0.0, late: str = "") -> Iterator[None]:
+        """Note the fault of a law that does not answer as it should within some seconds."""
+        self._clock.start(allowed)
+        try:
+            yield
+        except TimeoutError:
+            self._signal("SIGABRT")  # upon which it prints where it is
+            self._process.join(GRACE)
+            if allowed < min(self._limits.tick, self._limits.start):
+                total = f"its commands took more than {self._limits.match:g} s in all"
+                self._fail("clock", self._crash_line(), total)
+            else:
+                self._fail("slow", self._crash_line(), f"{late} after {allowed:g} s")
+        except ConnectionError:
+            self._gone()
+        except (Mars2dError, ValueError, TypeError, KeyError, RecursionError):
+            self._fail("exit", None, "what it says to the match is no answer")
+        if self._output.stat().st_size >= self._most:
+            self._fail("output", None, f"printed more than {self._most} bytes")
+
+    # -- faults --------------------------------------------------------------------------------
+
+    def _gone(self) -> None:
+        """Note why the process has ended or closed its connection."""
+        self._process.join(GRACE)
+        code = self._process.exitcode
+        if code is None or code == CUT_OFF:
+            self._fail("exit", None, "its process has closed the connection to the match")
+        elif code >= 0:
+            self._fail("exit", None, f"its process has ended itself, with code {code}")
+        elif (name := signal.Signals(-code).name) == "SIGXCPU":
+            self._fail("clock", self._crash_line(), "its process took too much processor time")
+        else:
+            words = {"SIGSEGV": ", a segmentation fault", "SIGKILL": ", perhaps for lack of memory"}
+            text = f"its process was ended by the signal {name}{words.get(name, '')}"
+            self._fail("exit", self._crash_line(), text)
+
+    def _crash_line(self) -> str | None:
+        """Return the user's line in the traceback that Python prints on a crash."""
+        _, _, text = self._all_printed().rpartition(CRASH)
+        steps = re.findall(r'File "([^"]+)", line (\d+) in (\S+)', text.partition("\n\n")[2])
+        stack = traceback.StackSummary.from_list(
+            [(file, int(line), name, "") for file, line, name in reversed(steps)]
+        )
+        return users_line(stack)
+
+    def _fail(self, kind: str, where: str | None, text: str) -> None:
+        """Note the first fault."""
+        if self.fault is None:
+            if kind == "memory":
+                text += f"; it may take {self._limits.memory:g} MB"
+            place = where or self._briefing.file.name
+            self.fault = Fault(kind, one_line(f"{place}: {' '.join(text.split())}"))
+
+    # -- output and end ------------------------------------------------------------------------
+
+    def _all_printed(self) -> str:
+        return self._output.read_bytes().decode(errors="replace")
+
+    def end(self) -> None:
+        """End the process, and all that it has started."""
+        self._resources.close()
+
+    def _end(self) -> None:
+        with suppress(OSError):
+            if hasattr(os, "killpg"):
+                os.killpg(self._process.pid or 0, signal.SIGKILL)
+        self._process.kill()
+        self._process.join(10 * GRACE)
+        self.printed = self._all_printed().partition(CRASH)[0][:KEPT_OUTPUT]
+        with suppress(ValueError):  # it does not end
+            self._process.close()
+
+    def _signal(self, name: str) -> None:
+        with suppress(OSError):
+            if self._process.exitcode is None and sys.platform != "win32":
+                os.kill(self._process.pid or 0, getattr(signal, name))
+
+
+def _started(channel: socket.socket, output: str) -> multiprocessing.process.BaseProcess:
+    """Start a law's process: one thread, and sets in the same order in each run.
+
+    It does not import the caller's script. On Linux it is forked within milliseconds, by a process
+    that has imported everything. Processes of Dask are daemons, which may have no children
+    otherwise.
+    """
+    ours = {**ONE_THREAD, "PYTHONHASHSEED": "0"}
+    context: Any = multiprocessing.get_context("forkserver" if sys.platform == "linux" else "spawn")
+    with _starting:
+        before, main = dict(os.environ), sys.modules["__main__"]
+        try:
+            os.environ.update(ours)
+            sys.modules["__main__"] = ModuleType("__main__")
+            multiprocessing.current_process().daemon = False
+            context.set_forkserver_preload([serve.__module__])
+            process: multiprocessing.process.BaseProcess = context.Process(
+                target=serve, args=(channel, output), daemon=True
+            )
+            process.start()
+        finally:
+            sys.modules["__main__"] = main
+            for name in ours:
+                del os.environ[name]
+            os.environ.update(before)
+    return process
+
+
+class _Clock:
+    """Counts the time of a law's answer, without the time that either side waits for a processor.
+
+    So a machine that is busy makes no law slow. Where the system does not say how long a process
+    has waited, all time counts.
+    """
+
+    def __init__(self, process: int | None) -> None:
+        """Take the law's process."""
+        self._files = []
+        with suppress(OSError):  # not on Linux
+            for folder in (f"/proc/{process}", "/proc/thread-self"):
+                self._files.append(os.open(f"{folder}/schedstat", os.O_RDONLY))
+        self.start(0.0)
+
+    def __enter__(self) -> _Clock:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for file in self._files:
+            os.close(file)
+
+    def start(self, allowed: float) -> None:
+        """Begin to count, up to the time that is allowed, seconds."""
+        self._allowed = allowed
+        self._since, self._waited = time.perf_counter(), self._waits()
+
+    @property
+    def used(self) -> float:
+        """The time that has passed and counts, seconds."""
+        return max(0.0, time.perf_counter() - self._since - self._waits() + self._waited)
+
+    @property
+    def left(self) -> float:
+        """The time that is left, seconds; it ends in any case after `PATIENCE` times as much."""
+        passed = time.perf_counter() - self._since
+        if passed < self._allowed:
+            return self._allowed - passed
+        return min(self._allowed - self.used, PATIENCE * self._allowed - passed)
+
+    def _waits(self) -> float:
+        try:
+            return sum(1e-9 * int(os.pread(file, 99, 0).split()[1]) for file in self._files)
+        except OSError:  # it has ended
+            return 0.0

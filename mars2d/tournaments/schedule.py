@@ -1,0 +1,290 @@
+"""Schedules: the laws that take part in a tournament, and its matches, in order."""
+
+from __future__ import annotations
+
+import glob
+import itertools
+import os
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mars2d.core.errors import InputError, likely, nearest, shown
+from mars2d.scenario.examples import examples, experiment_name
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.policy import SUFFIX as POLICY
+from mars2d.scenario.roles import contest_of
+from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
+from mars2d.tournaments.isolation.source import law_code
+from mars2d.tournaments.match import Match
+from mars2d.tournaments.rules import Rules
+
+Files = str | Path | Sequence[str | Path]
+"""One or several files of laws, folders or patterns."""
+
+TRIALS = 3
+"""How many matches try a single law."""
+
+SUFFIXES = (".py", POLICY)
+"""The suffixes of the files of laws: in Python, and learned."""
+
+EXPECTED = "expected files of laws (.py or .onnx), a folder of them, or a pattern as laws/*.py"
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
+
+    title, experiment: those of the scenario. roles: those of its contest, in order. settings: the
+    options in which rounds differ. files: those that were read for the experiment itself. rules: of
+    the game, in the first round.
+    """
+
+    title: str
+    experiment: str
+    roles: tuple[str, ...]
+    settings: tuple[str, ...]
+    matches: tuple[Match, ...]
+    files: frozenset[Path] = frozenset()
+    rules: Rules | None = None
+
+
+def schedule(
+    experiment: str | Path,
+    roles: Mapping[str, Files] | None = None,
+    players: Files | None = None,
+    *,
+    seeds: int | Iterable[int] = 10,
+    first_seed: int = 0,
+    settings: Mapping[str, Any] | None = None,
+    stop_time: float | None = None,
+) -> Schedule:
+    """Return the schedule in which each law of a role plays each of the other, with all seeds.
+
+    The arguments are those of `mars2d.tournament`. The laws' files are read, but not run. Raises
+    InputError for anything that can't be played.
+    """
+    if not isinstance(experiment, (str, Path)):
+        raise InputError(
+            f"experiment = {shown(experiment)}: expected a file, or the name of an example"
+        )
+    plan = Plan(settings_of(settings), seeds_of(seeds, first_seed))
+    always = {} if stop_time is None else {"stop_time": stop_time}
+    rounds = [{**point, **always} for point in plan.points()]
+    opened = open_experiment(experiment, rounds[0], seed=plan.seeds[0])
+    contest = contest_of(opened.scenario, str(experiment))
+    parts = contest.roles
+    names = tuple(role for role, _ in parts)
+    for options in (probe | always for probe in plan.probes()):  # before any match, not after many
+        scenario = open_experiment(experiment, options, seed=plan.seeds[0]).scenario
+        other = contest_of(scenario, str(experiment))
+        other.teams(scenario)
+        if tuple(role for role, _ in other.roles) != names:
+            raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
+    _check_names(plan.settings, names)
+    beside = None if opened.source.path is None else opened.source.path.parent
+    taking_part = entrants(names, roles or {}, players or (), beside)
+    pairings = list(pairings_of(taking_part))
+    if not pairings:
+        raise InputError("there is nobody to play against: a law does not play itself")
+    count = len(rounds) * len(pairings) * len(plan.seeds)
+    if count > MAX_RUNS:
+        raise InputError(f"these are {count:,} matches: {MAX_RUNS:,} at most")
+    named = str(experiment) if str(experiment) in examples() else str(opened.source.path)
+    law_names = names_of(law for laws in taking_part.values() for law in laws)
+    code = {law: law_code(Path(law)) for law in law_names}
+    matches = tuple(
+        Match(
+            number=number,
+            experiment=named,
+            options=options,
+            seed=seed,
+            laws={role: law_names[law] for role, law in files.items()},
+            files=files,
+            code={role: code[law] for role, law in files.items()},
+        )
+        for number, (options, files, seed) in enumerate(
+            itertools.product(rounds, pairings, plan.seeds), 1
+        )
+    )
+    return Schedule(
+        title=opened.scenario.title or experiment_name(Path(named)),
+        experiment=named,
+        roles=names,
+        settings=tuple(plan.settings),
+        matches=matches,
+        files=frozenset(opened.source.written),
+        rules=Rules.of(opened, contest),
+    )
+
+
+def trial_matches(
+    experiment: str, role: str, laws: Files, options: Mapping[str, Any]
+) -> tuple[Match, ...]:
+    """Return a few matches of each law in a role, whose rivals are the experiment's own laws.
+
+    Raises InputError for a role or a file that is not there, and for a law of another role.
+    """
+    opened = open_experiment(experiment, options)
+    names = tuple(name for name, _ in contest_of(opened.scenario, experiment).roles)
+    if role not in names:
+        raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
+    beside = None if opened.source.path is None else opened.source.path.parent
+    files = _all_files(laws, beside)
+    check_meant(role, files, names)
+    each = itertools.product(files, range(TRIALS))
+    return tuple(
+        Match(number, experiment, options, seed, {role: file.stem}, {role: str(file)})
+        for number, (file, seed) in enumerate(each, 1)
+    )
+
+
+def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
+    """Refuse laws in a folder that is named for another role, as `evaders` is."""
+    for file in files:
+        words = {word.removesuffix("s") for word in re.split(r"[^a-z]+", file.parent.name.lower())}
+        meant = [each for each in roles if each.lower().removesuffix("s") in words]
+        if meant and role not in meant:
+            raise InputError(
+                f"{file.parent.name}/{file.name}: by its folder it plays {meant[0]}, not {role}; "
+                f"if it is to play {role}, copy it to another folder"
+            )
+
+
+def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
+    """Refuse settings whose column would be twice in the table of matches."""
+    for name in settings:
+        if name == "seed":
+            raise InputError("setting 'seed': say how many there are, with --seeds N")
+        if name in roles:
+            raise InputError(
+                f"setting {name!r}: this is a role; name its laws by --role {name}=FILES"
+            )
+
+
+def pairings_of(entrants: Mapping[str, Sequence[Path]]) -> Iterator[dict[str, str]]:
+    """Yield each role's law in each pairing; a law does not play itself."""
+    for laws in itertools.product(*entrants.values()):
+        if len({*laws}) == len(laws):
+            yield {role: str(law) for role, law in zip(entrants, laws, strict=True)}
+
+
+# -- entrants --------------------------------------------------------------------------------------
+
+
+def law_files(named: str | Path, beside: Path | None = None) -> tuple[Path, ...]:
+    """Return the files that a name stands for: absolute paths, each once.
+
+    named: a file, a folder (all its laws except those that begin with _), a pattern, or
+    several of these, separated by commas. beside: a folder that is searched for relative names
+    after the current one. Raises InputError, with the nearest name, if there is no such file.
+    """
+    parts = [part.strip() for part in str(named).split(",") if part.strip()]
+    if not parts:
+        raise InputError(f"{named!r}: {EXPECTED}")
+    files = [file for part in parts for file in _files(part, beside)]
+    return tuple(dict.fromkeys(files))
+
+
+def _files(part: str, beside: Path | None) -> list[Path]:
+    folders = [Path.cwd()] if beside is None else [Path.cwd(), beside]
+    for folder in folders:
+        path = folder / part
+        if path.is_dir():
+            inside = _laws(path.iterdir())
+            if not inside:
+                raise InputError(f"{part}: no law in this folder; {EXPECTED}")
+            return inside
+        if path.is_file():
+            if path.suffix not in SUFFIXES:
+                raise InputError(f"{part}: expected the file of a law, which ends in .py or .onnx")
+            return [_plain(path)]
+        found = _laws(map(Path, glob.glob(str(path))))  # noqa: PTH207 - of absolute patterns, too
+        if found:
+            return found
+    raise InputError(f"{part}: no such file; {EXPECTED}{_near(part, folders)}")
+
+
+def _laws(paths: Iterable[Path]) -> list[Path]:
+    """Return those files that can be laws, sorted."""
+    return sorted(
+        _plain(path)
+        for path in paths
+        if path.suffix in SUFFIXES and path.is_file() and not path.name.startswith("_")
+    )
+
+
+def _plain(path: Path) -> Path:
+    """Return an absolute path without `..`, which is the same however the file was named."""
+    return Path(os.path.normpath(path.absolute()))
+
+
+def _near(part: str, folders: Sequence[Path]) -> str:
+    """Return the nearest existing name, as the end of a message."""
+    parent = Path(part).parent
+    names = {
+        str(parent / path.name)
+        for folder in folders
+        if (folder / parent).is_dir()
+        for path in (folder / parent).iterdir()
+        if path.suffix in SUFFIXES or path.is_dir()
+    }
+    return likely(part, names)
+
+
+def entrants(
+    roles: Sequence[str],
+    given: Mapping[str, Files],
+    players: Files = (),
+    beside: Path | None = None,
+) -> dict[str, tuple[Path, ...]]:
+    """Return each role's laws: those given for it, and the players, which play every role.
+
+    beside: see `law_files`. Raises InputError for an unknown role, a role without laws, and missing
+    files.
+    """
+    for role in given:
+        if role not in roles:
+            raise InputError(f"there is no role {role!r}{nearest(role, roles)}")
+    every = _all_files(players, beside)
+    found = {}
+    for role in roles:
+        own = _all_files(given.get(role, ()), beside)
+        check_meant(role, own, roles)
+        laws = tuple(dict.fromkeys((*own, *every)))
+        if not laws:
+            raise InputError(
+                f"no laws for the role {role!r}: name them by --role {role}=FILES, "
+                "or by --players FILES those that play every role"
+            )
+        found[role] = laws
+    return found
+
+
+def _all_files(named: Files, beside: Path | None) -> list[Path]:
+    parts = [named] if isinstance(named, (str, Path)) else named
+    if not isinstance(parts, Iterable) or not all(isinstance(p, (str, Path)) for p in parts):
+        raise InputError(f"{shown(named)}: {EXPECTED}")
+    return [file for part in parts for file in law_files(part, beside)]
+
+
+def names_of(files: Iterable[str | Path]) -> dict[str, str]:
+    """Return a name for each law's file: its own, preceded by folders where needed to be unique.
+
+    Characters that nobody sees are escaped, also line breaks.
+
+    >>> names_of(["a/hunt.py", "b/hunt.py", "b/flee.py"])
+    {'a/hunt.py': 'a/hunt', 'b/hunt.py': 'b/hunt', 'b/flee.py': 'flee'}
+    """
+    paths = {str(file): Path(file).with_suffix("").parts for file in files}
+    names = {}
+    for file, parts in paths.items():
+        others = [other for key, other in paths.items() if key != file]
+        depth = next(
+            (k for k in range(1, len(parts)) if all(o[-k:] != parts[-k:] for o in others)),
+            len(parts),
+        )
+        names[file] = repr("/".join(parts[-depth:]))[1:-1]
+    return names

@@ -1,0 +1,183 @@
+"""How laws stand after matches."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+
+from mars2d.tournaments.isolation import Verdict
+from mars2d.tournaments.league import Tournament, head_to_head, league
+from mars2d.tournaments.league_text import league_text
+from mars2d.tournaments.match import Match, Played, settled
+from mars2d.tournaments.page import save_html
+
+ROLES = ("pursuer", "evader")
+
+
+def played(number, pursuer, evader, winner, capture_time=None, **more) -> Played:
+    """A match that went as is said; its options, seed and record do not matter."""
+    seed, options = more.pop("seed", 0), more.pop("options", {})
+    match = Match(number, "chase.py", options, seed, {"pursuer": pursuer, "evader": evader})
+    more = {"digest": f"{number}", **more}
+    return Played(match, winner=winner, capture_time=capture_time, **more)
+
+
+def tournament(*matches: Played, settings: tuple[str, ...] = ()) -> Tournament:
+    standings = tuple(league(matches, ROLES))
+    return Tournament("Chase", "chase.py", ROLES, matches, standings, settings)
+
+
+SLOW = MappingProxyType({"pursuer": Verdict("slow", "c.py, line 7: no command after 1 s", 2.0)})
+BOTH = {**SLOW, "evader": Verdict("error", "y.py, line 2: it raised", 2.0)}
+
+
+def test_each_role_has_its_own_table_and_points_are_1_for_a_match_won_and_a_half_for_a_draw():
+    standings = league(
+        [
+            played(1, "a", "x", "pursuer", 3.0),
+            played(2, "a", "y", None),
+            played(3, "b", "x", "evader"),
+            played(4, "b", "y", "evader"),
+        ],
+        ROLES,
+    )
+    table = [(s.role, s.law, s.points, s.played, s.won, s.drawn, s.lost) for s in standings]
+    assert table == [
+        ("pursuer", "a", 1.5, 2, 1, 1, 0),
+        ("pursuer", "b", 0.0, 2, 0, 0, 2),
+        ("evader", "y", 1.5, 2, 1, 1, 0),
+        ("evader", "x", 1.0, 2, 1, 0, 1),
+    ]
+    share = standings[0].share
+    assert share.mean == 0.75
+    assert 0 < share.low < 0.75 < share.high < 1
+
+
+def test_a_law_that_ran_out_of_time_twice_forfeits_the_rest_in_whatever_order_they_are_done():
+    slow = [played(k, "c", "y", "evader", verdicts=SLOW) for k in (1, 2)]
+    others = [played(k, law, "y", "pursuer") for k, law in ((3, "c"), (4, "c"), (5, "a"))]
+    planned = [each.match for each in (*slow, *others)]
+    for done in ([*slow, others[0], others[2]], [others[2], *slow[::-1]]):
+        result = settled(planned, done)
+        assert [each.winner for each in result] == [*4 * ["evader"], "pursuer"]
+        kinds = [verdict.kind for each in result for verdict in each.verdicts.values()]
+        assert kinds == ["slow", "slow", "late", "late"]
+    assert result[3].message == (
+        "c forfeits as pursuer: late: ran out of time in 2 matches before, and forfeits the rest; "
+        "evader wins"
+    )
+    assert [each.match.number for each in settled(planned, [slow[1], others[0]])] == [2, 3]
+
+
+def test_the_league_says_where_it_was_not_protected(tmp_path):
+    for protected in (True, False):
+        found = tournament(played(1, "a", "x", "pursuer", protected=protected))
+        page = save_html(found, tmp_path / "league.html").read_text()
+        for text in (league_text(found), page):
+            assert ("not protected on this system" in text) is not protected
+
+
+def test_a_forfeit_is_lost_and_where_both_fail_both_lose():
+    a, b = league([played(1, "c", "y", "evader", verdicts=SLOW)], ROLES)
+    assert (a.lost, a.forfeits, a.points, b.won, b.forfeits) == (1, 1, 0, 1, 0)
+    a, b = league([played(1, "c", "y", None, verdicts=BOTH)], ROLES)
+    assert (a.lost, a.forfeits, a.drawn, b.lost, b.forfeits, b.drawn) == (1, 1, 0, 1, 1, 0)
+
+
+def test_a_match_without_a_result_counts_for_nobody():
+    match = played(1, "a", "x", None).match
+    first, second = league([Played.without_result(match, "the process died")], ROLES)
+    assert (first.played, first.points, second.played) == (0, 0, 0)
+
+
+def test_of_equal_points_the_quicker_hunter_and_the_evader_that_lasts_longer_stand_higher():
+    matches = [
+        played(1, "a", "x", "pursuer", 9.0),
+        played(2, "a", "y", "pursuer", 4.0),
+        played(3, "b", "x", "pursuer", 8.0),
+        played(4, "b", "y", "pursuer", 3.0),
+    ]
+    standings = league(matches, ROLES)
+    assert [s.law for s in standings] == ["b", "a", "x", "y"]
+    assert [s.capture_time for s in standings] == [5.5, 6.5, 8.5, 3.5]
+    never = played(5, "a", "z", "evader"), played(6, "b", "z", "evader")
+    assert [s.law for s in league([*matches, *never], ROLES)][2:] == ["z", "x", "y"]
+
+
+def test_equal_points_share_a_place_in_table_page_and_csv(tmp_path):
+    winners = {"a": ["pursuer", "evader"], "b": ["evader", "pursuer"], "c": ["evader"] * 2}
+    winners["d"] = ["pursuer"] * 2
+    matches = [
+        played(2 * k + j, law, rival, won[j], 9.0 - k)
+        for k, (law, won) in enumerate(winners.items())
+        for j, rival in enumerate("xy")
+    ]
+    result = tournament(*matches)
+    hunters = {s.law: s.place for s in result.standings if s.role == "pursuer"}
+    assert hunters == {"d": 1, "b": 2, "a": 2, "c": 4}
+    assert [row["place"] for row in result.standing_rows()] == [1, 2, 2, 4, 1, 1]
+    lines = league_text(result).splitlines()
+    assert [line.split()[:2] for line in lines[1:5]] == [
+        ["1", "d"], ["2", "b"], ["2", "a"], ["4", "c"],
+    ]  # fmt: skip
+    csv = result.save_csv(tmp_path / "league.csv", "league").read_text().splitlines()
+    assert [line.split(",")[1] for line in csv[1:5]] == ["1", "2", "2", "4"]
+    page = save_html(result, tmp_path / "league.html").read_text()
+    assert page.count("<td>2</td><th") == 2
+
+
+def test_laws_that_play_both_roles_stand_in_one_table_with_the_time_that_they_hunted():
+    matches = [played(1, "a", "b", "pursuer", 2.0), played(2, "b", "a", "evader")]
+    first, second = league(matches, ROLES)
+    assert (first.law, first.role, first.played, first.won, first.capture_time) == (
+        "a",
+        "",
+        2,
+        2,
+        2,
+    )
+    assert (second.law, second.lost, second.capture_time) == ("b", 2, None)
+
+
+def test_points_of_one_against_the_other_do_not_count_what_has_no_result():
+    draw, lost = played(1, "a", "x", None), played(2, "a", "x", "evader")
+    error = Played.without_result(draw.match, "no")
+    assert head_to_head([draw, lost, error], ROLES) == {("a", "x"): 0.5}
+    both = played(1, "a", "x", None, verdicts=BOTH)
+    assert head_to_head([both], ROLES) == {("a", "x"): 0.0}
+
+
+# -- in words --------------------------------------------------------------------------------------
+
+
+def test_the_text_has_tables_points_of_pairings_rounds_and_faults():
+    text = league_text(
+        tournament(
+            played(1, "a", "x", "pursuer", 2.5, options={"mu": 0.8}),
+            played(2, "c", "x", "evader", options={"mu": 0.8}, verdicts=SLOW),
+            played(3, "a", "x", "pursuer", 3.5, options={"mu": 0.9}),
+            played(4, "c", "x", "evader", options={"mu": 0.9}, verdicts=SLOW),
+            settings=("mu",),
+        )
+    )
+    assert (
+        text
+        == """\
+   pursuer  points         share (95 %)  played  won  lost  forfeits  caught after
+1  a             2  1.00 (0.34 to 1.00)       2    2     0         0         3.0 s
+2  c             0  0.00 (0.00 to 0.66)       2    0     2         2             -
+
+   evader  points         share (95 %)  played  won  lost  caught after
+1  x            2  0.50 (0.15 to 0.85)       4    2     2         3.0 s
+
+Points of each pursuer against each evader:
+pursuer \\ evader  x
+a                 2
+c                 0
+
+points with  mu = 0.8  mu = 0.9
+a                   1         1
+c                   0         0
+x                   1         1
+
+c: 2 matches forfeited: slow: c.py, line 7: no command after 1 s (match 2 and 1 other)"""
+    )

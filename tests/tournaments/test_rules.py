@@ -1,0 +1,92 @@
+"""The rules of a game in words, and the page that shows them to a class."""
+
+from dataclasses import replace
+
+import pytest
+
+from mars2d import Robot, Scenario
+from mars2d.addons import Game
+from mars2d.cli.command_line import main
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.roles import contest_of
+from mars2d.tournaments.page.rules import rules_page
+from mars2d.tournaments.rules import Rules
+from tests.browser import Tab
+from tests.cases import each_case
+
+EVIL = "<script>alert(1)</script> & \"quoted\" 'too'"
+
+
+def rules_of(game, **options):
+    opened = open_experiment(game, options)
+    return Rules.of(opened, contest_of(opened.scenario, str(game)))
+
+
+def test_rules_are_those_of_the_games_file():
+    rules = rules_of("corner_game", mu=0.8)
+    hunter, evader = rules.roles
+    assert rules.game == "corner_game"
+    assert rules.story.startswith("Corner pursuit as a game")
+    assert (hunter.name, hunter.robots, hunter.aim) == ("pursuer", ("red",), "catch blue")
+    assert hunter.drive == "Holonomic, at most 0.4 m/s"
+    assert hunter.command == "(vx [m/s], vy [m/s])"
+    assert "positions" in hunter.sees
+    assert evader.aim == "stay free for 200 s"
+    assert rules.counts.startswith("A capture is when the pursuer touches the evader.")
+    assert rules.arena.startswith("x from -5 m to 5 m")
+    assert "Walls stand round it." in rules.arena
+    assert rules.time == "200 s at most; a law is asked every 0.1 s."
+    assert rules.colors == {"pursuer": ("#d62728",), "evader": ("#1f77b4",)}
+
+
+@each_case(
+    "fields, hunter, evader, counted",
+    [
+        ({}, "catch b and c", "stay free for 100 s", "touches one of 2. Who is caught stands"),
+        ({"capture": 0.4}, "catch b and c", "stay free for 100 s", "comes within 0.4 m of one of"),
+        ({"capture": "sight"}, "see b and c", "stay out of sight", "sees one of 2, with no obst"),
+        ({"wanted": 1}, "catch 1 of 2", "stay free", "wolf wins with the capture. If time"),
+        (
+            {"goal": [(4, 4), (5, 4), (5, 5)]},
+            "catch b and c before 1 of 2 is in the goal",
+            "reach the goal uncaught",
+            "The sheep wins when 1 of 2 is in the goal uncaught. If time is over before, the wolf",
+        ),
+    ],
+)
+def test_a_pursuit_says_what_is_counted(fields, hunter, evader, counted):
+    robots = [Robot(name=name, pose=(k, 0, 0)) for k, name in enumerate("abc")]
+    game = Game({"wolf": ["a"], "sheep": ["b", "c"]}, **fields)
+    scenario = Scenario(robots=robots, addons=[game])
+    assert game.aim("wolf", scenario) == hunter
+    assert game.aim("sheep", scenario).startswith(evader)
+    assert counted in game.counts
+
+
+@pytest.mark.nightly
+@each_case("size", [(1280, 900), (390, 800)])
+@each_case("scheme", ["light", "dark"])
+def test_the_page_needs_nothing_else_and_fits_at_any_width(browser, tmp_path, size, scheme):
+    path = tmp_path / "rules.html"
+    rules = rules_of("sumo")
+    evil = replace(rules, story=f"{EVIL}\n\nNews: {EVIL}", counts=EVIL, title=EVIL)
+    path.write_text(rules_page(evil), encoding="utf-8")
+    tab = Tab(browser, size, color_scheme=scheme)
+    tab.page.goto(path.as_uri())
+    assert tab.page.locator("h1").inner_text() == f"{EVIL}: the rules"
+    assert tab.page.locator(".story p").all_inner_texts() == [EVIL, f"News: {EVIL}"]
+    assert tab.page.evaluate("document.documentElement.scrollWidth") <= size[0]
+    assert tab.page.locator(".start img").evaluate("image => image.naturalWidth") > 100
+    color = tab.page.locator(".dot").first.evaluate("dot => getComputedStyle(dot).backgroundColor")
+    assert (color == "rgb(214, 39, 40)") == (scheme == "light")
+    assert tab.complaints == []
+    assert tab.asked == [path.as_uri()]
+    tab.close()
+
+
+def test_the_command_writes_the_page_without_any_law(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["tournament", "sumo", "--rules", "rules.html", "--tick-limit", "3"]) == 0
+    assert capsys.readouterr().out.strip() == "rules: rules.html"
+    assert "more than 3 s for one step" in (tmp_path / "rules.html").read_text(encoding="utf-8")
+    assert [path.name for path in tmp_path.iterdir()] == ["rules.html"]
