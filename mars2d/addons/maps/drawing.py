@@ -149,8 +149,7 @@ class Drawing:
                 chosen |= found
         pieces = tuple(piece for piece in self.pieces if piece.layer in chosen)
         if not pieces and self.extent is None:
-            what = ", ".join(f"{count} {kind}" for kind, count in self.skipped.items())
-            more = f", but {what}" if what else ""
+            more = f", but {listed(self.skipped)}" if self.skipped else ""
             raise InputError(f"{self.source}: expected lines or areas; there are none{more}")
         others = {name: count for name, count in self.layers.items() if name not in chosen}
         return replace(self, pieces=pieces, others=others)

@@ -167,9 +167,9 @@ def _fields(name: str, path: Path) -> dict[str, Any]:
             f"{name}: a world of several layers, as flatland has them; expected the YAML file of "
             "one occupancy grid: image, resolution, ..."
         )
-    for key in ("image", "resolution"):
-        if key not in fields:
-            near = [k for k in fields if k not in KEYS and nearest(key, [k])]
+    for key in KEYS:
+        near = [k for k in fields if k not in KEYS and nearest(key, [k])]
+        if key not in fields and (near or key in ("image", "resolution")):
             said = f" in place of {near[0]}" if near else ""
             raise InputError(f"{name}: expected {key}: ...{said}, as in an occupancy grid of ROS")
     return fields

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from mars2d.addons.maps.curves import cubic
 from mars2d.addons.maps.drawing import Piece, check_finite, layer_name, wall
 from mars2d.addons.maps.regions import region
+from mars2d.core.errors import InputError
 
 if TYPE_CHECKING:
     from ezdxf.addons.drawing.properties import BackendProperties, LayerProperties, Properties
@@ -94,7 +95,13 @@ class _Frontend(UniversalFrontend):
         elif block is not None and block.block is not None and block.block.is_xref:
             self.skipped["INSERT of another file"] += 1
         else:
-            super().draw_entity(entity, properties)
+            try:
+                super().draw_entity(entity, properties)
+            except (InputError, RecursionError):
+                raise
+            except Exception:  # of what is wrong in the entity
+                self._recorder.exit_entity(entity)
+                self.skipped[f"damaged {kind}"] += 1
 
     def draw_composite_entity(self, entity: Any, properties: Properties) -> None:
         """Draw what an entity consists of; a block on a frozen layer is hidden as a whole."""

@@ -78,14 +78,8 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
         scale = unit.metres / pixels
         page = np.array([[scale, 0.0, 0.0], [0.0, -scale, scale * size[1]], [0.0, 0.0, 1.0]])
         pieces = _covered(reader.drawn(normal, page, NO_LAYER))
-    return Drawing(
-        name,
-        "an SVG drawing",
-        unit,
-        tuple(pieces),
-        skipped=dict(reader.skipped),
-        within=within + GRID,
-    )
+    kind, within = "an SVG drawing", within + GRID
+    return Drawing(name, kind, unit, tuple(pieces), skipped=reader.skipped, within=within)
 
 
 def _groups(root: ET.Element) -> Iterator[ET.Element]:

@@ -126,6 +126,7 @@ CASES = [
         grid(resolution=None, reslution=0.05),
         "expected resolution: ... in place of reslution",
     ),
+    (".yaml", grid(origin=None, orign=[1, 2, 0]), "expected origin: ... in place of orign"),
     (".yaml", grid(resolution="fine"), "resolution = 'fine'"),
     (".yaml", grid(origin=[0]), "origin = "),
     (".yaml", grid(free_thresh=0.8), "0 <= free_thresh <= occupied_thresh"),

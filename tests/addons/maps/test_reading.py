@@ -239,6 +239,16 @@ def test_a_block_on_a_frozen_layer_is_hidden_as_a_whole(plan):
     assert read(plan).others == {"FROZEN": 2, "OFF": 1}
 
 
+def test_what_is_damaged_in_a_dxf_is_counted_and_the_rest_is_read(plan):
+    document, space = dxf(plan)
+    space.add_open_spline([(0, 0), (1, 0), (2, 0), (3, 1)]).knots = [0, 1]
+    space.add_line((0, 0), (3, 0))
+    document.saveas(plan)
+    drawing = read(plan)
+    assert same(drawing, "LINESTRING (0 0, 3 0)")
+    assert drawing.skipped == {"damaged SPLINE": 1}
+
+
 def test_a_damaged_dxf_is_repaired_and_said_to_be(plan):
     document, space = dxf(plan)
     space.add_line((0, 0), (3, 0))
