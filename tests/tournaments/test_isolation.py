@@ -341,7 +341,7 @@ def test_matches_leave_no_process_thread_or_file_behind(tmp_path) -> None:
             with pytest.raises(RuntimeError), Guard(scenario, laws, 1, LIMITS) as guard:
                 World(guard.scenario, seed=1).step()
                 raise RuntimeError
-    assert gained(before) == []
+    wait_until(lambda: not gained(before))
     wait_until(lambda: descendants() <= others)
 
 
