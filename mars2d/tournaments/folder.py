@@ -78,12 +78,9 @@ class Folder:
         self.before: tuple[Played, ...] = ()
 
     def keep(self, played: Played) -> None:
-        """Write a match that is done."""
+        """Write a match that is done, with its options as text: its hash identifies it."""
         options = {name: repr(value) for name, value in played.match.options.items()}
-        match = replace(
-            played.match, options=options, code={}
-        )  # for people: its hash identifies it
-        row = asdict(replace(played, match=match))
+        row = asdict(replace(played, match=replace(played.match, options=options, code={})))
         row = {"print": self._prints[played.match.number], **row}
         self._write({"sum": _sum(row), **row})
 

@@ -295,6 +295,7 @@ def control(robot):
             with contextlib.suppress(LawError):
                 world.step()
         assert [*guard.verdicts] == verdicts, guard.verdicts
+        assert all("which read what is beside" in v.text for v in guard.verdicts.values())
     assert world.command[:, 0].tolist() == pytest.approx([0.3, 0.3])
 
 
