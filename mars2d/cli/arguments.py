@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,37 +17,25 @@ from mars2d.scenario.options import parse_option
 from mars2d.window.screen.display import Preferences
 
 
+def value(read: Callable[[str], Any], expected: str) -> Callable[[str], Any]:
+    """Return the type of an argument; read: raises ValueError for a text that is not expected."""
+
+    def typed(text: str) -> Any:
+        try:
+            return read(text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(f"{text!r}: expected {expected}") from error
+
+    return typed
+
+
 def _speed(text: str) -> float | str:
-    if text == "max":
-        return text
-    try:
-        return playback_speed("--speed", float(text))
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected a number >= 0, or max") from error
-
-
-def _size(text: str) -> tuple[int, int]:
-    try:
-        return size_of(text)
-    except InputError as error:
-        expected = "expected width and height in pixels, such as 1280x720"
-        raise argparse.ArgumentTypeError(f"{text!r}: {expected}") from error
-
-
-def _text(text: str) -> float:
-    try:
-        return Preferences(text=float(text)).text
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected a number from 0.5 to 4") from error
+    return text if text == "max" else playback_speed("--speed", float(text))
 
 
 def _times(text: str) -> list[float | str]:
-    """Return times [s], separated by commas; the last may be "end"."""
-    try:
-        items = [item.strip() for item in text.split(",")]
-        return [item if item == "end" else float(item) for item in items]
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected times, such as 1,30,end") from None
+    items = [item.strip() for item in text.split(",")]
+    return [item if item == "end" else float(item) for item in items]
 
 
 def _many(**action: Any) -> dict[str, Any]:
@@ -60,16 +48,24 @@ SHARED: dict[str, dict[str, Any]] = {
     "--headless": {"action": "store_true", "help": "run without a window"},
     "--seed": {"type": int, "default": 0, "metavar": "N", "help": "of all random streams"},
     "--speed": {
-        "type": _speed,
+        "type": value(_speed, "a number >= 0, or max"),
         "metavar": "X",
         "help": "of window or film: 1 is real time, 0 is one step per key press, max",
     },
     "--stop-time": {"type": float, "metavar": "S", "help": "seconds to simulate"},
     "--set": _many(metavar="KEY=VALUE", help="override a field"),
     "--figure": {"type": Path, "metavar": "OUT", "help": "draw a picture: .png, .pdf, .svg"},
-    "--at": {"type": _times, "metavar": "T1,T2,...", "help": "draw snapshots at these times"},
+    "--at": {
+        "type": value(_times, "times, such as 1,30,end"),
+        "metavar": "T1,T2,...",
+        "help": "draw snapshots at these times",
+    },
     "--video": {"type": Path, "metavar": "OUT", "help": "make a film: .gif, .mp4"},
-    "--size": {"type": _size, "metavar": "WxH", "help": "of the film, pixels (default: 1280x720)"},
+    "--size": {
+        "type": value(size_of, "width and height in pixels, such as 1280x720"),
+        "metavar": "WxH",
+        "help": "of the film, pixels (default: 1280x720)",
+    },
     "--from": {"type": float, "dest": "start", "metavar": "S", "help": "start at this time"},
     "--to": {"type": float, "dest": "end", "metavar": "S", "help": "end at this time"},
     "--html": {
@@ -79,7 +75,11 @@ SHARED: dict[str, dict[str, Any]] = {
     },
     "--theory": {"action": "store_true", "help": "draw what theory predicts"},
     "--dark": {"action": argparse.BooleanOptionalAction, "help": "a dark window, or a light one"},
-    "--text": {"type": _text, "metavar": "X", "help": "the window's text X times as large"},
+    "--text": {
+        "type": value(lambda text: Preferences(text=float(text)).text, "a number from 0.5 to 4"),
+        "metavar": "X",
+        "help": "the window's text X times as large",
+    },
     "--workers": {"type": int, "metavar": "N", "help": "processes; by default one per core"},
     "--cluster": {"metavar": "ADDRESS", "help": "a Dask scheduler, such as tcp://10.0.0.5:8786"},
     "--json": {"action": "store_true", "help": "print the outcome as one line of JSON"},

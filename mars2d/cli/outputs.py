@@ -20,7 +20,7 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
-from mars2d.output.films.footage import Cut
+from mars2d.output.films.footage import Cut, shots
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.scenario import Scenario
@@ -28,7 +28,6 @@ from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
 
 if TYPE_CHECKING:
-    from mars2d.output.films.footage import Footage
     from mars2d.record.frame import Frame
 
 OUTPUTS = {
@@ -113,34 +112,23 @@ def film_speed(scenario: Scenario, speed: float | str | None) -> float:
     return max(scenario.stop_time / DURATION, 1e-9)
 
 
-def save_footage(footage: Footage, last: Frame, arguments: argparse.Namespace) -> None:
-    """Make the requested film from the footage of a run, with a progress bar."""
-    with filming(footage.count(last)) as update:
+def save_film(
+    frames: Iterable[Frame], count: int, speed: float, arguments: argparse.Namespace
+) -> None:
+    """Make the requested film of `count` frames, with a progress bar."""
+    size = arguments.size or SIZE
+    with filming(count) as update:
         film.save_film(
-            footage.frames(last),
-            arguments.video,
-            fps=FPS,
-            size=arguments.size or SIZE,
-            status=f"{footage.speed:.3g}x",
-            progress=update,
+            frames, arguments.video, fps=FPS, size=size, status=f"{speed:.3g}x", progress=update
         )
 
 
 def save_film_of(record: Record, arguments: argparse.Namespace) -> None:
     """Make the requested film of a record, with a progress bar."""
     speed = film_speed(record.scenario, arguments.speed)
-    start, end = arguments.start, arguments.end
-    with filming(film.cut_of(record, speed, FPS, start, end).count) as update:
-        film.film_record(
-            record,
-            arguments.video,
-            speed=speed,
-            fps=FPS,
-            size=arguments.size or SIZE,
-            start=start,
-            end=end,
-            progress=update,
-        )
+    cut = film.cut_of(record, speed, FPS, arguments.start, arguments.end)
+    frames = shots(cut, record.scenario.sampling_time, len(record) - 1, record.frame)
+    save_film(frames, cut.count, speed, arguments)
 
 
 @contextmanager

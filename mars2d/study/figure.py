@@ -70,8 +70,7 @@ def plot_study(
     if not table.results or not shown:
         what = "measures" if table.results else "runs"
         raise InputError(f"figure: the study of {table.experiment} has no {what}")
-    units = {name: table.unit(name) for name in table.settings}
-    layout = layout_of(table.settings, table.points(), x, units)
+    layout = layout_of(table, x)
     drawing = _Drawing(table, layout, look, confidence)
     with look.fonts():
         grid = _grid(axes, shown, len(layout.columns), look)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import prod
 from typing import Any
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, nearest
+from mars2d.study.table import Table
 from mars2d.study.text import Point, assigned
 
 Float = NDArray[np.float64]
@@ -88,29 +89,23 @@ class Layout:
         return len(scaled) < 2 or (len(scaled) <= 10 and float(gaps.min()) > 0.05)
 
 
-def layout_of(
-    settings: Sequence[str],
-    points: Iterable[Point],
-    x: str | None = None,
-    units: Mapping[str, str] | None = None,
-) -> Layout:
-    """Return the layout for the points of a study.
+def layout_of(table: Table, x: str | None = None) -> Layout:
+    """Return the layout for the figure of a study.
 
-    units: those of settings that have one, by name. x: the setting along the axis; by default the
-    first with several numbers, else with several values. Raises InputError for an unknown setting,
-    and for more lines than a figure can show; so it can be called before hours of runs.
+    x: the setting along the axis; by default the first with several numbers, else with several
+    values. Raises InputError for an unknown setting, and for more lines than a figure can show.
     """
-    every = list(points)
+    settings, every = table.settings, list(table.points())
 
     def named(k: int, value: Any) -> str:
-        return assigned(settings[k], value, (units or {}).get(settings[k], ""))
+        return assigned(settings[k], value, table.unit(settings[k]))
 
     values = [tuple(dict.fromkeys(column)) for column in zip(*every, strict=True)]
     several = [k for k, found in enumerate(values) if len(found) > 1]
     if x is not None and x not in settings:
         raise InputError(f"figure: x = {x!r}: there is no such setting{nearest(x, settings)}")
     numeric = [k for k in several if all(map(_is_number, values[k]))]
-    axis = list(settings).index(x) if x is not None else next(iter([*numeric, *several]), None)
+    axis = settings.index(x) if x is not None else next(iter([*numeric, *several]), None)
     others = [k for k in several if k != axis]
     beside = _beside(others, settings, values)
     inside = [k for k in others if k != beside]

@@ -165,8 +165,7 @@ def measured(name: str, function: Measure, record: Record) -> float | str | None
     """
     if function is BUILT_IN.get(name):
         return _plain(function(record))
-    calling = called(name, function)
-    with calling:
+    with called(name, function):
         value = function(record)
     try:
         return _plain(value)
@@ -174,9 +173,6 @@ def measured(name: str, function: Measure, record: Record) -> float | str | None
         refused = LawError(f"{name} returned {shown(value)}: {error}")
         refused.where = definition(function)
         raise refused from None
-    except BaseException as error:  # from the value's own __float__
-        calling.blame(error)
-        raise
 
 
 def _plain(value: Any) -> float | str | None:

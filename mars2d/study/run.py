@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from concurrent.futures import Executor
 from contextlib import closing
 from pathlib import Path
@@ -17,7 +17,7 @@ from mars2d.core.files import writing
 from mars2d.core.interrupt import interrupts
 from mars2d.core.terminal import warn
 from mars2d.scenario.scenario import Scenario
-from mars2d.study.job import Job, run_job
+from mars2d.study.job import run_job
 from mars2d.study.kept import records_beside
 from mars2d.study.measures import Measure
 from mars2d.study.plan import Plan, seeds_of, settings_of
@@ -69,47 +69,67 @@ def sweep(
     experiment: a file, the name of a shipped example, a module that has a file, or a Scenario.
     settings: options by their dotted names, or parameters of a scenario function. A list, range or
     array holds several values, anything else is one value; a point has one value of each setting.
-    seeds: how many, from 0 on, or a list. All points have the same ones, so that they can be
-    compared seed by seed. measures: names of built-in measures or of functions in the experiment's
-    file, or functions of the record; by default the end time, the collisions and, in a game, the
-    capture time. control: the law of the team, in place of the experiment's. stop_time: seconds, as
-    another setting. units: those of settings and measures, by name, where they are not known: of
-    fields of a scenario and of built-in measures they are.
+    seeds: how many, from 0 on, or a list; the same at all points, to be compared seed by seed.
+    measures: names of built-in measures or of functions in the experiment's file, or functions of
+    the record; by default the end time, the collisions and, in a game, the capture time. control:
+    the law of the team, in place of the experiment's. stop_time: seconds, as another setting.
+    units: of settings and measures by name, where they are not known, as those of fields are.
 
     out: a .csv file to which each row is added when its run is done. Runs whose rows it holds are
     not repeated, except, with `retry`, those with an error. executor: any of concurrent.futures, or
     a Client of Dask; by default processes are started, `workers` of them, one a core. With
     processes, call this under ``if __name__ == "__main__":``. time_limit: seconds that a run may
     take; a call in C is only broken off in processes. keep: whether the runs' records are kept in a
-    folder beside `out`: then a later sweep with `keep` and other measures takes these from the
-    records, without a run. show_progress: whether a terminal or a notebook shows a bar.
+    folder beside `out`, from which a later sweep with `keep` and other measures takes these,
+    without a run. show_progress: whether a terminal or a notebook shows a bar.
 
-    A run that fails is a row with its `error`. The first five runs, evenly spaced over the study,
-    are trials: if all of them fail, no others are made. The rows depend neither on the workers nor
-    on the order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
+    A run that fails is a row with its `error`; if all of the first five fail, which are spaced
+    evenly over the study, no others are made. The rows depend neither on the workers nor on the
+    order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
 
-    Raises InputError, before the first run, for anything that can't be run, and if the file holds
-    another study; `StudyFailedError` if all trials fail, or a measure in the first one;
-    `StudyInterrupted` after Ctrl-C. Both have the rows as their `table`.
+    Raises InputError, before the first run, for anything that can't be run, if the file holds
+    another study, and if a file of the experiment changes meanwhile; `StudyFailedError` if the
+    first five fail, or a measure in the first one; `StudyInterrupted` after Ctrl-C. Both have the
+    rows as their `table`.
     """
     leave_if_imported_again()
     if executor is None:
         worker_count(workers)
     if not isinstance(out, (str, Path, type(None))):
         raise wrong("out", out, "the name of a file, such as 'results.csv'")
+    path = None if out is None else Path(out)
+    if path is not None and path.suffix.lower() != ".csv":
+        raise InputError(f"{path}: expected a name that ends in .csv")
     if stop_time is not None and isinstance(settings, (Mapping, type(None))):
         if settings and "stop_time" in settings:
             raise InputError("stop_time is given twice, once among the settings")
         settings = {**(settings or {}), "stop_time": stop_time}
-    plan = Plan(settings_of(settings), seeds_of(seeds))
-    listed = _listed(measures)
+    plan, listed = Plan(settings_of(settings), seeds_of(seeds)), _listed(measures)
     study = prepared(experiment, plan, listed, control=control, time_limit=time_limit, units=units)
     for trouble in study.troubles[:3]:
         warn(trouble)
     if study.troubles:
         warn("such runs are rows with their error; the others are made")
-    how = executor, workers, show_progress
-    return _run(study, None if out is None else Path(out), how, retry=retry, keep=keep)
+    if keep:
+        study = _keeping(study, path)
+    with Results(study, path, retry=retry) as results:
+        trials = _trials(study)
+        _refuse_hopeless(study, results, trials)
+        try:
+            made = _missing(study, results, trials, executor, workers, show_progress)
+            with interrupts() as check, closing(made) as rows:
+                for row in rows:
+                    _refuse_changed(study, row)
+                    results.add(row)
+                    _refuse_hopeless(study, results, trials)
+                    check()
+        except KeyboardInterrupt:
+            table = results.table()
+            where = "were made" if out is None else f"are in {out}; the same command goes on"
+            said = f"{len(table)} of {len(plan)} runs {where}"
+            raise StudyInterrupted(said, table) from None
+        results.put_in_order()
+        return results.table()
 
 
 def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Measure, ...]:
@@ -121,43 +141,6 @@ def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Me
         if not isinstance(measure, str) and not callable(measure):
             raise wrong("measures", measure, expected)
     return listed
-
-
-def _run(
-    study: Study,
-    out: Path | None,
-    how: tuple[Executor | None, int | None, bool],
-    *,
-    retry: bool,
-    keep: bool,
-) -> Table:
-    """Do the runs of a study that its file `out` does not hold, and return all rows in order.
-
-    how: executor, workers, show_progress. Raises what `sweep` does, and InputError if a file of the
-    experiment changes meanwhile.
-    """
-    if out is not None and out.suffix.lower() != ".csv":
-        raise InputError(f"{out}: expected a name that ends in .csv")
-    if keep:
-        study = _keeping(study, out)
-    with Results(study, out, retry=retry) as results:
-        trials = _trials(study)
-        _refuse_hopeless(study, results, trials)
-        try:
-            made = _missing(study, results, trials, *how)
-            with interrupts() as check, closing(made) as rows:
-                for row in rows:
-                    _refuse_changed(study, row)
-                    results.add(row)
-                    _refuse_hopeless(study, results, trials)
-                    check()
-        except KeyboardInterrupt:
-            table = results.table()
-            where = "were made" if out is None else f"are in {out}; the same command goes on"
-            said = f"{len(table)} of {len(study.plan)} runs {where}"
-            raise StudyInterrupted(said, table) from None
-        results.put_in_order()
-        return results.table()
 
 
 def _keeping(study: Study, out: Path | None) -> Study:
@@ -184,7 +167,11 @@ def _missing(
     show_progress: bool,
 ) -> Generator[Result, None, None]:
     """Do the runs that have no row, the trials first; yield each row as it comes."""
-    todo = [job for job in _jobs(study) if job.row not in results.rows]
+    todo = [
+        dataclasses.replace(study.blank, row=row, options=options, seed=seed)
+        for row, (options, seed) in enumerate(study.plan.runs(), 1)
+        if row not in results.rows
+    ]
     todo.sort(key=lambda job: job.row not in trials)
     failed = sum(bool(result.error) for result in results.rows.values())
     done_by = each_done(run_job, todo, executor, workers, study.blank.time_limit)
@@ -204,19 +191,12 @@ def _missing(
                 yield made
 
 
-def _jobs(study: Study) -> Iterator[Job]:
-    for row, (options, seed) in enumerate(study.plan.runs(), 1):
-        yield dataclasses.replace(study.blank, row=row, options=options, seed=seed)
-
-
 def _trials(study: Study) -> tuple[int, ...]:
     """Return the rows that are made first: the first that can be opened, and `TRIALS` in all."""
-    plan = study.plan
-    points = (cells_of(point) for point in plan.points())
-    first = next((k for k, point in enumerate(points) if point in study.codes), 0)
-    total = len(plan)
-    spaced = [1 + k * (total - 1) // (TRIALS - 1) for k in range(TRIALS)]
-    return tuple(dict.fromkeys([1 + first * len(plan.seeds), *spaced]))
+    plan, total = study.plan, len(study.plan)
+    first = next(k for k, point in enumerate(plan.points()) if cells_of(point) in study.codes)
+    spaced = (1 + k * (total - 1) // (TRIALS - 1) for k in range(TRIALS))
+    return (1 + first * len(plan.seeds), *spaced)
 
 
 def _refuse_hopeless(study: Study, results: Results, trials: tuple[int, ...]) -> None:

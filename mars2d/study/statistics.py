@@ -7,8 +7,9 @@ that are nan or infinite are taken as missing and left out; `count` is the numbe
 from __future__ import annotations
 
 import warnings
+from bisect import bisect_left
 from dataclasses import dataclass
-from math import ceil, hypot, inf, isfinite, nan, sqrt
+from math import ceil, hypot, isfinite, nan, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -173,6 +174,8 @@ def seeds_needed(values: ArrayLike, half_width: float, confidence: float = 0.95)
     >>> seeds_needed([9.0, 10.0, 11.0], half_width=0.5)
     18
     """
+    from scipy.special import stdtrit
+
     confidence = confident(confidence)
     wanted = _width(half_width)
     found = _finite(values)
@@ -183,10 +186,12 @@ def seeds_needed(values: ArrayLike, half_width: float, confidence: float = 0.95)
     least = (_normal(confidence) * deviation / wanted) ** 2  # t is larger than the normal quantile
     if not isfinite(least) or least > NORMAL_FROM:
         return ceil(least) if isfinite(least) else None
-    n = max(2, ceil(least))
-    while _student(confidence, n - 1) * deviation / sqrt(n) > wanted:
-        n += 1
-    return n
+    counts = range(max(2, ceil(least)), 2 * NORMAL_FROM)
+
+    def enough(n: int) -> bool:
+        return float(stdtrit(n - 1, (1 + confidence) / 2)) * deviation / sqrt(n) <= wanted
+
+    return counts[bisect_left(counts, True, key=enough)]
 
 
 def seeds_for_share(share: float, half_width: float, confidence: float = 0.95) -> int:
@@ -197,23 +202,11 @@ def seeds_for_share(share: float, half_width: float, confidence: float = 0.95) -
     """
     z = _normal(confident(confidence))
     wanted = _width(half_width)
-    low, high = 0, 1
-    while _wilson_half(share, high, z) > wanted:
-        low, high = high, 2 * high
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if _wilson_half(share, middle, z) > wanted else (low, middle)
-    return high
+    counts = range(1, 2**50)
+    return counts[bisect_left(counts, True, key=lambda n: _wilson_half(share, n, z) <= wanted)]
 
 
 # -- helpers ---------------------------------------------------------------------------------------
-
-
-def _student(confidence: float, freedom: float) -> float:
-    """Return the distance of the bounds in standard errors, for `freedom` degrees of freedom."""
-    from scipy.special import stdtrit
-
-    return float(stdtrit(freedom, (1 + confidence) / 2))
 
 
 def _normal(confidence: float) -> float:
@@ -240,7 +233,7 @@ def _pairs(a: ArrayLike, b: ArrayLike) -> tuple[Float, Float]:
 
 
 def _mean(values: Float) -> float:
-    """Return the mean, which for equal values is that value to the last bit; nan for no values."""
+    """Return the mean, for equal values that value to the last bit; nan for no values."""
     if not len(values):
         return nan
     with np.errstate(over="ignore"):
@@ -258,6 +251,6 @@ def confident(value: object) -> float:
 
 def _width(value: object) -> float:
     half_width = real("half_width", value, "a number > 0")
-    if not 0 < half_width < inf:
+    if half_width <= 0:
         raise wrong("half_width", value, "a number > 0")
     return half_width

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
-import inspect
 import os
-import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -16,8 +14,6 @@ from typing import Any
 
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, Mars2dError, MissingExtraError, shown
-from mars2d.scenario.examples import examples
-from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.roles import contests_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import from_description
@@ -28,10 +24,7 @@ from mars2d.study.table import FIRST, LAST, SEED, cells_of
 from mars2d.study.units import checked_units
 
 MAX_PROBES = 100
-"""How many points are opened before the first run, at most, if one of them can be."""
-
-MAX_TRIALS = 1000
-"""How many points are opened, at most, to find one that can be."""
+"""How many points are opened before the first run, at most."""
 
 
 @dataclass(frozen=True)
@@ -76,67 +69,35 @@ def prepared(
         raise wrong("time_limit", time_limit, "a number > 0 [s]")
     _check_columns(plan, measures)
     title, source = _source(experiment)
-    code = _code_of(source) if isinstance(source, Scenario) else ""
+    code = ""
+    if isinstance(source, Scenario):  # its laws count by their names alone
+        code = hashlib.sha256(repr(from_description(source)).encode()).hexdigest()[:CODE_DIGITS]
     folder = os.getcwd()  # noqa: PTH109
     blank = Job(0, source, {}, plan.seeds[0], measures, folder, control, time_limit, code)
-    first, troubles, codes, written = None, [], {}, dict[Path, int]()
-    for point, found in _probes(plan, blank):
-        if isinstance(found, Mars2dError):
-            troubles.append(_trouble(point, found))
+    first, failed = None, None
+    troubles, codes, written = list[str](), dict[tuple[str, ...], str](), dict[Path, int]()
+    for point in islice(plan.probes(), MAX_PROBES):
+        try:
+            found = probed(dataclasses.replace(blank, options=point))
+        except MissingExtraError:
+            raise
+        except Mars2dError as error:
+            where = ", ".join(f"{name} = {shown(value)}" for name, value in point.items())
+            troubles.append(f"{error}" if where in f"{error}" else f"{where}: {error}")
+            failed = failed or error
             continue
         first = first or found
         codes[cells_of(point)] = code_of(found, code)
         written |= found.source.written
-    assert first is not None  # or `_probes` has raised
-    chosen = measures or _sensible(first.scenario)
+    if first is None:
+        assert failed is not None  # a plan has at least one point
+        raise failed
+    contest = ["capture_time"] if len(contests_of(first.scenario)) == 1 else []
+    chosen = measures or (*contest, "end_time", "collisions")
     measures_of(chosen, first, first.scenario)
-    _check_columns(plan, chosen)
     stated = checked_units(units, [*plan.settings, *map(name_in, chosen)])
     blank = dataclasses.replace(blank, measures=chosen)
     return Study(title, plan, blank, tuple(troubles), codes, written, stated)
-
-
-def _probes(plan: Plan, blank: Job) -> Iterator[tuple[dict[str, Any], Experiment | Mars2dError]]:
-    """Yield points with their experiments or errors; raise the first error if all points fail."""
-
-    def found(point: dict[str, Any]) -> Experiment | Mars2dError:
-        try:
-            return probed(dataclasses.replace(blank, options=point))
-        except MissingExtraError:
-            raise
-        except Mars2dError as error:
-            return error
-
-    first: Mars2dError | None = None
-    sound = False
-    for point in islice(plan.probes(), MAX_PROBES):
-        made = found(point)
-        if isinstance(made, Mars2dError):
-            first = first or made
-        else:
-            sound = True
-        yield point, made
-    if sound or first is None:
-        return
-    for point in islice(plan.points(), MAX_TRIALS):
-        made = found(point)
-        if not isinstance(made, Mars2dError):
-            yield point, made
-            return
-    raise first
-
-
-def _trouble(point: dict[str, Any], error: Mars2dError) -> str:
-    """Return the error at a point, preceded by those settings that it does not mention."""
-    text = str(error)
-    named = [f"{name} = {shown(value)}" for name, value in point.items()]
-    unsaid = [each for each in named if not re.search(rf"\b{re.escape(each)}", text)]
-    return ": ".join(filter(None, [", ".join(unsaid), text]))
-
-
-def _sensible(scenario: Scenario) -> tuple[str, ...]:
-    capture_time = ["capture_time"] if len(contests_of(scenario)) == 1 else []
-    return (*capture_time, "end_time", "collisions")
 
 
 def _check_columns(plan: Plan, measures: tuple[str | Measure, ...]) -> None:
@@ -157,24 +118,10 @@ def _source(experiment: str | Path | ModuleType | Scenario) -> tuple[str, str | 
     """Return the experiment's name in the table, and the source that workers open."""
     if isinstance(experiment, Scenario):
         return experiment.title or "Scenario", experiment
-    if isinstance(experiment, ModuleType):
-        file = inspect.getsourcefile(experiment) if hasattr(experiment, "__file__") else None
-        if file is None:
-            raise InputError(
-                f"experiment = {shown(experiment)}: a module without a file; give a file, the name "
-                "of an example, or a Scenario"
-            )
-        experiment = Path(file)
-    if not isinstance(experiment, (str, Path)):
-        expected = "a file, the name of an example, or a Scenario"
+    module = isinstance(experiment, ModuleType)
+    given = getattr(experiment, "__file__", None) if module else experiment
+    if not isinstance(given, (str, Path)):
+        expected = "a file, the name of an example, a module that has a file, or a Scenario"
         raise wrong("experiment", experiment, expected)
-    path = Path(experiment)
-    if not path.is_file() and str(experiment) in examples():
-        return str(experiment), str(experiment)
-    title = path.as_posix()
-    return title, str(path.absolute()) if path.is_file() else str(experiment)
-
-
-def _code_of(scenario: Scenario) -> str:
-    """Return the first digits of a hash of a scenario; laws count by their names alone."""
-    return hashlib.sha256(repr(from_description(scenario)).encode()).hexdigest()[:CODE_DIGITS]
+    path = Path(given)
+    return (path.as_posix(), str(path.absolute())) if path.is_file() else (str(given), str(given))

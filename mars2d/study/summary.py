@@ -80,15 +80,10 @@ def _notes(table: Table, wanted: Sequence[Estimate]) -> str:
     infinite = Counter(
         name for r in sound for name in table.measures if r.measures.get(name) in (inf, -inf)
     )
-    notes = [
-        f"{each.label} is of those runs alone that have a number: k of n. Read it beside the share."
-        for each in wanted
-        if each.some
-    ]
-    notes += [
-        f"{name} is infinite in {counted(count, 'run')}, which its mean leaves out."
-        for name, count in infinite.items()
-    ]
+    alone = "is of those runs alone that have a number: k of n. Read it beside the share."
+    notes = [f"{each.label} {alone}" for each in wanted if each.some]
+    for name, count in infinite.items():
+        notes.append(f"{name} is infinite in {counted(count, 'run')}, which its mean leaves out.")
     if table.failed:
         first = table.failed[0]
         failed = f"{counted(len(table.failed), 'run')} failed and count nowhere"
@@ -258,10 +253,11 @@ def _difference(
     a = np.array([mine.get(seed, nan) for seed in seeds])
     b = np.array([theirs.get(seed, nan) for seed in seeds])
     found = estimate.difference(a, b, confidence)
-    both = np.isfinite(a) & np.isfinite(b)
-    alone = estimate.apart(a[both], b[both], confidence)
-    known = found.half_width > 0 and not estimate.share  # unpaired shares use another method
-    narrower = alone.half_width / found.half_width if known else nan
+    narrower = nan
+    if found.half_width > 0 and not estimate.share:  # unpaired shares use another method
+        both = np.isfinite(a) & np.isfinite(b)
+        alone = estimate.apart(a[both], b[both], confidence)
+        narrower = alone.half_width / found.half_width
     left_out = len({r.seed for r in (*results, *base)}) - found.count
     return Difference(point, estimate, found, True, left_out, narrower)
 
@@ -285,13 +281,12 @@ def _verdict(each: Difference) -> str:
 
 
 def _comparison_notes(found: Sequence[Difference], confidence: float) -> str:
-    m = len(found)
-    percent_all = f"{100 * confidence:.4g} %"
-    notes = [f"Intervals are of {percent_all}."]
+    m, every = len(found), f"{100 * confidence:.4g} %"
+    notes = [f"Intervals are of {every}."]
     if m > 1:
         one = f"{100 * (1 - (1 - confidence) / m):.4g} %"
-        notes = [f"Each of the {m} intervals is of {one}: all hold together with {percent_all}"]
-        notes[0] += " (Bonferroni)."
+        together = f"all hold together with {every} (Bonferroni)"
+        notes = [f"Each of the {m} intervals is of {one}: {together}."]
     if any(each.paired for each in found):
         notes.append("narrower: how much pairing narrowed the interval, against runs in no pairs.")
     if any(each.left_out for each in found):

@@ -7,10 +7,12 @@ Columns: ``row``, ``experiment``, the settings, ``seed``, the measures, ``digest
 from __future__ import annotations
 
 import csv
+import dataclasses
 import html
 import io
 import re
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from math import nan
 from pathlib import Path
@@ -229,70 +231,49 @@ def parse_table(data: bytes, path: Path) -> Table:
     reader = csv.reader(io.StringIO(text, newline=""), strict=True)
     try:
         header = next(reader, [])
-        settings, measures, units = _columns(header, path)
-        results: list[Result] = []
-        experiment = ""
-        for cells in reader:
-            if not cells:
-                continue
-            if len(cells) != len(header):
-                fields = f"{len(cells)} cells, expected {len(header)}"
-                raise InputError(f"{path}, line {reader.line_num}: {fields}")
-            if experiment and cells[1] != experiment:
-                raise InputError(
-                    f"{path}, line {reader.line_num}: experiment {shown(cells[1])}, where the rows "
-                    f"before have {shown(experiment)}"
-                )
-            experiment = cells[1]
-            results.append(_result(cells, settings, measures, f"{path}, line {reader.line_num}"))
-    except csv.Error as error:
-        raise InputError(f"{path}, line {reader.line_num}: {error}") from error
-    results.sort(key=lambda result: result.row)
-    return Table(experiment, settings, measures, tuple(results), units)
+        blank, results = _blank(header), list[Result]()
+        for cells in filter(None, reader):
+            results.append(_result(cells, blank, len(header)))
+            blank = dataclasses.replace(blank, experiment=cells[1])
+    except (csv.Error, InputError) as error:
+        at = f", line {reader.line_num}" if reader.line_num > 1 else ""
+        raise InputError(f"{path}{at}: {error}") from error
+    return dataclasses.replace(blank, results=tuple(sorted(results, key=lambda each: each.row)))
 
 
-def _columns(
-    header: list[str], path: Path
-) -> tuple[tuple[str, ...], tuple[str, ...], dict[str, str]]:
-    """Return the names of the settings and of the measures in a header, and the units there."""
-    ends = tuple(header[:2]), tuple(header[-3:])
-    if ends != (FIRST, LAST) or header.count(SEED) != 1:
+def _blank(header: list[str]) -> Table:
+    """Return the table with these headings, without rows."""
+    if (*header[:2], *header[-3:]) != (*FIRST, *LAST) or header.count(SEED) != 1:
         expected = f"{', '.join(FIRST)}, settings, seed, measures, {', '.join(LAST)}"
         found = f"; it begins with {shown(','.join(header))}" if header else "; it is empty"
-        raise InputError(f"{path}: is no table of a study: expected columns {expected}{found}")
-    at = header.index(SEED)
-    named = [name_and_unit(head) for head in header]
-    names = [name for name, _ in named]
-    return tuple(names[2:at]), tuple(names[at + 1 : -3]), {k: unit for k, unit in named if unit}
+        raise InputError(f"is no table of a study: expected columns {expected}{found}")
+    names, units = zip(*map(name_and_unit, header), strict=True)
+    at, stated = header.index(SEED), {k: unit for k, unit in zip(names, units, strict=True) if unit}
+    return Table("", names[2:at], names[at + 1 : -3], (), stated)
 
 
-def _result(
-    cells: list[str], settings: tuple[str, ...], measures: tuple[str, ...], where: str
-) -> Result:
-    row, values = _whole_number(cells[0], "row", where), map(value_in, cells[2:])
-    options = dict(zip(settings, values, strict=False))
-    seed, *found = cells[2 + len(settings) : -3]
-    measured = dict(zip(measures, map(_measured, found), strict=True))
+def _result(cells: list[str], blank: Table, width: int) -> Result:
+    """Return the run in the cells of a row, of which a table has `width`."""
+    if len(cells) != width:
+        raise InputError(f"{len(cells)} cells, expected {width}")
+    if blank.experiment not in ("", cells[1]):
+        before = f"where the rows before have {shown(blank.experiment)}"
+        raise InputError(f"experiment {shown(cells[1])}, {before}")
+    values, (seed, *found) = cells[2 : 2 + len(blank.settings)], cells[2 + len(blank.settings) : -3]
+    for name, text in (("row", cells[0]), (SEED, seed)):
+        if not text.isdecimal():
+            raise InputError(f"{name} = {shown(text)}: expected a whole number")
+    options = dict(zip(blank.settings, map(value_in, values), strict=True))
+    measured = dict(zip(blank.measures, map(_measured, found), strict=True))
     digest, code, error = cells[-3:]
-    number = _whole_number(seed, SEED, where)
-    return Result(row, options, number, measured, word_in(error), digest, code)
-
-
-def _whole_number(text: str, name: str, where: str) -> int:
-    if not text.isdecimal():
-        raise InputError(f"{where}: {name} = {shown(text)}: expected a whole number")
-    return int(text)
+    return Result(int(cells[0]), options, int(seed), measured, word_in(error), digest, code)
 
 
 def _measured(text: str) -> float | str | None:
-    if not text:
-        return None
     for kind in (int, float):
-        try:
+        with suppress(ValueError):
             return kind(text)
-        except ValueError:
-            continue
-    return word_in(text)
+    return word_in(text) or None
 
 
 # -- cells -----------------------------------------------------------------------------------------

@@ -69,25 +69,28 @@ def side_by_side(left: list[list[str]], columns: list[list[str]]) -> list[str]:
 
     left: rows of cells, the headings first. columns: cells by column, each with its heading.
     """
-    room = TERMINAL_WIDTH - sum(max(map(len, cells)) + 2 for cells in zip(*left, strict=True))
-    tables: list[list[list[str]]] = []
-    used = room
+    settings = [_justified(list(cells)) for cells in zip(*left, strict=True)]
+    room = TERMINAL_WIDTH + 2 - sum(len(cells[0]) + 2 for cells in settings)
+    tables, used = list[list[list[str]]](), room
     for column in map(_aligned, columns):
-        width = max(map(len, column)) + 2
-        if used + width > room + 2:
+        width = len(column[0]) + 2
+        if used + width > room:
             tables.append([])
             used = 0
         tables[-1].append(column)
         used += width
-    settings = [list(cells) for cells in zip(*left, strict=True)]
-    return [_lines([*map(_justified, settings), *each]) for each in tables or [[]]]
+    return [
+        "\n".join("  ".join(row).rstrip() for row in zip(*settings, *each, strict=True))
+        for each in tables or [[]]
+    ]
 
 
 def _aligned(column: list[str]) -> list[str]:
-    """Return cells padded so that their first words end at the same place."""
+    """Return cells of the same width, padded so that their first words end at the same place."""
     heading, *cells = column
     room = max((len(cell.partition(" ")[0]) for cell in cells), default=0)
-    return [heading, *(" " * (room - len(cell.partition(" ")[0])) + cell for cell in cells)]
+    moved = [heading, *(" " * (room - len(cell.partition(" ")[0])) + cell for cell in cells)]
+    return [cell.ljust(max(map(len, moved))) for cell in moved]
 
 
 def _justified(column: list[str]) -> list[str]:
@@ -95,11 +98,3 @@ def _justified(column: list[str]) -> list[str]:
     width = max(map(len, column))
     words = any(cell[:1].isalpha() for cell in column[1:])
     return [cell.ljust(width) if words else cell.rjust(width) for cell in column]
-
-
-def _lines(columns: list[list[str]]) -> str:
-    widths = [max(map(len, column)) for column in columns]
-    return "\n".join(
-        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in zip(*columns, strict=True)
-    )

@@ -35,16 +35,10 @@ def unit_of_field(setting: str) -> str:
     ['s', 'kg', '']
     """
     *path, last = setting.split(".")
-    named = [part for part in path if part != "*" and not part.isdigit()]
-    holder = named[-1] if named else ""
+    holder = next((part for part in reversed(path) if part != "*" and not part.isdigit()), "")
     kinds = members(FAMILY[holder]).values() if holder in FAMILY else [HOLDERS.get(holder)]
-    units = {
-        str(field.metadata.get("unit", ""))
-        for kind in kinds
-        if kind is not None
-        for field in dataclasses.fields(kind)
-        if field.name == last
-    }
+    fields = [each for kind in kinds if kind is not None for each in dataclasses.fields(kind)]
+    units = {str(each.metadata.get("unit", "")) for each in fields if each.name == last}
     return units.pop() if len(units) == 1 else ""
 
 

@@ -262,29 +262,29 @@ def _attempt(function: Callable[[T], R], task: T) -> R | Failure:
 
 def _attempt_packed(packed: bytes, limit: float | None) -> _Packed | Failure:
     """Attempt a function and a task; where it does not end at the limit, end this process."""
+
+    def call(packed: bytes) -> _Packed:
+        function, task = pickle.loads(packed)
+        return _Packed(cloudpickle.dumps(function(task)))
+
     with Path(os.devnull).open("w") as nothing:
         if limit is not None:
             faulthandler.dump_traceback_later(limit + BREAKING_OFF, exit=True, file=nothing)
         try:
-            return _attempt(_call_packed, packed)
+            return _attempt(call, packed)
         finally:
             faulthandler.cancel_dump_traceback_later()
             sys.stdout.flush()
 
 
-def _call_packed(packed: bytes) -> _Packed:
-    function, task = pickle.loads(packed)
-    return _Packed(cloudpickle.dumps(function(task)))
-
-
 def _begin() -> None:
     """Begin a worker: it ignores Ctrl-C, and ends with its parent even in the middle of a task."""
+
+    def end_with_parent() -> None:
+        parent = multiprocessing.parent_process()
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
+    threading.Thread(target=end_with_parent, daemon=True).start()

@@ -13,8 +13,8 @@ from mars2d.scenario.controllers import ByHand
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.roles import MOST_PEOPLE
-from mars2d.window.run.source import Playback
 from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.source import Playback
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline

@@ -10,16 +10,10 @@ import mars2d
 from mars2d import Robot, Scenario, World
 from mars2d.addons import FieldOfView
 from mars2d.core.scene import Scene
-from mars2d.scenario.experiment import open_experiment, open_module
+from mars2d.scenario.experiment import open_module
+from tests.worlds import predicted
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
-
-
-def outcome(name, stop_time=None, **options):
-    """The record of an example, and what its checks measured, by their names."""
-    opened = open_experiment(name, options)
-    record = mars2d.run(name, stop_time, options=options)
-    return record, {p.name: p for p in opened.predictions(record)}
 
 
 def about(record, middle=None):
@@ -38,7 +32,7 @@ def about(record, middle=None):
     [(3, 0.1, 0.05), (4, 0.2, 0.05), (5, 0.2, 0.2), (6, 0.1, 0.05), (6, 0.2, 0.1), (8, 0.15, 0.08)],
 )
 def test_at_full_speed_the_radius_of_cyclic_pursuit_is_n_v_by_pi_k_within_a_percent(n, gain, speed):
-    record, checks = outcome("cyclic_pursuit", 500, n=n, gain=gain, speed=speed)
+    record, checks = predicted("cyclic_pursuit", stop_time=500, n=n, gain=gain, speed=speed)
     assert np.hypot(*about(record)) == pytest.approx(n * speed / (pi * gain), rel=0.01)
     assert record.command[-1, 1].mean() == pytest.approx(gain * pi / n, rel=0.01)
     assert record.collisions == 0
@@ -57,7 +51,7 @@ def growth_rate(n, gain, ratio):
     ("n", "ratio", "sign"), [(6, 1.7, 1), (6, 2.2, -1), (4, 1.6, 1), (4, 2.2, -1)]
 )
 def test_the_ratio_of_gains_decides_whether_they_spread_or_shrink_and_how_fast(n, ratio, sign):
-    record, checks = outcome("cyclic_pursuit", 200, n=n, ratio=ratio, speed=9.0)
+    record, checks = predicted("cyclic_pursuit", stop_time=200, n=n, ratio=ratio, speed=9.0)
     assert np.sign(2 * n / pi * sin(pi / n) - ratio) == sign
     x, y = record.pose[:, 0], record.pose[:, 1]
     gaps = np.hypot(x - np.roll(x, 1, axis=1), y - np.roll(y, 1, axis=1)).mean(axis=1)
@@ -71,7 +65,7 @@ def test_at_the_critical_ratio_they_keep_a_circle_that_depends_on_the_start():
     critical = 12 / pi * sin(pi / 6)
     sizes = []
     for gap in (1.5, 2.0):
-        record, _ = outcome("cyclic_pursuit", 300, ratio=critical, speed=9.0, gap=gap)
+        record, _ = predicted("cyclic_pursuit", stop_time=300, ratio=critical, speed=9.0, gap=gap)
         away = np.hypot(*about(record))
         assert np.ptp(away) < 0.01 * away.mean()
         sizes.append(away.mean())
@@ -87,7 +81,7 @@ def gaps_of(x, y):
 
 
 def test_robots_circle_a_beacon_that_has_moved_evenly_and_to_the_left():
-    record, checks = outcome("circular_motion")
+    record, checks = predicted("circular_motion")
     speed, k_b, rho_0 = record.command[-1, 0, 0], 0.63, 0.42
     radius = brentq(  # plain theory, for the speed that they have
         lambda rho: speed / rho - k_b * log((rho + rho_0) / (2 * rho_0)) * pi / 2, rho_0, 10
@@ -140,7 +134,7 @@ def test_a_neighbour_is_in_view_when_it_is_near_or_ahead():
 
 @pytest.mark.parametrize("options", [{}, {"shape": "circle"}, {"shape": "row", "gain": 0.3}])
 def test_what_is_off_the_formation_fades_at_the_rate_of_the_second_eigenvalue(options):
-    record, checks = outcome("formation", **options)
+    record, checks = predicted("formation", **options)
     (check,) = checks.values()
     left = 1 - options.get("gain", 0.15) * 0.1  # of what is off, after 0.1 s; l = 1, a ring of six
     assert check.predicted == pytest.approx(-np.log(left) / 0.1)

@@ -11,8 +11,8 @@ from mars2d.addons import Communication
 from mars2d.cli.command_line import main
 from mars2d.core.scene import Circle
 from mars2d.output.figures.figure import plot_paths, plot_snapshots
-from mars2d.output.layers.ranges import range_of, ranges
-from mars2d.output.layers.table import Layers
+from mars2d.output.layers.ranges import place_range, range_of
+from mars2d.output.layers.table import Layers, of_bodies
 from tests.cases import each_case
 
 
@@ -74,7 +74,7 @@ def test_names_keep_off_the_forces():
 def test_a_range_is_the_radios_or_that_of_neighbours(fields, reach):
     record = crowd(3, **fields)
     assert range_of(record.scenario) == reach
-    circles = ranges(record.frame(-1)).shapes
+    circles = of_bodies(place_range)(record.frame(-1)).shapes
     assert [c.radius for c in circles if isinstance(c, Circle)] == [reach] * (3 if reach else 0)
 
 

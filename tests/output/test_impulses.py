@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from math import atan, atan2, hypot
 
 import numpy as np
@@ -155,8 +156,6 @@ def test_one_rule_shortens_all_long_arrows_and_the_legend_says_from_where_on():
     strong = frame.contact_log().copy()
     strong["impulse"] *= 10
     strong["normal_impulse"] *= 10
-    import dataclasses
-
     frame = dataclasses.replace(frame, contact_log=lambda: strong)
     scene, scale = impulses(frame), impulse_scale(fast.scenario)
     (arrow,) = of(Arrow, scene)

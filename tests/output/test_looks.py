@@ -14,7 +14,8 @@ from mars2d.bodies.props import Ball, Box, Gate, Puck
 from mars2d.core.materials import MATERIALS
 from mars2d.core.scene import Circle, Line, Polygon, Scene
 from mars2d.geometry.shapes import Polygon as Outline
-from mars2d.output.layers.bodies import draw_robot, initial_poses, joints, props
+from mars2d.output.layers.bodies import draw_robot, initial_poses, joints, place_prop
+from mars2d.output.layers.table import of_bodies
 from mars2d.output.layers.trails import trails
 
 ARROWHEAD = [(-0.2, -0.2), (0.3, 0.0), (-0.2, 0.2), (-0.1, 0.0)]
@@ -69,8 +70,9 @@ def test_initial_poses_of_props_are_hollow_and_props_filled():
     box, puck = of(Polygon, initial_poses(frame))[0], of(Circle, initial_poses(frame))[0]
     assert box.fill is None
     assert puck.fill is None
-    assert of(Polygon, props(frame))[0].fill
-    np.testing.assert_allclose(of(Polygon, props(frame))[0].points, box.points)
+    filled = of(Polygon, of_bodies(place_prop)(frame))[0]
+    assert filled.fill
+    np.testing.assert_allclose(filled.points, box.points)
 
 
 def tied(joint, x=1.0, **changes):

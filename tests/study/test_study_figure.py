@@ -9,7 +9,6 @@ from matplotlib.figure import Figure
 
 from mars2d import InputError
 from mars2d.study.figure import plot_study, save_study_figure
-from mars2d.study.layout import layout_of
 from mars2d.study.statistics import interval, proportion, shared
 from mars2d.study.table import Result, Table
 
@@ -109,12 +108,11 @@ def test_of_two_words_one_is_drawn_of_three_all():
 
 
 def test_more_than_a_figure_can_show_is_an_error_before_anything_is_run():
-    values = range(9)
-    points = [(a, b, c) for a in values for b in values for c in values]
+    values, numbers = {"a": [1, 2], "b": [*range(9)], "c": [*range(9)]}, lambda *_: 1.0
     with pytest.raises(InputError, match=r"9 of b x 9 of c are too many lines: at most 8 in a pan"):
-        layout_of(("a", "b", "c"), points)
+        plot_study(study(values, numbers, seeds=1))
     with pytest.raises(InputError, match="no such setting; did you mean 'gain'"):
-        layout_of(("gain",), [(1,), (2,)], x="gian")
+        plot_study(study({"gain": [1, 2]}, numbers), x="gian")
 
 
 def test_it_draws_on_axes_that_are_given():

@@ -442,3 +442,28 @@ def _interrupting(record):
     if record.seed == 3:
         signal.raise_signal(signal.SIGINT)  # to the main thread, which waits
     return 0
+
+
+NOTEBOOK = """
+import mars2d
+
+def last(record):
+    return record.time[-1]
+
+mars2d.sweep("drift.py", {"gain": [0.5, 1.0]}, 2, last, workers=2)
+"""
+
+
+@pytest.mark.slow
+def test_a_notebook_shows_a_bar_and_its_functions_go_to_processes(here):
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(NOTEBOOK)])
+    nbclient.NotebookClient(notebook, timeout=PATIENCE).execute()
+    *shown, table = notebook.cells[0].outputs
+    assert "4/4" in str(shown)
+    assert "Table of drift.py: 4 runs" in table["data"]["text/html"]
+
+
+def test_a_pipe_gets_no_bar(here, capfd):
+    sweep({"gain": [0.5, 1.0]}, 2)
+    assert capfd.readouterr() == ("", "")

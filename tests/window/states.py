@@ -13,11 +13,11 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
 from mars2d.window.editor_window import EditorWindow
-from mars2d.window.run.source import Playback
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
+from mars2d.window.screen.source import Playback
 from mars2d.window.trio import Trio
 from mars2d.world.record import load
 from mars2d.world.timeline import Timeline

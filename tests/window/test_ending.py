@@ -3,7 +3,7 @@
 from mars2d.core.errors import LawError
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.run.ending import Ending
-from mars2d.window.run.player import Player
+from mars2d.window.screen.player import Player
 from mars2d.world.timeline import Timeline
 from tests.window.circling import Circling
 

@@ -9,8 +9,8 @@ from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
 from mars2d.window.run.controls import Controls, Marks
 from mars2d.window.run.ghosts import ghosts
-from mars2d.window.run.player import Player
-from mars2d.window.run.source import Playback
+from mars2d.window.screen.player import Player
+from mars2d.window.screen.source import Playback
 from mars2d.world.timeline import Timeline
 from tests.worlds import ahead
 

@@ -38,6 +38,7 @@ from mars2d.window.panels.forceplot import draw_force
 from mars2d.window.panels.inspector import Inspector, sensor_plots
 from mars2d.window.panels.readout import contacts_of, dynamics_of, inbox, rounded, state_of
 from mars2d.window.panels.sensorplot import history
+from mars2d.window.screen.selection import Selection
 from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.window.written import Written, painter, pixels
@@ -91,7 +92,7 @@ def world():
 def seen_of(frame, body, theme=LIGHT, size=(344, 580)):
     surface = pygame.Surface(size, 0, 32)
     surface.fill("#ff00ff")
-    inspector = Inspector(Painter(theme=theme), body)
+    inspector = Inspector(Painter(theme=theme), Selection(body))
     inspector.draw(surface, surface.get_rect(), frame)
     return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
 
@@ -249,7 +250,10 @@ def test_the_curve_lies_at_the_force_on_the_scale():
 )
 def test_it_fits_into_what_there_is(world, size, theme):
     for body in range(5):
-        inspector, surface = Inspector(painter(Layout.of((1280, 720)), theme), body), Written(size)
+        inspector, surface = (
+            Inspector(painter(Layout.of((1280, 720)), theme), Selection(body)),
+            Written(size),
+        )
         sections = inspector._look(world.frame)
         chosen = [*inspector._chosen(sections, size[1], columns=max(1, size[0] // 300))]
         assert all(top + inspector._pixels(part) <= size[1] + 1 for _, top, part in chosen)

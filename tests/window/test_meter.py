@@ -48,17 +48,6 @@ def test_the_impulses_of_the_last_steps_are_those_of_the_record():
     assert reading.force.sum() * dt == pytest.approx(total, rel=1e-6)
 
 
-def test_two_opposite_forces_are_no_net_force():
-    robots = [Robot(pose=(0, 0, 0)), Robot(pose=(1, 0, np.pi))]
-    box = Box(pose=(0.5, 0, 0), length=0.3, width=0.3, ground_friction=0.1)
-    world = World(Scenario(robots=robots, props=[box], workspace=None))
-    for _ in range(40):
-        world.step([[0.2, 0.2], [0.0, 0.0]])
-    force = Meter().read(world.frame, 2).force
-    assert force[-10:].max() < 0.05
-    assert Meter().read(world.frame, 0).force[-1] == pytest.approx(5.0, rel=0.01)
-
-
 def test_read_step_by_step_it_is_the_same_as_read_at_once():
     world, meter = push(time=0.0), Meter()
     while world.time < 13:

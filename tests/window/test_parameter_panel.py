@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import pygame
 import pytest
 
@@ -10,6 +12,8 @@ from mars2d.core.errors import InputError
 from mars2d.output.raster.painter import Painter
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.panels.parameter_panel import LEAST_ROWS, ROW, ParameterPanel
+from mars2d.window.screen.selection import Selection
+from mars2d.world.timeline import Timeline
 from tests.window.strokes import pressed
 
 pytestmark = pytest.mark.usefixtures("keyboard")
@@ -44,12 +48,13 @@ class Desk:
     """A panel on a picture, whose time passes by hand."""
 
     def __init__(self, file, plays=True, cost=0.0):
-        self.experiment, self.selected = open_experiment(file), None
-        self.now, self.set_to, self.plays, self.cost, self.reason = 0.0, [], plays, cost, ""
+        self.source = Timeline(open_experiment(file))
+        self.now, self.set_to, self.cost, self.reason = 0.0, [], cost, ""
+        self.player = SimpleNamespace(source=self.source, playing=plays)
+        self.selection = Selection()
         self.panel = ParameterPanel(
-            Painter(), lambda: self.experiment, lambda: self.selected, self.take,
-            lambda: self.plays, lambda: self.now,
-        )  # fmt: skip
+            Painter(), self.player, self.selection, self.take, lambda: self.now
+        )
         self.panel.is_open = True
         self.frame = World(Scenario(robots=[Robot()])).frame
         self.draw()
@@ -59,8 +64,8 @@ class Desk:
         self.set_to.append((name, value, restart))
         if self.reason and not restart:
             return self.reason
-        options = {**self.experiment.options, name: value}
-        self.experiment = self.experiment.with_options(options)
+        options = {**self.source.experiment.options, name: value}
+        self.source.experiment = self.source.experiment.with_options(options)
         return self.reason
 
     def draw(self, height=400):
@@ -182,7 +187,7 @@ def test_keys_move_the_slider_that_has_the_focus_and_type_numbers(file):
 
 def test_where_there_is_little_room_the_wheel_and_the_focus_scroll(file):
     desk = Desk(file)
-    desk.selected = 0
+    desk.selection.body = 0
     least, wanted = desk.panel.heights(desk.frame, 300)
     assert LEAST_ROWS * ROW < least < wanted
     desk.draw(round(least))
@@ -203,11 +208,11 @@ def test_where_there_is_little_room_the_wheel_and_the_focus_scroll(file):
 
 def test_a_file_without_parameters_and_a_failing_value_are_said(file):
     desk = Desk(file)
-    desk.experiment = open_experiment("go_to_point")
+    desk.source.experiment = open_experiment("go_to_point")
     assert desk.panel.parameters() == {}
     assert desk.panel._look()[0].text.startswith("No parameters")
     assert desk.panel._words()[0].startswith("select a robot or prop")
-    desk.experiment = open_experiment(file)
+    desk.source.experiment = open_experiment(file)
     desk.panel.focus = "mu"
 
     def refuse(name, value, restart):

@@ -7,7 +7,7 @@ import pytest
 
 from mars2d.core.errors import LawError
 from mars2d.window.run import keys
-from mars2d.window.run.player import SPEEDS, Player, between
+from mars2d.window.screen.player import SPEEDS, Player, between
 from tests.cases import each_case
 from tests.window.circling import Circling, circling_scenario
 

@@ -13,7 +13,7 @@ from mars2d import InputError, Robot, Scenario
 from mars2d.output.films.filming import FPS, Filming
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.window.run.director import Director
-from mars2d.window.run.player import Player
+from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import free_name, save_picture, save_python, start_film
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pygame
 import pytest
@@ -129,7 +131,7 @@ class Scoped:
         layout = Layout.of((1280, 720))
         self.timeline, self.gone = timeline, []
         self.scopes = Scopes(
-            painter(layout, theme), lambda: timeline.recorded, self.gone.append, {},
+            painter(layout, theme), SimpleNamespace(source=timeline, go=self.gone.append), {},
             clock=lambda: 0.0,
         )  # fmt: skip
         self.surface = Written(size)
@@ -155,7 +157,7 @@ def test_the_cursor_has_the_values_of_the_row_that_is_shown(timeline):
 
 
 def test_what_is_switched_on_for_one_body_joins_the_plot_of_another():
-    scopes = Scopes(None, None, None, {})
+    scopes = Scopes(None, None, {})
     scopes.switch("speed", (0,))
     scopes.switch("speed", (2,))
     scopes.switch("energy", ())

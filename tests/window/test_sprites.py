@@ -9,8 +9,8 @@ from mars2d.addons import Map
 from mars2d.output.raster.painter import Painter, Sprites
 from mars2d.scenario.animation import Animation
 from mars2d.sensors import Proximity, RangeFinder
-from mars2d.window.run.source import Playback
 from mars2d.window.run.window import Window
+from mars2d.window.screen.source import Playback
 from tests.cases import each_case
 
 STEPS = 60

@@ -7,6 +7,7 @@ from mars2d import Robot, Scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.run.window import Window
 from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 from tests.window.written import Pens, Written
 from tests.worlds import ahead
 
@@ -116,3 +117,16 @@ def test_what_is_said_is_in_no_film(window):
     assert seen() != bare
     window.saver._film = object()
     assert seen() == bare  # the window shows what is said once the film has its picture
+
+
+@each_case("size", [(640, 400), (800, 600), LARGE, (1920, 1080)])
+def test_at_any_size_of_text_the_arena_has_room_and_icons_no_less(window, size):
+    sides = []
+    for text in (1.0, 1.3, 1.7, 2.2):
+        words(window, size, text)
+        plot, buttons = window.layout.plot, window.toolbar.bars[1].places
+        assert plot.width * plot.height >= 0.4 * size[0] * size[1]
+        assert all(len(each.collidelistall([*buttons.values()])) == 1 for each in buttons.values())
+        assert all(window.layout.tools.contains(each) for each in buttons.values())
+        sides.append(next(iter(buttons.values())).width)
+    assert min(sides) >= (0.75 if size == (640, 400) else 1.0) * sides[0], sides

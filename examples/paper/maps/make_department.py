@@ -137,7 +137,7 @@ def outlines(path):
     """Return the outlines of a drawing as GeoJSON: a feature a line."""
     features = [
         {"type": "Feature", "properties": {"layer": p.layer}, "geometry": mapping(p.geometry)}
-        for p in maps.read(path).pieces
+        for p in maps.read(path, tolerance=0).pieces
     ]
     lines = ",\n".join(json.dumps(feature, separators=(",", ":")) for feature in features)
     return f'{{"type":"FeatureCollection","features":[\n{lines}\n]}}\n'

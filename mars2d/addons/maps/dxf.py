@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mars2d.addons.maps.drawing import ALWAYS, Drawing, Unit, broken, layer_name
+from mars2d.addons.maps.regions import GRID
 from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 
@@ -56,7 +57,7 @@ def read_dxf(path: Path, unit: Unit | None, within: float) -> Drawing:
     }
     return Drawing(
         name, "a DXF drawing", unit, tuple(pieces), notes=notes,
-        hidden=frozenset({*hidden, "Defpoints"}), skipped=skipped, within=within,
+        hidden=frozenset({*hidden, "Defpoints"}), skipped=skipped, within=within + GRID,
     )  # fmt: skip
 
 

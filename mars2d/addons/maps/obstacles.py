@@ -54,7 +54,7 @@ def obstacles(drawing: Drawing) -> Obstacles:
     """
     import shapely
 
-    tolerance = max(drawing.tolerance - drawing.within - GRID, 0.0)
+    tolerance = max(drawing.tolerance - drawing.within, 0.0)
     geometries = [piece.geometry for piece in drawing.pieces]
     solid = [g for g in geometries if g.geom_type == "Polygon"]
     areas = solid if drawing.apart else joined(solid)
@@ -97,55 +97,18 @@ def _check_corners(drawing: Drawing, count: int, least: int) -> None:
 
 
 def _without_holes(area: shapely.Polygon) -> list[shapely.Polygon]:
-    """Return an area as polygons without holes, cut above and below each of its holes.
-
-    A cut goes from the topmost corner of a hole straight up to the next edge, and another one from
-    its lowest corner down. Upwards, each hole leads to a higher edge and so at last to the rim;
-    downwards as well. So whatever cut is taken away, all edges still hang together: each cut
-    parts two pieces, and none has a hole, unless cuts meet in a corner; then it is cut again.
-    """
+    """Return an area as polygons without holes, cut upright through the middles of its holes."""
     import shapely
 
     if not len(area.interiors):
         return [area]
-    cuts = [shapely.LineString(ring.coords) for ring in (area.exterior, *area.interiors)]
-    cuts += [cut for hole in area.interiors for cut in _cuts(area, hole)]
-    edges = shapely.get_parts(shapely.union_all(cuts, grid_size=GRID))
-    faces = shapely.get_parts(shapely.polygonize(edges))
-    shapely.prepare(area)
-    inside = shapely.contains(area, shapely.point_on_surface(faces))
-    pieces = [face for face in faces[inside].tolist() if face.area > MIN_AREA]
-    if any(len(piece.interiors) >= len(area.interiors) for piece in pieces):
-        pieces = _halves(area)  # nothing was won
-    return [part for piece in pieces for part in _without_holes(piece)]
-
-
-def _cuts(area: shapely.Polygon, hole: shapely.LinearRing) -> list[shapely.LineString]:
-    """Return a cut from a hole's topmost corner up to the next edge, and one from its lowest."""
-    import shapely
-
-    points = shapely.get_coordinates(hole)
-    _, low, _, high = area.bounds
-    found = []
-    for corner, end in ((points[:, 1].argmax(), high + 1), (points[:, 1].argmin(), low - 1)):
-        x, y = points[corner]
-        line = shapely.intersection(area, shapely.LineString([(x, y), (x, end)]))
-        parts = shapely.get_parts(line)
-        near = shapely.distance(parts, shapely.Point(x, y)) < GRID
-        found += [part for part in parts[near].tolist() if part.geom_type == "LineString"]
-    return found
-
-
-def _halves(area: shapely.Polygon) -> list[shapely.Polygon]:
-    """Return the two sides of an area, cut along a line through the middle of its first hole."""
-    import shapely
-
     xmin, ymin, xmax, ymax = area.bounds
     left, _, right, _ = area.interiors[0].bounds
     middle = (left + right) / 2
     boxes = [shapely.box(xmin, ymin, middle, ymax), shapely.box(middle, ymin, xmax, ymax)]
     halves = shapely.get_parts(shapely.intersection(area, boxes, grid_size=GRID)).tolist()
-    return [half for half in halves if half.geom_type == "Polygon" and half.area > MIN_AREA]
+    found = [half for half in halves if half.geom_type == "Polygon" and half.area > MIN_AREA]
+    return [part for half in found for part in _without_holes(half)]
 
 
 def _merged(lines: list[shapely.LineString], tolerance: float) -> list[shapely.LineString]:
@@ -211,7 +174,7 @@ def _layers(drawing: Drawing) -> list[tuple[str, str]]:
 
 def _counts(found: Obstacles) -> str:
     parts = [(len(found.outlines), "outline"), (len(found.walls), "wall")]
-    return ", ".join(counted(count, thing) for count, thing in parts if count)
+    return ", ".join(counted(count, thing) for count, thing in parts if count) or "none"
 
 
 def nearest_room(

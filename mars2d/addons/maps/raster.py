@@ -72,7 +72,7 @@ def read_occupancy(path: Path) -> Drawing:
     fields = _fields(name, path)
     resolution = _checked(name, fields["resolution"])
     origin = _origin(name, fields.get("origin", [0, 0, 0]))
-    mode = fields.get("mode", "trinary")
+    mode = str(fields.get("mode", "trinary")).lower()
     if mode not in MODES:
         raise wrong(f"{name}: mode", mode, "one of " + ", ".join(MODES))
     negate = str(fields.get("negate", 0)).lower()

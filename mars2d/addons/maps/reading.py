@@ -3,39 +3,46 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mars2d.addons.maps.drawing import MAX_TOLERANCE, METRES, TOLERANCE, Drawing, Unit, check_bytes
+from mars2d.addons.maps.dxf import read_dxf
+from mars2d.addons.maps.geo import read_geojson, read_wkt
 from mars2d.addons.maps.raster import IMAGES, MAX_BYTES, read_occupancy, read_picture
+from mars2d.addons.maps.svg import read_svg
 from mars2d.core.checks import point
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, likely
 
-MAX_SIZES = {
-    **dict.fromkeys((".dxf", ".svg", ".geojson", ".json", ".wkt"), 10_000_000),
-    **dict.fromkeys((".yaml", ".yml"), 64_000),
-    **dict.fromkeys(IMAGES, MAX_BYTES),
-}
-"""The largest files of each kind, bytes."""
 
-SUFFIXES = tuple(MAX_SIZES)
+class _Kind(NamedTuple):
+    """A kind of file: its reader, the largest file [bytes], and the options that it takes."""
+
+    reader: Callable[..., Drawing]
+    largest: int
+    options: tuple[str, ...] = ()
+
+
+KINDS = {
+    ".dxf": _Kind(read_dxf, 10_000_000, ("layers", "unit")),
+    ".svg": _Kind(read_svg, 10_000_000, ("layers", "unit")),
+    **dict.fromkeys((".geojson", ".json"), _Kind(read_geojson, 10_000_000, ("layers", "unit"))),
+    ".wkt": _Kind(read_wkt, 10_000_000, ("unit",)),
+    **dict.fromkeys((".yaml", ".yml"), _Kind(read_occupancy, 64_000)),
+    **dict.fromkeys(IMAGES, _Kind(read_picture, MAX_BYTES, ("resolution",))),
+}
+
+SUFFIXES = tuple(KINDS)
 """The suffixes of files that are maps."""
 
-CURVES = 0.25
+CURVES = 0.05
 """The share of the tolerance by which curves may be off, before corners are removed."""
 
 FINEST = 1e-4
 """How far curves may always be off, even if the tolerance is smaller, metres."""
-
-TAKES = {
-    ".dxf": ("layers", "unit"), ".svg": ("layers", "unit"), ".geojson": ("layers", "unit"),
-    ".json": ("layers", "unit"), ".wkt": ("unit",), ".yaml": (), ".yml": (),
-    **dict.fromkeys(IMAGES, ("resolution",)),
-}  # fmt: skip
-"""The options that each kind of file takes, besides `at`."""
 
 
 def read(
@@ -59,10 +66,11 @@ def read(
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
         raise InputError(f"{path}: expected a map: {', '.join(SUFFIXES)}{advice(path)}")
+    kind = KINDS[suffix]
     options = {"layers": layers, "unit": unit, "resolution": resolution}
     for option, value in options.items():
-        if value is not None and option not in TAKES[suffix]:
-            takers = [kind for kind, takes in TAKES.items() if option in takes]
+        if value is not None and option not in kind.options:
+            takers = [other for other, takes in KINDS.items() if option in takes.options]
             raise InputError(
                 f"{path.name}: {option} is for {', '.join(takers)}, not {suffix}; leave it None"
             )
@@ -72,8 +80,12 @@ def read(
     place = None if at is None else point("at", at)
     tolerance = _tolerance(tolerance)
     _check_file(path, suffix)
-    within = max(CURVES * tolerance, FINEST)
-    drawing = _read(path, suffix, _unit(unit), resolution, within).only(chosen)
+    given: list[Any] = [resolution] if suffix in IMAGES else []
+    if "unit" in kind.options:
+        given.append(_unit(unit))
+    if suffix in (".dxf", ".svg"):  # which have curves
+        given.append(max(CURVES * tolerance, FINEST))
+    drawing = kind.reader(path, *given).only(chosen)
     if place is not None:
         drawing = drawing.moved(place)
     drawing.check_size()
@@ -85,28 +97,6 @@ def advice(path: Path) -> str:
     return "; save the drawing as DXF" if path.suffix.lower() == ".dwg" else ""
 
 
-def _read(path: Path, suffix: str, unit: Unit | None, resolution: Any, within: float) -> Drawing:
-    if suffix == ".dxf":
-        from mars2d.addons.maps.dxf import read_dxf
-
-        return read_dxf(path, unit, within)
-    if suffix == ".svg":
-        from mars2d.addons.maps.svg import read_svg
-
-        return read_svg(path, unit, within)
-    if suffix in (".geojson", ".json"):
-        from mars2d.addons.maps.geo import read_geojson
-
-        return read_geojson(path, unit)
-    if suffix == ".wkt":
-        from mars2d.addons.maps.geo import read_wkt
-
-        return read_wkt(path, unit)
-    if suffix in IMAGES:
-        return read_picture(path, resolution)
-    return read_occupancy(path)
-
-
 def _check_file(path: Path, suffix: str) -> None:
     """Raise InputError for a path that is no file, or too large a file, before it is read."""
     if path.is_dir():
@@ -115,7 +105,7 @@ def _check_file(path: Path, suffix: str) -> None:
         folder = path.parent
         beside = [f for f in folder.iterdir() if f.suffix in SUFFIXES] if folder.is_dir() else []
         raise InputError(f"{path}: there is no such file{likely(path, map(str, beside))}")
-    check_bytes(path.name, path, MAX_SIZES[suffix])
+    check_bytes(path.name, path, KINDS[suffix].largest)
     if not path.stat().st_size:
         raise InputError(f"{path.name}: an empty file; expected a map")
     if not os.access(path, os.R_OK):

@@ -75,10 +75,16 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
         normal, skipped, pixels = normalised(root, size, box)
         unit = unit or _unit(given, pixels)
         reader = _Reader(name, normal, layers, within, skipped)
-        page = unit.metres / pixels * np.array([[1.0, 0.0, 0.0], [0.0, -1.0, size[1]]])
+        scale = unit.metres / pixels
+        page = np.array([[scale, 0.0, 0.0], [0.0, -scale, scale * size[1]], [0.0, 0.0, 1.0]])
         pieces = _covered(reader.drawn(normal, page, NO_LAYER))
     return Drawing(
-        name, "an SVG drawing", unit, tuple(pieces), skipped=dict(reader.skipped), within=within
+        name,
+        "an SVG drawing",
+        unit,
+        tuple(pieces),
+        skipped=dict(reader.skipped),
+        within=within + GRID,
     )
 
 
@@ -155,7 +161,7 @@ class _Reader:
         self.skipped = skipped
 
     def drawn(self, group: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
-        """Return what a group draws, from below; matrix (2, 3) turns its units into metres."""
+        """Return what a group draws, from below; matrix (3, 3) turns its units into metres."""
         found = []
         for element in group:
             kind = element.tag.removeprefix(SVG)
@@ -187,11 +193,11 @@ class _Reader:
         source = self._named.get(CLIP + name, clip)  # or the edge of a nested svg
         inside = _moved(matrix, source)
         if clip.get("clipPathUnits") == "objectBoundingBox":
-            back = np.linalg.inv(matrix[:, :2]).T
-            shapes, shift = [each.geometry for each in drawn], matrix[:, 2]
-            local = shapely.transform(shapes, lambda xy: (xy - shift) @ back)
+            back = np.linalg.inv(matrix)
+            shapes = [each.geometry for each in drawn]
+            local = shapely.transform(shapes, lambda xy: xy @ back[:2, :2].T + back[:2, 2])
             x0, y0, x1, y1 = shapely.total_bounds(local)
-            inside = _times(inside, np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0]]))
+            inside = inside @ np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0], [0, 0, 1]])
         counts = self.skipped.copy()
         self._clipping.append(name)
         window = self.drawn(source, inside, "")
@@ -201,7 +207,7 @@ class _Reader:
         found = [
             _Drawn(d.layer, part, d.paper)
             for d in drawn
-            for part in _parts(d.geometry.intersection(seen), d.geometry.geom_type)
+            for part in _same(d.geometry, d.geometry & seen)
         ]
         return self._clipped(found, clip, matrix)
 
@@ -242,7 +248,7 @@ class _Reader:
 
     def _rings(self, path: ET.Element, matrix: Float) -> list[Float]:
         """Return the points (k, 2) of each part of a path, metres."""
-        scale = float(np.linalg.norm(matrix[:, :2], 2))
+        scale = float(np.linalg.norm(matrix[:2, :2], 2))
         arcs = path.get("shape-rendering") == ROUND
         rings: list[list[Float]] = []
         for letter, numbers in re.findall(r"([MLCZ])([^MLCZ]*)", path.get("d", "")):
@@ -258,37 +264,37 @@ class _Reader:
                     rings[-1] += [*cubic(controls[k : k + 4], within, arcs=arcs)]
             elif letter == "Z":
                 rings[-1].append(rings[-1][0])
-        found = [np.array(ring) @ matrix[:, :2].T + matrix[:, 2] for ring in rings]
+        found = [np.array(ring) @ matrix[:2, :2].T + matrix[:2, 2] for ring in rings]
         for points in found:
-            check_finite(self._name, points)
+            check_finite(f"{self._name}: path {path.get('id', '')}".rstrip(), points)
         return [points for points in found if len(points) > 1]
 
 
 def _covered(drawn: list[_Drawn]) -> list[Piece]:
     """Return the pieces of a drawing, without what paper covers that was drawn later."""
+    import shapely
+
     found: list[Piece] = []
     for each in drawn:
         if not each.paper:
             found.append(Piece(each.layer, each.geometry))
             continue
         cover = each.geometry.buffer(-GRID)  # a line along its edge stays
+        under = shapely.intersects([piece.geometry for piece in found], cover)
+        pairs = zip(found, under, strict=True)
         found = [
             Piece(piece.layer, part)
-            for piece in found
-            for part in (
-                _parts(piece.geometry.difference(cover), piece.geometry.geom_type)
-                if piece.geometry.intersects(cover)
-                else [piece.geometry]
-            )
+            for piece, hit in pairs
+            for part in (_same(piece.geometry, piece.geometry - cover) if hit else [piece.geometry])
         ]
     return found
 
 
-def _parts(geometry: shapely.Geometry, kind: str) -> list[shapely.Geometry]:
-    """Return the parts of a geometry that are of a kind, such as ``Polygon``."""
+def _same(before: shapely.Geometry, after: shapely.Geometry) -> list[shapely.Geometry]:
+    """Return the lines that are left of a line, or the areas that are left of an area."""
     import shapely
 
-    return [part for part in shapely.get_parts(geometry).tolist() if part.geom_type == kind]
+    return [p for p in shapely.get_parts(after).tolist() if p.geom_type == before.geom_type]
 
 
 def _reference(text: str) -> str:
@@ -296,16 +302,11 @@ def _reference(text: str) -> str:
     return text[5:-1] if text.startswith("url(#") else ""
 
 
-def _times(first: Float, second: Float) -> Float:
-    """Return the transform (2, 3) that does `second`, then `first`."""
-    linear, shift = first[:, :2], first[:, 2]
-    return np.column_stack([linear @ second[:, :2], linear @ second[:, 2] + shift])
-
-
 def _moved(matrix: Float, element: ET.Element) -> Float:
-    """Return a transform (2, 3) that does the transform of an element first."""
+    """Return a transform (3, 3) that does the transform of an element first."""
     found = re.fullmatch(r"matrix\((.*)\)", element.get("transform", ""))
     if found is None:
         return matrix
     a, b, c, d, e, f = map(float, found[1].replace(",", " ").split())
-    return _times(matrix, np.array([[a, c, e], [b, d, f]]))
+    moved: Float = matrix @ np.array([[a, c, e], [b, d, f], [0.0, 0.0, 1.0]])
+    return moved

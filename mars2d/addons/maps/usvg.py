@@ -37,6 +37,9 @@ CLIP = "clip-path-of-"
 QUOTED = re.compile(r"url\(\s*['\"]#([^'\"]*)['\"]\s*\)")
 """A reference in quotes, which the normaliser does not know."""
 
+UNITS = re.compile(r"(?<=\d)(deg|px)\b")
+"""Units of transforms, which the normaliser does not know; without them they are the same."""
+
 NO_CLIP = (f"{SVG}g", f"{SVG}switch")
 """Elements that do not count in a clip path."""
 
@@ -52,9 +55,10 @@ def normalised(root: ET.Element, size: Size, box: Size) -> tuple[ET.Element, Cou
     of the user unit, is a pixel. Raises InputError.
     """
     skipped: Counter[str] = Counter()
+    for element in root.iter():
+        element.tag = element.tag if element.tag.startswith("{") else SVG + element.tag
     _copy_clips(root)
     for element in list(root.iter()):
-        element.tag = element.tag if element.tag.startswith("{") else SVG + element.tag
         for child in list(element):
             if (kind := child.tag.removeprefix(SVG)) in NOT_READ:
                 skipped[kind] += 1
@@ -67,7 +71,10 @@ def normalised(root: ET.Element, size: Size, box: Size) -> tuple[ET.Element, Cou
                 skipped["transform of a symbol"] += 1
         for name, value in element.attrib.items():
             element.set(name, QUOTED.sub(r"url(#\1)", value))
-        element.text = QUOTED.sub(r"url(#\1)", element.text or "")
+        if element.tag == f"{SVG}style" and element.text:
+            element.text = UNITS.sub("", QUOTED.sub(r"url(#\1)", element.text))
+            skipped["transform-origin of a style sheet"] += element.text.count("transform-origin")
+        skipped["transform-box"] += "transform-box" in f"{element.attrib}{element.text}"
         _mark(element)
         _set_transform(element, box)
     with tempfile.TemporaryDirectory() as folder:
@@ -80,7 +87,7 @@ def normalised(root: ET.Element, size: Size, box: Size) -> tuple[ET.Element, Cou
             raise InputError(f"the normaliser can't read it: {reason or 'nested too deeply'}")
         found = ET.parse(result).getroot()
     warnings = re.findall(r"^Warning [^:]*(?:::[^:]*)*:\d+\): (.*)$", said, flags=re.M)
-    return found, skipped + Counter(warnings), _scale(found)
+    return found, +skipped + Counter(warnings), _scale(found)
 
 
 def _framed(root: ET.Element, size: Size) -> ET.Element:
@@ -145,7 +152,7 @@ def _set_transform(element: ET.Element, box: Size) -> None:
     transform = style.pop("transform", element.get("transform"))
     if not transform:
         return
-    plain = re.sub(r"(?<=\d)\s*(deg|px)", "", transform)
+    plain = UNITS.sub("", transform)
     origin = style.get("transform-origin", element.get("transform-origin", "0 0"))
     words = [*origin.split(), "center"][:2]
     if words[0] in ("top", "bottom") or words[1] in ("left", "right"):

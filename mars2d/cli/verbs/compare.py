@@ -18,6 +18,7 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.terminal import tell
 from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.output.raster import require_pygame
+from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.record import Record
 
@@ -43,7 +44,7 @@ def execute(arguments: argparse.Namespace) -> None:
     if "physics" in options:
         raise InputError("--set physics: compare runs each physics by itself")
     if arguments.speed in (0, "max"):
-        raise InputError(f"--speed {arguments.speed}: expected a number > 0")
+        raise InputError("--speed: expected a number > 0")
     opened = partial(_opened, arguments.experiment, options, arguments.seed)
     if not (arguments.json or arguments.figure or arguments.video):
         if not arguments.headless and has_display():
@@ -51,7 +52,7 @@ def execute(arguments: argparse.Namespace) -> None:
             return
         require_pygame("a film")
         make_folder(FOLDER)
-        stem = Path(arguments.experiment).stem
+        stem = experiment_name(Path(arguments.experiment))
         arguments.figure, arguments.video = FOLDER / f"{stem}.png", FOLDER / f"{stem}.gif"
         arguments.speed = arguments.speed or opened("contact").scenario.stop_time / DURATION
     records: dict[str, Record] = {}

@@ -32,10 +32,8 @@ def execute(arguments: argparse.Namespace) -> None:
         sources = sorted({path.parent / file.parts[0] for file in read})
     for source in sources:
         if (folder / source.name).exists():
-            raise InputError(
-                f"{folder / source.name}: is there already; name a folder, as "
-                f"mars2d copy {name} mine"
-            )
+            hint = f"name a folder, as mars2d copy {name} mine"
+            raise InputError(f"{folder / source.name}: is there already; {hint}")
     folder.mkdir(parents=True, exist_ok=True)
     for source in sources:
         if source.is_dir():

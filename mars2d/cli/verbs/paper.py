@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from mars2d.cli.arguments import value
 from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.progress import Progress
 from mars2d.core.streams import check_seed
@@ -18,19 +19,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     add = parser.add_argument
     add("folder", metavar="OUT", type=Path, help="a folder: new, empty, or of an earlier run")
-    add("--only", type=_numbers, metavar="N1,N2,...", help="only these figures of 2 to 9")
+    numbers = value(_numbers, "numbers of figures from 2 to 9, such as 4,7")
+    add("--only", type=numbers, metavar="N1,N2,...", help="only these figures of 2 to 9")
     add("--seed", type=int, default=0, metavar="N", help="of all random streams")
 
 
 def _numbers(text: str) -> list[int]:
-    known = [figure.number for figure in FIGURES]
-    try:
-        numbers = {int(item) for item in text.split(",")}
-    except ValueError:
-        numbers = set()
-    if not numbers or not numbers <= set(known):
-        wanted = f"numbers of figures from {known[0]} to {known[-1]}, such as 4,7"
-        raise argparse.ArgumentTypeError(f"{text!r}: expected {wanted}")
+    numbers = {int(item) for item in text.split(",")}
+    if not numbers <= {figure.number for figure in FIGURES}:
+        raise ValueError(text)
     return sorted(numbers)
 
 

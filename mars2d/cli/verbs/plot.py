@@ -7,7 +7,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import add_shared
+from mars2d.cli.arguments import add_shared, value
 from mars2d.cli.outputs import OUTPUTS, check_outputs, naming_lost_letters
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
@@ -35,9 +35,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_shared(parser, "record")
     add = parser.add_argument
     add("kind", metavar="KIND", nargs="?", default="paths", help=f"{', '.join(KINDS)}")
-    add("--columns", type=_words, metavar="A,B,...", help="signals: such as x,speed,effort")
-    add("--robots", type=_words, metavar="A,B,...", help="signals: of robots, by name or index")
-    add("--layers", type=_words, metavar="A,B,...", help="such as names,neighbours,no-grid")
+    words = value(_words, "names with commas between them")
+    add("--columns", type=words, metavar="A,B,...", help="signals: such as x,speed,effort")
+    add("--robots", type=words, metavar="A,B,...", help="signals: of robots, by name or index")
+    add("--layers", type=words, metavar="A,B,...", help="such as names,neighbours,no-grid")
     add("--style", default="screen", metavar="STYLE", help=f"{', '.join(STYLES)}")
     add_shared(parser, "figure at from to")
 
@@ -45,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def _words(text: str) -> list[str]:
     words = [word.strip() for word in text.split(",")]
     if not all(words):
-        raise argparse.ArgumentTypeError(f"{text!r}: expected names with commas between them")
+        raise ValueError(text)
     return words
 
 

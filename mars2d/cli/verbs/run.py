@@ -8,6 +8,7 @@ import json
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from mars2d.cli import remarks
@@ -20,7 +21,7 @@ from mars2d.cli.outputs import (
     check_outputs,
     film_speed,
     run_and_save,
-    save_footage,
+    save_film,
     say,
     tell_files,
 )
@@ -168,7 +169,7 @@ def _run_headless(
         footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
         world = run_headless(experiment, [footage, *watchers], log, pace)
         last = world.frame
-        film = lambda: save_footage(footage, last, arguments)  # noqa: E731
+        film = partial(save_film, footage.frames(last), footage.count(last), speed, arguments)
     _advise_to_compile(world.simulation.engine_seconds)
     return world.record, film
 

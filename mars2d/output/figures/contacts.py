@@ -16,6 +16,7 @@ from mars2d.output.figures.panels import (
     color_bar,
     curve,
     name_curves,
+    name_rows,
     panels,
     say,
     set_span,
@@ -72,11 +73,23 @@ def plot_contacts(
         if len(chosen):
             _timeline(axes[0], record, pairs[chosen], line[group], look)
             if len(chosen) < len(pairs):
-                _say_more(axes[0], len(pairs) - len(chosen), look)
+                axes[0].text(
+                    1.0, 1.0, f"and {counted(len(pairs) - len(chosen), 'more pair')}", ha="right",
+                    va="bottom", transform=axes[0].transAxes, fontsize=look.small,
+                    color=look.muted,
+                )  # fmt: skip
         else:
-            _say_nothing(axes, record, look)
+            lasted = f"{float(record.time[-1] - record.time[0]):.4g} s"
+            say(axes[0], f"no contacts: nothing touched in {lasted}", look)
+            for ax in axes:
+                ax.set_axis_off()
         if len(axes) == 2 and len(chosen):
-            _sum(axes[1], record, look)
+            total = normal_force(record)
+            entry = Entry("", look.curve(0)[0], "-", width_of(1, look))
+            curve(axes[1], record.time, total, entry, held="pre")
+            set_span(axes[1], 0.0, float(total.max()))
+            axes[1].set_ylim(0, None)
+            caption(axes[1], "normal force of all", "N", look)
         name_curves(axes[0], record.scenario.title, [], look)
         return axes
 
@@ -148,34 +161,4 @@ def _timeline(ax: Axes, record: Rows, pairs: Index, lines: Index, look: Style) -
     ax.add_collection(collection)
     if strongest > 0:
         color_bar(ax, collection, "normal force [N]", look)
-    ax.set_ylim(0, len(pairs))
-    names = [pair_name(record.scenario, a, b) for a, b in pairs]
-    ax.set_yticks(np.arange(len(pairs)) + 0.5, names[::-1])
-    for text in ax.get_yticklabels():
-        text.set_parse_math(False)
-    ax.grid(visible=False, axis="y")
-
-
-def _say_more(ax: Axes, count: int, look: Style) -> None:
-    """Write the number of pairs that are not drawn above the bars."""
-    ax.text(
-        1.0, 1.0, f"and {counted(count, 'more pair')}", transform=ax.transAxes, ha="right",
-        va="bottom", fontsize=look.small, color=look.muted,
-    )  # fmt: skip
-
-
-def _say_nothing(axes: Sequence[Axes], record: Rows, look: Style) -> None:
-    lasted = f"{float(record.time[-1] - record.time[0]):.4g} s"
-    say(axes[0], f"no contacts: nothing touched in {lasted}", look)
-    for ax in axes:
-        ax.set_axis_off()
-
-
-def _sum(ax: Axes, record: Rows, look: Style) -> None:
-    """Draw the sum of all normal forces over time."""
-    force = normal_force(record)
-    color, _ = look.curve(0)
-    curve(ax, record.time, force, Entry("", color, "-", width_of(1, look)), held="pre")
-    set_span(ax, 0.0, float(force.max()))
-    ax.set_ylim(0, None)
-    caption(ax, "normal force of all", "N", look)
+    name_rows(ax, [pair_name(record.scenario, a, b) for a, b in pairs], len(pairs))

@@ -69,6 +69,9 @@ WORKSPACE = 1.0
 ARROWS = {"forces": forces, "impulses": impulses, "velocities": velocities}
 """The layers whose arrows have a scale in the legend."""
 
+MAX_ARROW = 44.0
+"""The greatest length of an arrow in the legend, points of the window."""
+
 TICK_SPACING = 28.0  # points between ticks, at least
 
 
@@ -93,15 +96,17 @@ def plot_paths(
     record = look.restyled(record)
     layers = layers or layers_of(record.scenario, paths=True)
     own, last = ax is None, record.frame(len(record) - 1)
-    entries = _entries(record.scenario, look) + _signs([last], layers, look, _ppm(look, view))
     with look.fonts():
         if ax is None:
+            entries = _entries([last], layers, look, _ppm(look, view))
             ax = new_figure(*_page(look, view, legend_size(entries, look))).add_subplot()
+            dress(ax, record.scenario, view, look, layers)
         else:
             check_axes(ax)
             if ax.has_data():  # a second record on top of a first one
                 view = view.union((*ax.get_xlim(), *ax.get_ylim()))
-        dress(ax, record.scenario, view, look, layers)
+            dress(ax, record.scenario, view, look, layers)
+            entries = _entries([last], layers, look, points_per_metre(ax))
         label(ax, look=look)
         _set_title(ax, f"{record.scenario.title}, {_time(float(record.time[-1]))}", look)
         add_legend(ax, entries, look, **BESIDE)
@@ -166,7 +171,7 @@ def _snapshots(
     lines = ceil(len(rows) / cols)
     own, frames = figure is None, [record.frame(row) for row in rows]
     layers = layers or layers_of(scenario)
-    entries = _entries(scenario, look) + _signs(frames, layers, look, _ppm(look, view, cols, lines))
+    entries = _entries(frames, layers, look, _ppm(look, view, cols, lines))
     if figure is None:
         figure = new_figure(*_page(look, view, legend_size(entries, look), cols, lines))
     panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
@@ -452,21 +457,22 @@ def _time(seconds: float) -> str:
     return f"t = {seconds:.10g} s"
 
 
-def _entries(scenario: Scenario, look: Style) -> list[Entry | Sign]:
-    """Return an entry for robots that look alike, or none if there are too many robots."""
-    if len(scenario.robots) > LEGEND_LIMIT:
-        return []
+def _entries(
+    frames: Sequence[Frame], layers: Layers, look: Style, ppm: float
+) -> list[Entry | Sign]:
+    """Return the legend: robots, as one entry if they look alike, unless many; then all signs."""
+    scenario = frames[0].scenario
     alike: dict[object, list[int]] = {}
     for i, color in enumerate(scenario.colors):
         alike.setdefault(i if look.greys else color, []).append(i)
     entries: list[Entry | Sign] = []
-    for first, *others in alike.values():
+    for first, *others in alike.values() if len(scenario.robots) <= LEGEND_LIMIT else ():
         names = [str(scenario.robots[i].name) for i in (first, *others)]
         name = ", ".join(names) if len(others) < 2 else f"{names[0]} and {len(others)} alike"
         dash = look.dash(first) if look.greys else ""
         color, width = scenario.colors[first], 1.5 * look.stroke
         entries.append(Entry(plain_name(name), color, dash, width, "o"))
-    return entries
+    return entries + _signs(frames, layers, look, ppm)
 
 
 def _signs(frames: Sequence[Frame], layers: Layers, look: Style, ppm: float) -> list[Entry | Sign]:
@@ -484,7 +490,7 @@ def _signs(frames: Sequence[Frame], layers: Layers, look: Style, ppm: float) -> 
             continue
         scenes = [ARROWS[legend.layer](frame) for frame in frames]
         if legend.layer == "forces" or any(scene.shapes for scene in scenes):
-            found.append(legend.ruler.sign(sign_scale(look) / ppm))
+            found.append(legend.ruler.sign(sign_scale(look) / ppm, MAX_ARROW))
         if any(map(has_cut, scenes)):
             found.append(legend.ruler.limit)
     return found

@@ -12,8 +12,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 NAME_LIMIT = 24
-BESIDE: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
-"""The place of a legend at the right side of its axes."""
+BESIDE: dict[str, Any] = {
+    "loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.0, "borderpad": 0.4,
+}  # fmt: skip
+"""The place of a legend at the right side of its axes, with some room at its own right."""
 
 
 class Entry(NamedTuple):
@@ -49,8 +51,9 @@ def add_legend(ax: Axes, entries: Sequence[Entry | Sign], look: Style, **place: 
     legend = ax.legend(
         handles, ["entry"] * len(entries), frameon=False, fontsize=look.small,
         labelcolor=look.ink, handlelength=column_width(entries, look) / look.small,
-        columnspacing=1.2, handletextpad=0.5, borderpad=0.0, borderaxespad=0.3, labelspacing=0.3,
-        handler_map={Sign: SignHandler(sign_scale(look))}, **place,
+        columnspacing=1.2, handletextpad=0.5, labelspacing=0.3,
+        handler_map={Sign: SignHandler(sign_scale(look))},
+        **({"borderpad": 0.0, "borderaxespad": 0.3} | place),
     )  # fmt: skip
     ax.add_artist(legend)  # a further one of these axes would take its place
     legend.set_clip_on(False)

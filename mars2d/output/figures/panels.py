@@ -30,10 +30,10 @@ if TYPE_CHECKING:
 
 Float = NDArray[np.float64]
 
-MAX_VERTICES = 20_000
+MAX_VERTICES = 15_000
 """The most points in a panel, over all its curves, approximately."""
 
-MAX_BLOCKS, MIN_BLOCKS = 1000, 40
+MAX_BLOCKS, MIN_BLOCKS = 1000, 30
 """The limits of the blocks into which a long curve is cut; each block keeps its extremes."""
 
 CAPTION_LETTERS, CAPTION_HEIGHT = 12, 0.5
@@ -165,6 +165,15 @@ def curve(
             time[alone], values[alone], linestyle="none", marker="o", color=entry.color,
             markersize=2.2 * entry.width, markeredgewidth=0, zorder=level,
         )  # fmt: skip
+
+
+def name_rows(ax: Axes, names: Sequence[str], count: int) -> None:
+    """Name the rows of bars of a panel, the first on top; without names it has no ticks."""
+    ax.set_ylim(0, count)
+    ax.set_yticks(np.arange(len(names)) + 0.5, names[::-1])
+    for text in ax.get_yticklabels():
+        text.set_parse_math(False)
+    ax.grid(visible=False, axis="y")
 
 
 def set_span(ax: Axes, low: float, high: float) -> None:

@@ -19,6 +19,7 @@ from mars2d.output.figures.panels import (
     color_bar,
     curve,
     name_curves,
+    name_rows,
     panels,
     say,
     set_span,
@@ -248,13 +249,8 @@ def _flags(
         bars = [[(b, low), (e, low), (e, high), (b, high)] for b, e in zip(begin, end, strict=True)]
         color = look.colors(record.scenario)[body]
         ax.add_collection(PolyCollection(bars, facecolor=color, linewidth=0, zorder=3))
-    ax.set_ylim(0, count)
     caption(ax, signal.name, "", look)
-    rows = count if count <= look.rows else 0
-    ax.set_yticks(np.arange(rows) + 0.5, [plain_name(n) for n in names[:rows]][::-1])
-    for text in ax.get_yticklabels():
-        text.set_parse_math(False)
-    ax.grid(visible=False, axis="y")
+    name_rows(ax, [plain_name(n) for n in names] if count <= look.rows else [], count)
     if not values.any():
         say(ax, "never", look)
 

@@ -130,9 +130,9 @@ class Ruler(NamedTuple):
         kept = [k for k in numbers if k * self.unit <= self.longest * (1 + 1e-9)]
         return [(k * self.unit, self.in_words(k)) for k in kept or numbers[:1]]
 
-    def sign(self, point: float) -> Sign:
-        """Return the longest arrow of a round number up to `MAX_ARROW`, where a point is metres."""
-        number = round_force(min(MAX_ARROW * point, self.longest) / self.unit)
+    def sign(self, point: float, most: float = MAX_ARROW) -> Sign:
+        """Return the longest arrow of a round number, at most so many points; point: metres."""
+        number = round_force(min(most * point, self.longest) / self.unit)
         metres, scene = number * self.unit, Scene()
         start, way = np.array([-0.5, 0.0]) * metres / point, np.array([metres / point, 0.0])
         arrow(scene, start, way, fill=self.color, width=self.width)

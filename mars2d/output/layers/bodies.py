@@ -104,22 +104,6 @@ def starts(frame: Frame) -> tuple[Float, Float]:
     return frame.pose, frame.prop_pose
 
 
-def props(frame: Frame) -> Scene:
-    """Return the props where they are, filled."""
-    scene, robots = Scene(), len(frame.scenario.robots)
-    for k, pose in enumerate(frame.prop_pose.T):
-        place_prop(scene, frame.scenario, robots + k, pose)
-    return scene
-
-
-def robots(frame: Frame) -> Scene:
-    """Return the robots where they are, filled."""
-    scene = Scene()
-    for i, pose in enumerate(frame.pose.T):
-        place_robot(scene, frame.scenario, i, pose)
-    return scene
-
-
 def joints(frame: Frame) -> Scene:
     """Return the joints that act: ropes, rods, springs and the pins of hinges."""
     scene = Scene()
@@ -228,14 +212,6 @@ NAME_HALO = "#ffffff"
 
 MANY_BODIES = 20
 """Among more bodies, names are smaller, and a robot named robot12 by default is just 12."""
-
-
-def names(frame: Frame) -> Scene:
-    """Return a label above each body."""
-    scene = Scene()
-    for i, pose in enumerate(np.hstack([frame.pose, frame.prop_pose]).T):
-        draw_name(scene, frame.scenario, i, pose)
-    return scene
 
 
 def draw_name(scene: Scene, scenario: Scenario, body: int, pose: Float) -> None:

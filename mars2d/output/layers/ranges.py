@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene, faded
-from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
 
@@ -26,16 +25,11 @@ def range_of(scenario: Scenario) -> float | None:
     return None
 
 
-def ranges(frame: Frame) -> Scene:
-    """Return a faint circle about each robot, as far as its radio reaches."""
-    scene = Scene()
-    for i, pose in enumerate(frame.pose.T):
-        place_range(scene, frame.scenario, i, pose)
-    return scene
-
-
 def place_range(scene: Scene, scenario: Scenario, body: int, pose: NDArray[np.float64]) -> None:
-    """Draw the circle of a body at a pose (3,), if it is a robot; body: in `Scenario.bodies`."""
+    """Draw a faint circle, as far as a body's radio reaches, at a pose (3,), if it is a robot.
+
+    body: its index in `Scenario.bodies`.
+    """
     reach = range_of(scenario)
     if reach is not None and body < len(scenario.robots):
         scene.circle(pose[:2], reach, stroke=faded(scenario.colors[body], 0.5), width=1.0)

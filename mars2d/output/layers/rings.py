@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene, faded
-from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
 SMALL = 0.012
@@ -14,14 +13,6 @@ SMALL = 0.012
 
 RING = 9.0
 """The radius of a ring, points. It lies below its robot, so that it is hidden where one is near."""
-
-
-def rings(frame: Frame) -> Scene:
-    """Return a ring round each small robot."""
-    scene = Scene()
-    for i, pose in enumerate(frame.pose.T):
-        place_ring(scene, frame.scenario, i, pose)
-    return scene
 
 
 def has_ring(scenario: Scenario, body: int) -> bool:

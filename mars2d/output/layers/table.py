@@ -17,19 +17,16 @@ from mars2d.output.layers.bodies import (
     draw_name,
     initial_poses,
     joints,
-    names,
     place_prop,
     place_robot,
-    props,
-    robots,
 )
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.ground import edge, obstacles, workspace
 from mars2d.output.layers.impulses import impulses
 from mars2d.output.layers.messages import messages
 from mars2d.output.layers.neighbours import neighbours
-from mars2d.output.layers.ranges import place_range, ranges
-from mars2d.output.layers.rings import place_ring, rings
+from mars2d.output.layers.ranges import place_range
+from mars2d.output.layers.rings import place_ring
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
 from mars2d.record.frame import Frame
@@ -52,6 +49,18 @@ def _of_scenario(shapes: Callable[[Scenario], Scene]) -> Callable[[Frame], Scene
     return lambda frame: shapes(frame.scenario)
 
 
+def of_bodies(each: Callable[[Scene, Scenario, int, Float], None]) -> Callable[[Frame], Scene]:
+    """Return a layer's function of the frame, for one that draws body by body; see `Layer.each`."""
+
+    def shapes(frame: Frame) -> Scene:
+        scene = Scene()
+        for body, pose in enumerate(np.hstack([frame.pose, frame.prop_pose]).T):
+            each(scene, frame.scenario, body, pose)
+        return scene
+
+    return shapes
+
+
 @dataclass(frozen=True, kw_only=True)
 class Layer:
     """One layer of a picture.
@@ -60,20 +69,25 @@ class Layer:
     whose lines depend on the scale, so that each painter draws its own. key: the letter that
     switches the layer, if one does. switch: whether people may switch it; others are drawn as
     the animation says. at_first: whether it is on at first. stands: whether it is the same in all
-    frames of a scenario; a painter may keep it. each: draws one body's part of the layer, given
-    its index in `Scenario.bodies` and its pose (3,), if the layer depends on nothing else. along:
+    frames of a scenario; a painter may keep it. each: in place of shapes, draws one body's part of
+    the layer, given its index in `Scenario.bodies` and its pose (3,), if it depends on nothing
+    else. along:
     other layers that its key switches with it, by name.
     """
 
     name: str
     title: str
-    shapes: Callable[[Frame], Scene] | None
+    shapes: Callable[[Frame], Scene] | None = None
     key: str = ""
     switch: bool = True
     at_first: Callable[[Animation], bool] = _always
     stands: bool = False
     each: Callable[[Scene, Scenario, int, Float], None] | None = None
     along: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.each is not None:
+            object.__setattr__(self, "shapes", of_bodies(self.each))
 
 
 LAYERS: list[Layer] = [
@@ -97,7 +111,7 @@ LAYERS: list[Layer] = [
     Layer(name="trails", title="Trails", shapes=trails, key="t", at_first=attrgetter("wake")),
     Layer(name="sensors", title="Sensors", shapes=sensors, key="s"),
     Layer(
-        name="ranges", title="Ranges", shapes=ranges, at_first=attrgetter("ranges"),
+        name="ranges", title="Ranges", at_first=attrgetter("ranges"),
         each=place_range,
     ),
     Layer(
@@ -107,9 +121,9 @@ LAYERS: list[Layer] = [
     Layer(name="addons", title="Add-ons", shapes=addons, key="o"),
     Layer(name="theory", title="Theory", shapes=theory, key="y", at_first=attrgetter("theory")),
     Layer(name="messages", title="Messages", shapes=messages, key="m", along=("neighbours",)),
-    Layer(name="props", title="Props", shapes=props, switch=False, each=place_prop),
-    Layer(name="rings", title="Rings", shapes=rings, switch=False, each=place_ring),
-    Layer(name="robots", title="Robots", shapes=robots, switch=False, each=place_robot),
+    Layer(name="props", title="Props", switch=False, each=place_prop),
+    Layer(name="rings", title="Rings", switch=False, each=place_ring),
+    Layer(name="robots", title="Robots", switch=False, each=place_robot),
     Layer(name="joints", title="Joints", shapes=joints, switch=False),
     Layer(name="velocities", title="Velocities", shapes=velocities, key="u", at_first=_never),
     Layer(
@@ -120,7 +134,7 @@ LAYERS: list[Layer] = [
         along=("impulses",),
     ),
     Layer(
-        name="names", title="Names", shapes=names, key="i", at_first=attrgetter("names"),
+        name="names", title="Names", key="i", at_first=attrgetter("names"),
         each=draw_name,
     ),
 ]  # fmt: skip

@@ -7,10 +7,12 @@ from itertools import takewhile
 from math import ceil, floor
 from operator import is_
 from time import perf_counter
+from typing import NamedTuple
 
 import pygame
 
 from mars2d.core.scene import Scene, Shape
+from mars2d.output.layers.addons import sensors
 from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.forces import forces as force_arrows
 from mars2d.output.layers.legend import Legend, legends
@@ -110,6 +112,16 @@ MARGIN = 0.25
 """The margin that is drawn on all sides while the camera moves, as a share of the picture."""
 
 
+class _Shot(NamedTuple):
+    """What is drawn, and where: on the part `plot` of a surface."""
+
+    surface: pygame.Surface
+    frame: Frame
+    camera: Camera
+    layers: Layers
+    plot: pygame.Rect
+
+
 class Stage:
     """Draws frames of one experiment after another; used by the window, pictures and films alike.
 
@@ -129,7 +141,6 @@ class Stage:
         self._scenario: Scenario | None = None
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
-        self._sensed_stays, self._times_seen, self._is_kept = True, 2, False
         self._places: dict[int, int] = {}  # of the names in the last picture
         self._legends: tuple[Scenario, list[Legend]] | None = None
         self._legend = pygame.Surface((0, 0)), (0, 0)
@@ -160,14 +171,10 @@ class Stage:
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
         surface.set_clip(plot)
-        canvas = self._canvas_for(surface, frame, camera, layers, plot, hurried)
-        if canvas.shows(camera, plot):
-            self._spread(surface, canvas, frame, camera, layers, plot)
-        else:
-            self._enlarge(surface, canvas, frame, camera, layers, plot)
-            if layers.sensors:
-                self.painter.paint(surface, _sensors(frame), camera)
-        self._paint_above(surface, frame, camera, layers, beneath, marks, selected)
+        shot = _Shot(surface, frame, camera, layers, plot)
+        canvas = self._canvas_for(shot, hurried)
+        (self._spread if canvas.shows(camera, plot) else self._enlarge)(shot, canvas)
+        self._paint_above(shot, beneath, marks, selected)
         if layers.grid:
             bounds, painter = grid_bounds(frame.scenario, camera, surface.get_size()), self.painter
             numbers = labels(plot, camera, bounds, painter.fonts, painter.ui, painter.theme)
@@ -197,16 +204,10 @@ class Stage:
         return self._legends[1]
 
     def _paint_above(
-        self,
-        surface: pygame.Surface,
-        frame: Frame,
-        camera: Camera,
-        layers: Layers,
-        beneath: Sequence[Shape],
-        marks: Sequence[Shape],
-        selected: int | None,
+        self, shot: _Shot, beneath: Sequence[Shape], marks: Sequence[Shape], selected: int | None
     ) -> None:
         """Draw the layers above the kept ones, with `beneath` and `marks` around the bodies."""
+        surface, frame, camera, layers, _ = shot
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
         for layer in LAYERS[_place("sensors") + 1 :]:
             if layer.name == FIRST_BODIES:
@@ -214,43 +215,27 @@ class Stage:
             if layer.name in seen and layer.shapes is not None:
                 scene = layer.shapes(frame)
                 if layer.name == "names":
-                    scene = self._names_apart(
-                        scene, frame, camera, surface, layers, marks, selected
-                    )
+                    scene = self._names_apart(scene, shot, marks, selected)
                 self.painter.paint(surface, scene.shapes, camera)
             if layer.name == LAST_BODIES:
                 self.painter.paint(surface, marks, camera)
 
     def _names_apart(
-        self,
-        names: Scene,
-        frame: Frame,
-        camera: Camera,
-        surface: pygame.Surface,
-        layers: Layers,
-        marks: Sequence[Shape],
-        selected: int | None,
+        self, names: Scene, shot: _Shot, marks: Sequence[Shape], selected: int | None
     ) -> Scene:
         """Return the names of bodies, none over another, over a mark, or over a force."""
-        area = surface.get_clip()
+        area, camera = shot.surface.get_clip(), shot.camera
         ((x, y),) = camera.to_world([area.center]).tolist()
         view = Box(x, y, area.width / (2 * camera.scale), area.height / (2 * camera.scale))
-        others = [*marks, *(force_arrows(frame).shapes if layers.forces else ())]
+        others = [*marks, *(force_arrows(shot.frame).shapes if shot.layers.forces else ())]
         point = self.painter.ui / camera.scale
-        return placed_names(names, frame, point, view, others, selected, self._places)
+        return placed_names(names, shot.frame, point, view, others, selected, self._places)
 
     # -- the kept layers ----------------------------------------------------------------------
 
-    def _canvas_for(
-        self,
-        surface: pygame.Surface,
-        frame: Frame,
-        camera: Camera,
-        layers: Layers,
-        plot: pygame.Rect,
-        hurried: bool,
-    ) -> Canvas:
+    def _canvas_for(self, shot: _Shot, hurried: bool) -> Canvas:
         """Return the canvas for a camera; an older one for a moment, if hurried."""
+        surface, frame, camera, layers, plot = shot
         size = surface.get_size()
         stands = frozenset(layer.name for layer in standing())
         began = b"".join(poses.tobytes() for poses in starts(frame))
@@ -271,36 +256,19 @@ class Stage:
         self._canvas = new
         return new
 
-    def _spread(
-        self,
-        surface: pygame.Surface,
-        canvas: Canvas,
-        frame: Frame,
-        camera: Camera,
-        layers: Layers,
-        plot: pygame.Rect,
-    ) -> None:
+    def _spread(self, shot: _Shot, canvas: Canvas) -> None:
         """Draw the layers that stand still, the paths and the readings."""
-        picture = canvas.with_paths(frame) if layers.trails else canvas.still
-        read: Sequence[Shape] = ()
-        if layers.sensors:
-            picture, read = self._with_sensors(picture, frame, canvas)
-        dx, dy = canvas.shift(camera)
-        surface.blit(picture, plot, plot.move(-dx, -dy))
-        self.painter.paint(surface, read, camera)
-        if layers.trails and canvas.wakes is not None:
-            canvas.wakes.finish(surface, frame, (dx, dy))
+        picture = canvas.with_paths(shot.frame) if shot.layers.trails else canvas.still
+        if shot.layers.sensors and shot.frame.readings:
+            picture = self._with_sensors(picture, shot.frame, canvas)
+        dx, dy = canvas.shift(shot.camera)
+        shot.surface.blit(picture, shot.plot, shot.plot.move(-dx, -dy))
+        if shot.layers.trails and canvas.wakes is not None:
+            canvas.wakes.finish(shot.surface, shot.frame, (dx, dy))
 
-    def _enlarge(
-        self,
-        surface: pygame.Surface,
-        canvas: Canvas,
-        frame: Frame,
-        camera: Camera,
-        layers: Layers,
-        plot: pygame.Rect,
-    ) -> None:
-        """Draw a canvas as another camera sees it, roughly."""
+    def _enlarge(self, shot: _Shot, canvas: Canvas) -> None:
+        """Draw a canvas as another camera sees it, roughly, and the readings."""
+        surface, frame, camera, layers, plot = shot
         last = canvas.with_paths(frame) if layers.trails else canvas.still
         factor = camera.scale / canvas.camera.scale
         corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
@@ -314,40 +282,26 @@ class Stage:
             size = round(seen.width * factor), round(seen.height * factor)
             place = corner[0] + factor * seen.left, corner[1] + factor * seen.top
             surface.blit(pygame.transform.scale(last.subsurface(seen), size), place)
+        if layers.sensors:
+            self.painter.paint(surface, sensors(frame).shapes, camera)
 
     def _with_sensors(
         self, picture: pygame.Surface, frame: Frame, canvas: Canvas
-    ) -> tuple[pygame.Surface, Sequence[Shape]]:
-        """Return a picture with the readings on it, and the shapes that are still to be drawn.
-
-        Readings that are shown more than once are drawn on a copy and kept. If the last ones were
-        shown once, as in a film of each control step, the next will be too: no copy is made.
-        """
+    ) -> pygame.Surface:
+        """Return a copy of a picture with the readings on it, kept until they are others."""
         stays = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
         sensed = frame.pose if frame.sensed is None else frame.sensed
         read = [reading for readings in frame.readings.values() for _, reading in readings]
         made_of = picture, frame.path, sensed, None if stays else frame.pose, *read
-        if len(made_of) != len(self._sensed_of) or not all(map(is_, made_of, self._sensed_of)):
-            self._sensed_stays = self._times_seen > 1
-            self._sensed_of, self._times_seen, self._is_kept = made_of, 0, False
-        self._times_seen += 1
-        if self._is_kept and self._sensed is not None:
-            return self._sensed, ()
-        shapes = _sensors(frame)
-        if not shapes or not (self._sensed_stays or self._times_seen > 1):
-            return picture, shapes
+        old, self._sensed_of = self._sensed_of, made_of
         if self._sensed is None or self._sensed.get_size() != picture.get_size():
             self._sensed = picture.copy()
+        elif len(made_of) == len(old) and all(map(is_, made_of, old)):
+            return self._sensed
         self._sensed.set_clip(canvas.area)
         self._sensed.blit(picture, canvas.area, canvas.area)
-        self.painter.paint(self._sensed, shapes, canvas.camera)
-        self._is_kept = True
-        return self._sensed, ()
-
-
-def _sensors(frame: Frame) -> Sequence[Shape]:
-    shapes = LAYERS[_place("sensors")].shapes
-    return shapes(frame).shapes if shapes else ()
+        self.painter.paint(self._sensed, sensors(frame).shapes, canvas.camera)
+        return self._sensed
 
 
 def _place(name: str) -> int:

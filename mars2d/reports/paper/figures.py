@@ -145,17 +145,11 @@ class Result:
 
 
 def _figure(runs: Sequence[Any], charts: Sequence[Any] = (), **described: Any) -> Figure:
-    return Figure(
-        runs=[Run(**each) for each in runs],
-        charts=[Chart(**each) for each in charts],
-        **described,
-    )
+    drawn = [Chart(**each) for each in charts]
+    return Figure(runs=[Run(**each) for each in runs], charts=drawn, **described)
 
 
-FIGURES = [
-    _figure(**described)
-    for described in tomllib.loads(
-        files(__package__).joinpath("figures.toml").read_text(encoding="utf-8")
-    )["figure"]
-]
+_TOML = (files(__package__) / "figures.toml").read_text(encoding="utf-8")
+
+FIGURES = [_figure(**described) for described in tomllib.loads(_TOML)["figure"]]
 """Figures 2 to 9."""

@@ -35,27 +35,22 @@ def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
     pictures: list[Picture] = []
     records: list[Record] = []
     problems: list[str] = []
-    for run in figure.runs:
+    shown: list[Run | Chart] = [*figure.runs, *figure.charts]
+    for each, stem in zip(shown, figure.stems, strict=True):
         try:
-            picture, record = _of_run(run, folder / run.stem(figure.number), seed)
-        except Exception as error:  # the page shows the problem in place of the figure
-            problems.append(f"{run.experiment}: {described(error)}")
-        else:
-            pictures.append(picture)
-            records.append(record)
-    for chart in figure.charts:
-        if len(records) < len(figure.runs):
-            problems.append(f"{chart.name}: not made, since it needs a run that failed")
-            continue
-        try:
-            pictures.append(_of_study(chart, records, folder / f"fig{figure.number}_{chart.name}"))
-        except Exception as error:
-            problems.append(f"{chart.name}: {described(error)}")
+            if isinstance(each, Run):
+                pictures.append(_of_run(each, folder / stem, seed, records))
+            else:
+                pictures.append(_of_chart(each, folder / stem, records, len(figure.runs)))
+        except Exception as error:  # the page shows the problem in place of the picture
+            name = each.experiment if isinstance(each, Run) else each.name
+            problems.append(f"{name}: {described(error)}")
     setting = setting_of(figure.runs[0].experiment) if records else ""
     return Result(figure.number, setting, pictures, problems)
 
 
-def _of_run(run: Run, path: Path, seed: int) -> tuple[Picture, Record]:
+def _of_run(run: Run, path: Path, seed: int, records: list[Record]) -> Picture:
+    """Run, draw and save; the record joins the others."""
     options = dict(map(parse_option, run.settings)) | {"animation.theory": True}
     experiment = open_experiment(run.experiment, options, seed=seed)
     record = simulate(experiment).record
@@ -66,7 +61,7 @@ def _of_run(run: Run, path: Path, seed: int) -> tuple[Picture, Record]:
         return plot_snapshots(record, times) if times else plot_paths(record).get_figure()
 
     when = f"at {', '.join(f'{moment:.4g}' for moment in times)} s" if times else f"in {end:.4g} s"
-    return Picture(
+    picture = Picture(
         stem=path.name,
         title=run.title,
         alt=f"Paths of {len(record.scenario.robots)} robots {when}. {run.shows}",
@@ -76,10 +71,14 @@ def _of_run(run: Run, path: Path, seed: int) -> tuple[Picture, Record]:
         outcome=record.over_message,
         digest=record.digest,
         predictions=experiment.predictions(record),
-    ), record
+    )
+    records.append(record)
+    return picture
 
 
-def _of_study(chart: Chart, records: Sequence[Record], path: Path) -> Picture:
+def _of_chart(chart: Chart, path: Path, records: Sequence[Record], runs: int) -> Picture:
+    if len(records) < runs:
+        raise InputError("not made, since it needs a run that failed")
     made = getattr(studies, chart.name)(records)
     return Picture(
         stem=path.name,

@@ -150,7 +150,10 @@ alt="{escape(picture.alt)}"></a>
 def _prediction(prediction: Prediction) -> tuple[str, ...]:
     p = prediction
     values = [_number(value, p.tolerance) for value in (p.predicted, p.measured)]
-    cells = [_cell("number", escape(each)) for each in (*values, f"{p.tolerance:.3g} {p.unit}")]
+    cells = [
+        _cell("number", escape(each))
+        for each in (*values, f"{p.tolerance:.3g} {p.unit}".replace("^4", "⁴").replace("^2", "²"))
+    ]
     return escape(p.name), *cells, _cell(*(("ok", "✓ ok") if p.ok else ("bad", "✗ NOT OK")))
 
 

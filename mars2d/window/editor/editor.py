@@ -41,7 +41,7 @@ from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Select
 from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_idle, draw_selected
 from mars2d.window.editor.tool import Tool
-from mars2d.window.editor.toolbar import WIDTH, Toolbar
+from mars2d.window.editor.toolbar import WIDTH, tool_buttons
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
 from mars2d.window.screen.looks import Looks
@@ -114,7 +114,7 @@ class Editor:
             self.desk, self.dialogs, self.document, self.menu, self._choose, self._tie
         )
         self._stage, self._sketch = Stage(painter), Sketch()
-        self._header, self._toolbar = Header(painter), Toolbar(painter)
+        self._header = Header(painter)
         self._pointer = (-1, -1)
         self._dragging = self._panning = self._space = False
         self._held: set[int] = set()
@@ -142,6 +142,7 @@ class Editor:
             "now": lambda: self.dialogs.apply("now"),
             "start": lambda: self.dialogs.apply("start"),
         }
+        self._toolbar = tool_buttons(self._actions, self._is_on)
 
     @property
     def title(self) -> str:
@@ -239,10 +240,10 @@ class Editor:
             self.tool.cancel()
 
     def _press_left(self, pixel: tuple[int, int]) -> None:
-        key, button = self._toolbar.at(pixel), self._header.at(pixel)
-        if key is not None or button is not None:
+        button = self._toolbar.at(pixel) or self._header.at(pixel)
+        if button is not None:
             self.desk.say("")
-            self._actions[key.action if key is not None else str(button)]()
+            self._actions[button]()
         elif self.layout.plot.collidepoint(pixel):
             if self._space:
                 self._panning = True
@@ -376,11 +377,7 @@ class Editor:
         self._draw_plot(surface)
         plot, bar = self.layout.plot, self.layout.header
         side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
-        self._toolbar.arrange(side, self.layout.ui)
-        self._toolbar.draw(
-            surface, side, self.tool_name, self._pointer,
-            snaps=self.desk.snaps, step=f"{self.desk.step:g} m",
-        )  # fmt: skip
+        self._draw_tools(surface, side)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.properties.rows(), self._pointer)
         self._header.draw(surface, bar, self.title, self._note(), self._buttons(), self._pointer)
@@ -389,9 +386,24 @@ class Editor:
         else:
             self.dialogs.prompt.draw(surface, self.layout, self.painter)
         if not (self._dragging or self.help.is_open):
-            self._toolbar.draw_tip(surface, self._pointer, surface.get_rect())
+            self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
         self.help.draw(surface, self.layout, self.painter, groups(live=self.live))
+
+    def _draw_tools(self, surface: pygame.Surface, side: pygame.Rect) -> None:
+        """Draw the buttons of the tools, and the step of the grid below them."""
+        painter, theme = self.painter, self.painter.theme
+        surface.fill(theme.bar, side)
+        surface.fill(theme.edge, (side.right - 1, side.top, 1, side.height))
+        self._toolbar.draw(surface, side, painter, self._pointer)
+        place = self._toolbar.places["snap"]
+        step = f"{self.desk.step:g} m" if self.desk.snaps else "free"
+        words = painter.fonts.render(step, 0.3 * place.width, theme.text)
+        surface.blit(words, words.get_rect(midtop=(place.centerx, place.bottom + 2)))
+
+    def _is_on(self, action: str) -> bool:
+        """Return whether a tool is chosen, or the grid snaps."""
+        return self.desk.snaps if action == "snap" else action == self.tool_name
 
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene = Scene()

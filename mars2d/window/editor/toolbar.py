@@ -1,193 +1,39 @@
-"""The toolbar: a button for each tool and one for snapping to the grid, with their icons."""
+"""The buttons of the editor's tools."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
-import numpy as np
-import pygame
-
-from mars2d.bodies.colors import NEUTRAL, OBSTACLE
-from mars2d.core.scene import INK, PALETTE, Scene, faded
-from mars2d.output.layers.bodies import prop_edge
-from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.painter import Painter
-from mars2d.window.editor.chrome import draw_plate
-from mars2d.window.editor.handles import MARK, PAPER
+from mars2d.output.controls import Control
 from mars2d.window.editor.keys import TOOLS, VIEW
-from mars2d.window.widgets.keys import Key
+from mars2d.window.widgets.buttons import Buttons
 
-WIDTH = 58.0
-"""The toolbar's width, points."""
+WIDTH, SIDE = 58.0, 46.0
+"""The widths of the toolbar and of a button, points."""
 
-SIDE, GAP = 46.0, 2.0
-"""A button's side, and the gap between two, points."""
-LAMP = "#e8c500"
-WOOD = prop_edge(NEUTRAL)
-
-(SNAP,) = (key for key in VIEW if key.action == "snap")
-
-
-class Toolbar:
-    """A column of buttons at the left of the window."""
-
-    def __init__(self, painter: Painter) -> None:
-        """Start with nothing drawn."""
-        self._painter = painter
-        self._places: list[tuple[Key, pygame.Rect]] = []
-
-    def arrange(self, area: pygame.Rect, ui: float) -> None:
-        """Lay out the buttons in an area, smaller if they would not fit."""
-        count = len(TOOLS) + 1.6
-        side = min(SIDE * ui, (area.height - 12 * ui) / count - GAP * ui)
-        side = round(max(side, 8))
-        x = area.centerx - side // 2
-        step = side + round(GAP * ui)
-        top = area.top + round(6 * ui)
-        self._places = [
-            (key, pygame.Rect(x, top + i * step, side, side)) for i, key in enumerate(TOOLS)
-        ]
-        low = top + round((len(TOOLS) + 0.25) * step)
-        self._places.append((SNAP, pygame.Rect(x, low, side, side)))
-
-    def at(self, pixel: tuple[int, int]) -> Key | None:
-        """Return the key of the button at a pixel, if there is one."""
-        return next((key for key, place in self._places if place.collidepoint(pixel)), None)
-
-    def draw(
-        self,
-        surface: pygame.Surface,
-        area: pygame.Rect,
-        chosen: str,
-        pointer: tuple[int, int],
-        *,
-        snaps: bool,
-        step: str,
-    ) -> None:
-        """Draw all buttons; chosen: the tool in use; step: the grid's step, in words."""
-        painter, theme = self._painter, self._painter.theme
-        surface.fill(theme.bar, area)
-        surface.fill(theme.edge, (area.right - 1, area.top, 1, area.height))
-        for key, place in self._places:
-            on = snaps if key is SNAP else key.action == chosen
-            hover = place.collidepoint(pointer)
-            if on or hover:
-                fill = theme.running.pale if on else theme.key
-                edge = theme.selected if on else theme.key_edge
-                painter.panel(surface, place, fill, 0.18 * place.width, edge)
-            _draw_icon(surface, painter, key.action, place)
-            size = 0.23 * place.width
-            color = theme.running.ink if on else theme.muted
-            letter = painter.fonts.render(key.labels[0], size, color, bold=True)
-            corner = (place.right - 0.09 * place.width, place.bottom - 0.05 * place.width)
-            surface.blit(letter, letter.get_rect(bottomright=(round(corner[0]), round(corner[1]))))
-        _, place = self._places[-1]
-        words = painter.fonts.render(step if snaps else "free", 0.26 * place.width, theme.text)
-        surface.blit(words, words.get_rect(midtop=(place.centerx, place.bottom + 2)))
-
-    def draw_tip(
-        self, surface: pygame.Surface, pointer: tuple[int, int], bounds: pygame.Rect
-    ) -> None:
-        """Draw the help of the button under the pointer."""
-        gap = round(10 * self._painter.ui)
-        for key, place in self._places:
-            if place.collidepoint(pointer):
-                words, beside = key.help[0].upper() + key.help[1:], place.move(gap, 0).midright
-                draw_plate(surface, self._painter, [words], bounds, midleft=beside)
-
-
-def _draw_icon(surface: pygame.Surface, painter: Painter, name: str, place: pygame.Rect) -> None:
-    """Draw the icon of a tool, defined in the square from -1 to 1, in the middle of a rectangle."""
-    scene = Scene()
-    ICONS[name](scene)
-    side = 0.27 * place.width
-    x, y = place.centerx - 0.05 * place.width, place.centery - 0.06 * place.height
-    before, painter.ui = painter.ui, place.width / SIDE
-    painter.paint(surface, scene.shapes, Camera(side, x, y))
-    painter.ui = before
-
-
-def _select(scene: Scene) -> None:
-    arrow = [(-0.5, 0.95), (-0.5, -0.6), (-0.13, -0.27), (0.14, -0.9), (0.4, -0.79), (0.13, -0.18),
-             (0.62, -0.18)]  # fmt: skip
-    scene.polygon(arrow, fill=PAPER, stroke=INK, width=1.6)
-
-
-def _robot(scene: Scene) -> None:
-    scene.circle((0, 0), 0.85, fill=PALETTE[0])
-    scene.line([(0, 0), (0.6, 0.6)], stroke="#ffffff", width=2.4)
-
-
-def _box(scene: Scene) -> None:
-    square = [(-0.75, -0.75), (0.75, -0.75), (0.75, 0.75), (-0.75, 0.75)]
-    scene.polygon(square, fill=NEUTRAL, stroke=WOOD, width=1.5)
-
-
-def _ball(scene: Scene) -> None:
-    scene.circle((0, 0), 0.75, fill=NEUTRAL, stroke=WOOD, width=1.5)
-    scene.circle((-0.22, 0.25), 0.17, fill=PAPER)
-
-
-def _wall(scene: Scene) -> None:
-    corners = [(-0.9, -0.7), (-0.5, 0.6), (0.5, 0.2), (0.9, 0.85)]
-    scene.line(corners, stroke=INK, width=2.5)
-    for corner in corners:
-        scene.circle(corner, 0.0, fill=PAPER, stroke=INK, width=1.2, pixels=2.2)
-
-
-def _polygon(scene: Scene) -> None:
-    corners = [(-0.85, -0.6), (0.25, -0.85), (0.95, 0.1), (0.05, 0.25), (-0.35, 0.9)]
-    scene.polygon(corners, fill=OBSTACLE, stroke=INK, width=1.5)
-    for corner in corners:
-        scene.circle(corner, 0.0, fill=PAPER, stroke=INK, width=1.0, pixels=1.9)
-
-
-def _rectangle(scene: Scene) -> None:
-    corners = [(-0.95, -0.6), (0.95, -0.6), (0.95, 0.6), (-0.95, 0.6)]
-    scene.polygon(corners, fill=OBSTACLE, stroke=INK, width=1.5)
-
-
-def _waypoint(scene: Scene) -> None:
-    places = [(-0.85, -0.7), (-0.2, 0.15), (0.6, -0.25), (0.75, 0.75)]
-    scene.line(places, stroke=PALETTE[0], width=1.4, style=":")
-    for place in places[1:]:
-        scene.circle(place, 0.0, fill=PALETTE[0], pixels=2.8)
-    scene.circle(places[-1], 0.33, stroke=PALETTE[0], width=1.2)
-
-
-def _beacon(scene: Scene) -> None:
-    scene.circle((0, 0), 0.4, fill=LAMP, stroke=INK, width=1.0)
-    for angle in np.arange(8) * np.pi / 4:
-        c, s = float(np.cos(angle)), float(np.sin(angle))
-        scene.line([(0.62 * c, 0.62 * s), (0.98 * c, 0.98 * s)], stroke=WOOD, width=1.6)
-
-
-def _workspace(scene: Scene) -> None:
-    corners = [(-0.85, -0.85), (0.85, -0.85), (0.85, 0.4), (0.3, 0.85), (-0.85, 0.85)]
-    scene.polygon(corners, fill=faded(MARK, 0.1), stroke=MARK, width=1.3)
-    for x, y in corners:
-        a = 0.17
-        square = [(x - a, y - a), (x + a, y - a), (x + a, y + a), (x - a, y + a)]
-        scene.polygon(square, fill=PAPER, stroke=MARK, width=1.2)
-
-
-def _snap(scene: Scene) -> None:
-    for k in (-0.7, 0.0, 0.7):
-        scene.line([(k, -0.95), (k, 0.95)], stroke=faded(INK, 0.55), width=1.0)
-        scene.line([(-0.95, k), (0.95, k)], stroke=faded(INK, 0.55), width=1.0)
-    scene.circle((0.0, 0.0), 0.24, fill=MARK)
-
-
-ICONS: dict[str, Callable[[Scene], None]] = {
-    "select": _select,
-    "robot": _robot,
-    "box": _box,
-    "ball": _ball,
-    "wall": _wall,
-    "polygon": _polygon,
-    "rectangle": _rectangle,
-    "waypoint": _waypoint,
-    "beacon": _beacon,
-    "workspace": _workspace,
-    "snap": _snap,
+ICONS = {
+    "select": "M6 3l12 9-6 1-3 6Z",
+    "robot": "M4 12a8 8 0 1 0 16 0a8 8 0 1 0-16 0M12 12l5-5",
+    "box": "M5 5h14v14H5Z",
+    "ball": "M5 12a7 7 0 1 0 14 0a7 7 0 1 0-14 0M9.5 9.5h.1",
+    "wall": "M3 19l5-11 7 4 6-8M8 8h.1M15 12h.1",
+    "polygon": "M4 16l9 4 8-9-8-2-4-6Z",
+    "rectangle": "M3 7h18v10H3ZM3 12l5-5M3 17 13 7M8 17 18 7M13 17l8-8",
+    "waypoint": "M4 19h.1M9 13h.1M14 14h.1M17 10h.1M16 5a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
+    "beacon": "M9 12a3 3 0 1 0 6 0a3 3 0 1 0-6 0M12 3v3M12 18v3M3 12h3M18 12h3"
+    "M5.6 5.6l2.1 2.1M16.3 16.3l2.1 2.1M18.4 5.6l-2.1 2.1M7.7 16.3l-2.1 2.1",
+    "workspace": "M4 8V4h4M12 4h.1M16 4h4v4M20 12v.1M20 16v4h-4M12 20h-.1M8 20H4v-4M4 12v-.1",
+    "snap": "M4 8h16M4 16h16M8 4v16M16 4v16",
 }
+"""The paths of the tools' icons, as those of `CONTROLS`."""
+
+
+def tool_buttons(actions: Mapping[str, Callable[[], None]], lit: Callable[[str], bool]) -> Buttons:
+    """Return a button for each tool, and one for the grid; lit: as for `Buttons`."""
+    offered = {key.action: key for key in (*TOOLS, *VIEW) if key.action in ICONS}
+    controls = {
+        name: Control(offered[name].help.capitalize(), offered[name].labels[0], icon)
+        for name, icon in ICONS.items()
+    }
+    *tools, snap = ICONS
+    return Buttons([tools, [snap]], actions, lit, controls=controls, side=SIDE, lettered=True)

@@ -27,6 +27,7 @@ from mars2d.window.panels.readout import (
     touching,
 )
 from mars2d.window.panels.sensorplot import TITLE, SensorPlot, plot_of
+from mars2d.window.screen.selection import Selection
 from mars2d.window.widgets.dock import Panel
 
 COLUMN, LEAST, LEAST_IN_CONTACT = 300.0, 176.0, 268.0
@@ -65,8 +66,8 @@ class Inspector(Panel):
     clock: seconds; the inspector is drawn again a few times a second, and as soon as the body comes
     to touch another or parts from it, since it stands beside the arrows.
 
-    body: the one that is shown, an index of `Scenario.bodies`; None: none, and it is closed. plays:
-    whether somebody drives it, who needs no plot of forces before there are any.
+    selection: which body is shown; where none is, the inspector is closed. plays: whether somebody
+    drives it, who needs no plot of forces before there are any.
     """
 
     name, title, headed, frames, remembered = "inspector", "Inspector", False, False, False
@@ -74,11 +75,11 @@ class Inspector(Panel):
     def __init__(
         self,
         painter: Painter,
-        body: int | None = None,
+        selection: Selection,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         """Start with nothing drawn."""
-        self.painter, self.body, self.plays = painter, body, False
+        self.painter, self.selection, self.plays = painter, selection, False
         self._clock = clock
         self._meter = Meter()
         self._image: pygame.Surface | None = None
@@ -90,11 +91,11 @@ class Inspector(Panel):
     @property
     def is_open(self) -> bool:  # type: ignore[override]
         """Whether a body is shown."""
-        return self.body is not None
+        return self.selection.body is not None
 
     def close(self) -> None:
         """Show none."""
-        self.body = None
+        self.selection.body = None
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the least and the wanted height at a width, points."""
@@ -124,7 +125,7 @@ class Inspector(Panel):
 
     def _look(self, frame: Frame) -> list[tuple[str, Section]]:
         """Return the sections with their names, as they were last seen or as they are now."""
-        body, ui, theme = self.body, self.painter.ui, self.painter.theme
+        body, ui, theme = self.selection.body, self.painter.ui, self.painter.theme
         if body is None:
             return []
         of = body, self.plays, touching(frame, body), frame.scenario, ui, theme

@@ -15,10 +15,13 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.parameters import PREFIX, Parameter
+from mars2d.window.screen.player import Player
+from mars2d.window.screen.selection import Selection
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.slider import ValueSlider
 from mars2d.window.widgets.text_field import TextField
+from mars2d.world.timeline import Timeline
 
 Pixel = tuple[int, int]
 Say = Literal["info", "error"]
@@ -70,8 +73,7 @@ class ParameterPanel(Panel):
     A slider is dragged, or moved by arrow keys once it was clicked; a number that is typed then is
     taken by Enter. A double click, or the button at its right, puts it back as the file has it.
 
-    experiment: returns it as it is now; None for a recording. selected: returns the selected body.
-    set_to: sets a parameter. plays: whether time passes, so that a drag is to be felt at once.
+    player: of the experiment; while time passes, a drag is felt at once. set_to: sets a parameter.
     """
 
     name, title = "parameters", "Parameters"
@@ -79,16 +81,15 @@ class ParameterPanel(Panel):
     def __init__(
         self,
         painter: Painter,
-        experiment: Callable[[], Experiment | None],
-        selected: Callable[[], int | None],
+        player: Player,
+        selection: Selection,
         set_to: Set,
-        plays: Callable[[], bool],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Start with nothing drawn and nothing said."""
         self.painter = painter
-        self._experiment, self._selected = experiment, selected
-        self._set_to, self._plays, self._clock = set_to, plays, clock
+        self._player, self._selection = player, selection
+        self._set_to, self._clock = set_to, clock
         self._known: tuple[Experiment | None, int | None] | None = None
         self._lines: list[Line] = []
         self._sliders: dict[str, ValueSlider] = {}
@@ -116,7 +117,8 @@ class ParameterPanel(Panel):
 
     def _look(self) -> list[Line]:
         """Return the lines; the parameters are read again where something was set or selected."""
-        experiment, body = self._experiment(), self._selected()
+        source, body = self._player.source, self._selection.body
+        experiment = source.experiment if isinstance(source, Timeline) else None
         if experiment is not None and body is not None:
             body = body if body < len(experiment.scenario.bodies) else None
         if self._known is None or self._known[0] is not experiment or self._known[1] != body:
@@ -274,7 +276,7 @@ class ParameterPanel(Panel):
             unit = f" {focused.unit}" if focused.unit else ""
             between = f"{focused.low:g} to {focused.high:g}{unit}"
             return f"{focused.name}: {between}; {focused.default:.6g} in the file", "info"
-        if self._selected() is None:
+        if self._selection.body is None:
             return "select a robot or prop for its mass, friction and drive", "info"
         more = "; turn the wheel for more" if self._cut else ""
         return f"drag a slider, or click it and type a number{more}", "info"
@@ -326,7 +328,7 @@ class ParameterPanel(Panel):
 
     def tick(self) -> None:
         """While time passes, set the dragged value as often as that is quick; call it often."""
-        if self._held is None or not self._waits or self._anew or not self._plays():
+        if self._held is None or not self._waits or self._anew or not self._player.playing:
             return
         start = self._clock()
         if start < self._next:

@@ -41,7 +41,7 @@ def kind_of(frame: Frame, body: int) -> str:
 def state_of(frame: Frame, body: int) -> list[Row]:
     """Return a body's rows of numbers."""
     n = len(frame.scenario.robots)
-    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
+    x, y, theta = frame.body_pose(body)
     vx, vy, omega = frame.velocity[:, body].tolist()
     place = [("x", _number(x, "m")), ("y", _number(y, "m"))]
     heading = [("θ", _degrees(theta)), ("", _number(float(wrap(theta)), "rad"))]

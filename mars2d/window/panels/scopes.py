@@ -22,6 +22,7 @@ from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.panels.forcemeter import span_of
 from mars2d.window.panels.trace import Trace, What
+from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
 from mars2d.window.widgets.buttons import Buttons, draw_icon
@@ -84,8 +85,8 @@ class _Plot(NamedTuple):
 class Scopes(Panel):
     """Plots of columns of the record over all that was run, with the time shown as a cursor.
 
-    recorded: returns the record so far. go: goes to a row. actions: what the buttons do: "scopes",
-    which chooses what is plotted, "figure" and "table". clock: seconds.
+    player: of the run, which a click in a plot takes to a row. actions: what the buttons do:
+    "scopes", which chooses what is plotted, "figure" and "table". clock: seconds.
 
     traces: what is plotted, one below the other. span: the time shown, seconds; None: all.
     """
@@ -95,13 +96,12 @@ class Scopes(Panel):
     def __init__(
         self,
         painter: Painter,
-        recorded: Callable[[], Record],
-        go: Callable[[int], None],
+        player: Player,
         actions: Mapping[str, Callable[[], None]],
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         """Start closed, and with nothing chosen."""
-        self.painter, self._recorded, self._go, self._clock = painter, recorded, go, clock
+        self.painter, self._player, self._clock = painter, player, clock
         self.traces: list[Trace] = []
         self.span: float | None = None
         self._buttons = Buttons([("scopes", "figure", "table")], actions, lambda _: False)
@@ -120,7 +120,7 @@ class Scopes(Panel):
         """Open it; where nothing is plotted, the robots' speeds are."""
         self.is_open = True
         if not self.traces:
-            robots = len(self._recorded().scenario.robots)
+            robots = len(self._player.source.recorded.scenario.robots)
             self.traces.append(Trace("speed", tuple(range(robots))))
 
     def shows(self, what: What, bodies: tuple[int, ...]) -> bool:
@@ -183,7 +183,7 @@ class Scopes(Panel):
 
     def _signals(self, frame: Frame) -> tuple[Record, list[Signal]]:
         """Return the record, and all signals in each of its rows."""
-        record = self._recorded()
+        record = self._player.source.recorded
         found = [signal for trace in self.traces for signal in trace.read(record, frame)]
         if not found or not len(record):
             raise InputError("there is nothing to save: no step was run yet, or nothing is plotted")
@@ -228,7 +228,7 @@ class Scopes(Panel):
 
     def _draw_plots(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the plots for which there is room, and say what is missing."""
-        ui, record, fonts = self.painter.ui, self._recorded(), self.painter.fonts
+        ui, record, fonts = self.painter.ui, self._player.source.recorded, self.painter.fonts
         read = [
             (trace, without_nothing(signal))
             for trace in self.traces
@@ -431,7 +431,7 @@ class Scopes(Panel):
         share = (x - self._place.left - area.left) / area.width
         if self._frame is not None:
             when = limits.start + share * (limits.end - limits.start)
-            self._go(max(0, round(when / self._frame.scenario.sampling_time)))
+            self._player.go(max(0, round(when / self._frame.scenario.sampling_time)))
 
     def _zoom(self, notches: float) -> None:
         """Show less time by notches of the wheel, or more, until it is all."""

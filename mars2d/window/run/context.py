@@ -8,7 +8,7 @@ from functools import partial
 from mars2d.core.plane import Point
 from mars2d.record.frame import Frame
 from mars2d.window.run.director import Director
-from mars2d.window.run.player import AtContact, Player
+from mars2d.window.screen.player import AtContact, Player
 from mars2d.window.widgets.menu import Entry
 from mars2d.world.world import World
 

@@ -12,9 +12,9 @@ from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.record.marks import MarkKind, marks_of, meetings
 from mars2d.window.run.mouse import Handle, Pixel
-from mars2d.window.run.player import SPEEDS, Player
-from mars2d.window.run.source import Playback, Source
 from mars2d.window.run.timebar import TimeBar, TimeState
+from mars2d.window.screen.player import SPEEDS, Player
+from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import wheel_notches
 from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline

@@ -13,8 +13,8 @@ from mars2d.scenario.changes import alike, carried, check_same, with_poses, with
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
-from mars2d.window.run.player import Player
 from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.player import Player
 from mars2d.window.widgets.clipboard import copied
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.past import Progress

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import atan2, cos, hypot, pi, radians, sin
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 import pygame
@@ -57,28 +57,11 @@ def pull_of(scenario: Scenario, body: int) -> tuple[float, float]:
     return force, min(speed, MAX_PULL_SPEED)
 
 
-class Drag(Protocol):
-    """A drag of the mouse that has begun on a body."""
-
-    body: int
-    keeps: bool
-    """Whether a drag that is cancelled ends as if it were released."""
-
-    def move(self, frame: Frame, point: Point, mods: int) -> None:
-        """Follow the pointer to a point [m]; mods: the modifier keys held, as pygame's flags."""
-
-    def end(self) -> None:
-        """Release the body."""
-
-    def pose(self, frame: Frame) -> Triple | None:
-        """Return the pose at which the body is shown, None for its own."""
-
-    def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
-        """Draw the effect of the drag."""
-
-
 class Pull:
-    """Pulls a body by a spring from the point where it was gripped to the pointer."""
+    """Pulls a body by a spring from the point where it was gripped to the pointer.
+
+    keeps: whether a drag that is cancelled ends as if it were released.
+    """
 
     keeps = True
 
@@ -112,7 +95,7 @@ class Pull:
 
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
         """Draw the spring and its force."""
-        start = _world_point(_pose(frame, self.body), self.grip)
+        start = _world_point(frame.body_pose(self.body), self.grip)
         draw_ring(scene, frame, self.body, GOOD, 2.0)
         scene.line([start, self.target], stroke=HALO, width=5.0)
         scene.line([start, self.target], stroke=FORCE, width=2.5)
@@ -138,7 +121,7 @@ class Placement:
         point: Point,
     ) -> None:
         self.body, self._do, self._clock = body, do, clock
-        self.before = self.now = _pose(frame, body)
+        self.before = self.now = frame.body_pose(body)
         self.start = point
         self._fault, self._checked, self._at = "", -1.0, self.before
 
@@ -229,16 +212,15 @@ class Turn(Placement):
             scene.circle(end, 0.0, fill=color, stroke=HALO, width=1.5, pixels=3.5)
 
 
+Drag = Pull | Move | Turn
+"""A drag of the mouse that has begun on a body."""
+
+
 # -- poses and points -------------------------------------------------------------------------
 
 
 def _signed(text: str) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
-
-
-def _pose(frame: Frame, body: int) -> Triple:
-    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
-    return x, y, theta
 
 
 def with_pose(frame: Frame, body: int, pose: Triple) -> Frame:
@@ -255,7 +237,7 @@ def with_pose(frame: Frame, body: int, pose: Triple) -> Frame:
 
 def local_point(frame: Frame, body: int, point: Point) -> Point:
     """Return a point [m] in a body's own frame."""
-    x, y, theta = _pose(frame, body)
+    x, y, theta = frame.body_pose(body)
     dx, dy, c, s = point[0] - x, point[1] - y, cos(theta), sin(theta)
     return c * dx + s * dy, c * dy - s * dx
 
@@ -279,7 +261,7 @@ def _within(rigid: Rigid, point: Point) -> Point:
 def draw_ring(scene: Scene, frame: Frame, body: int, color: str, width: float) -> None:
     """Draw a ring round a body; width: of its line, points."""
     center, radius = bounding_circle(
-        frame.scenario.bodies[body].shape, np.array(_pose(frame, body))
+        frame.scenario.bodies[body].shape, np.array(frame.body_pose(body))
     )
     for stroke, more in ((HALO, 2.0), (color, 0.0)):
         scene.circle(center, radius, stroke=stroke, width=width + more, pixels=6.0)
@@ -295,7 +277,7 @@ def draw_label(
     side: Literal["above", "below"] = "above",
 ) -> None:
     """Write a text above or below the ring round a body."""
-    shape, pose = frame.scenario.bodies[body].shape, np.array(_pose(frame, body))
+    shape, pose = frame.scenario.bodies[body].shape, np.array(frame.body_pose(body))
     (x, y), radius = bounding_circle(shape, pose)
     off = radius + 12 / camera.scale
     place = x, y + off if side == "above" else y - off

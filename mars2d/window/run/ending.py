@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from mars2d.core.errors import Mars2dError
 from mars2d.output.excerpt import Excerpt, excerpt_of
 from mars2d.output.raster.bars import Banner
-from mars2d.window.run.player import Player
+from mars2d.window.screen.player import Player
 from mars2d.world.timeline import Timeline
 
 HINT = "← looks back   R restarts   Ctrl Q leaves"
@@ -16,15 +14,15 @@ MEND = "correct the file and save it"
 
 
 class Ending:
-    """Tells why a run has ended.
+    """Tells why a run has ended; of_game: whether people play in it.
 
     The banner of an error shows the lines of code that were run. They are read once, so that edits
     of the file do not change them.
     """
 
-    def __init__(self, player: Player, game: Callable[[], object | None] = lambda: None) -> None:
-        """Start without an error. game: returns the game that people play, if they do."""
-        self._player, self._game = player, game
+    def __init__(self, player: Player) -> None:
+        """Start without an error."""
+        self._player, self.of_game = player, False
         self._error: Mars2dError | None = None
         self._excerpt: Excerpt | None = None
 
@@ -37,7 +35,7 @@ class Ending:
             return Banner(str(player.error), hint, error=True, excerpt=excerpt)
         if not player.over:
             return None
-        hint = HINT if self._game() is None else AGAIN
+        hint = AGAIN if self.of_game else HINT
         return Banner(player.frame.over_message or "The experiment is over.", hint)
 
     def _excerpt_of(self, error: Mars2dError) -> Excerpt | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mars2d.window.run.play import Play
-from mars2d.window.run.player import Player
+from mars2d.window.screen.player import Player
 
 Hints = Sequence[tuple[str, str]]
 """Keys and their effects."""

@@ -9,7 +9,7 @@ import pygame
 
 from mars2d.core.plane import Point
 from mars2d.window.run.grab import Grab
-from mars2d.window.run.player import Player
+from mars2d.window.screen.player import Player
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 
 Pixel = tuple[int, int]

@@ -16,9 +16,9 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.roles import contests_of, role_of, roles_of
 from mars2d.window.run.director import Director
-from mars2d.window.run.player import Player
 from mars2d.window.run.scores import Scores, Tally
 from mars2d.window.screen.memory import Memory
+from mars2d.window.screen.player import Player
 from mars2d.world.record import Record
 
 COUNTDOWN = 3.0

@@ -17,13 +17,13 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
 from mars2d.window.run import keys
 from mars2d.window.run.controls import Controls
-from mars2d.window.run.player import Player, time_actions
-from mars2d.window.run.source import Source
 from mars2d.window.run.toolbar import Toolbar, layer_entries
 from mars2d.window.screen.display import PICTURES_A_SECOND, Preferences, started_display
 from mars2d.window.screen.looks import Looks
+from mars2d.window.screen.player import Player, time_actions
 from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
+from mars2d.window.screen.source import Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.keys import chord

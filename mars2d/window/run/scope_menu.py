@@ -15,8 +15,11 @@ from mars2d.sensors.base import Sensor
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.panels.trace import FEW, What
 from mars2d.window.run.toolbar import Toolbar
+from mars2d.window.screen.player import Player
+from mars2d.window.screen.selection import Selection
 from mars2d.window.widgets.menu import Entry
 from mars2d.world.record import Record
+from mars2d.world.timeline import Timeline
 
 MOTION = {"Speed": "speed", "x": "x", "y": "y", "Heading": "theta"}
 CONTACT = {"Contact force": "force", "Contact impulse": "impulse"}
@@ -29,45 +32,49 @@ NEAREST = 14
 class ScopeMenu:
     """The menu of the run window that chooses plots; at first those that the file names are shown.
 
-    frame: returns the frame that is shown. selected: returns the selected body, or None. named:
-    returns the plots that the experiment's file names, its `scopes`.
+    player: of the run, whose file may name plots, its `scopes`.
     """
 
     def __init__(
         self,
         scopes: Scopes,
         toolbar: Toolbar,
-        frame: Callable[[], Frame],
-        selected: Callable[[], int | None],
-        named: Callable[[], Sequence[What]],
+        player: Player,
+        selection: Selection,
     ) -> None:
         """Show the plots that the file names."""
         self._scopes, self._toolbar = scopes, toolbar
-        self._frame, self._selected, self._named = frame, selected, named
-        robots = tuple(range(len(frame().scenario.robots)))
-        for what in named():
+        self._player, self._selection = player, selection
+        robots = tuple(range(len(player.frame.scenario.robots)))
+        for what in self._named:
             scopes.switch(what, robots if isinstance(what, str) else ())
+
+    @property
+    def _named(self) -> Sequence[What]:
+        """The plots that the file names."""
+        source = self._player.source
+        return source.experiment.source.scopes if isinstance(source, Timeline) else ()
 
     @property
     def functions(self) -> list[Callable[[Record], object]]:
         """The functions among the plots that the file names."""
-        return [what for what in self._named() if not isinstance(what, str)]
+        return [what for what in self._named if not isinstance(what, str)]
 
     def open(self) -> None:
         """Open the menu for the selected body, or for all robots."""
 
         def entries() -> list[Entry]:
-            body, functions = self._selected(), self.functions
+            body, functions = self._selection.body, self.functions
             return entries_of_scopes(
-                self._frame(), body, self._scopes, functions, self._open_distances
+                self._player.frame, body, self._scopes, functions, self._open_distances
             )
 
         self._toolbar.open("scopes", entries)
 
     def _open_distances(self) -> None:
         """Open the menu of distances of the selected body."""
-        body, menu = self._selected() or 0, self._toolbar.menu
-        entries = partial(entries_of_distances, self._frame(), body, self._scopes)
+        body, menu = self._selection.body or 0, self._toolbar.menu
+        entries = partial(entries_of_distances, self._player.frame, body, self._scopes)
         menu.open("distances", entries, menu.corner)
 
 

@@ -43,13 +43,14 @@ from mars2d.window.run.player_window import PlayerWindow
 from mars2d.window.run.reload import Reload
 from mars2d.window.run.scope_menu import ScopeMenu
 from mars2d.window.run.score_panel import ScorePanel
-from mars2d.window.run.source import Source
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import (
     Preferences,
 )
 from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.picking import body_at, next_body, selection_mark, sensed_by
+from mars2d.window.screen.selection import Selection
+from mars2d.window.screen.source import Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.menu import Entry
@@ -94,19 +95,14 @@ class Window(PlayerWindow):
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._way_back: Progress | None = None
-        self._ending = Ending(self.player, lambda: self.game)
+        self._ending = Ending(self.player)
         self._cast = _cast(source)
         painter = self._painter = self.looks.painter
         self._stage = Stage(painter, MEMORY)
-        self._inspector = Inspector(painter)
+        self._selection = Selection()
+        self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
-        self.parameters = ParameterPanel(
-            painter,
-            lambda: None if timeline is None else timeline.experiment,
-            lambda: self.selected,
-            self._set_parameter,
-            lambda: self.player.playing,
-        )
+        self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
         self._mouse = Mouse(
             self.player, self.viewpoint, self.grab, self._controls.handles,
@@ -128,9 +124,7 @@ class Window(PlayerWindow):
             "film": self.saver.film_or_not,
             "python": self._save_python,
         }
-        self.scopes: Scopes = Scopes(
-            painter, lambda: self.player.source.recorded, self.player.go, self._actions
-        )
+        self.scopes: Scopes = Scopes(painter, self.player, self._actions)
         self.dock = Dock(
             painter, [self._inspector, self.scopes, self.parameters, self._predictions]
         )
@@ -138,22 +132,16 @@ class Window(PlayerWindow):
         if not self._predictions.offered:
             del buttons["predictions"]
         self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
-        self._scope_menu = ScopeMenu(
-            self.scopes,
-            self.toolbar,
-            lambda: self.player.frame,
-            lambda: self.selected,
-            lambda: () if timeline is None else timeline.experiment.source.scopes,
-        )
+        self._scope_menu = ScopeMenu(self.scopes, self.toolbar, self.player, self._selection)
 
     @property
     def selected(self) -> int | None:
         """The selected body, an index of `Scenario.bodies`."""
-        return self._inspector.body
+        return self._selection.body
 
     @selected.setter
     def selected(self, body: int | None) -> None:
-        self._inspector.body = body
+        self._selection.body = body
 
     @property
     def remembered(self) -> dict[str, object]:
@@ -601,6 +589,7 @@ class Window(PlayerWindow):
         memory: keeps the scores. game: its name for the scores.
         """
         self.game = Play(self.player, self.director, memory, game)
+        self._ending.of_game = True
         self._before = Countdown(self._painter, self.game)
         self._score = ScorePanel(self._painter, self.game)
         self.dock.panels = [*self.dock.panels, self._score]

@@ -119,7 +119,7 @@ def sensed_by(frame: Frame, body: int | None) -> Frame:
 def selection_mark(frame: Frame, body: int) -> Scene:
     """Return the ring round a selected body."""
     scene = Scene()
-    pose = np.hstack([frame.pose, frame.prop_pose])[:, body]
+    pose = np.array(frame.body_pose(body))
     center, radius = bounding_circle(frame.scenario.bodies[body].shape, pose)
     for color, width in (("#ffffff", 4.5), (LIGHT.selected, 2.5)):
         scene.circle(center, radius, stroke=color, width=width, pixels=10.0)

@@ -74,11 +74,26 @@ class Saver:
 
     def figure(self, draw: Callable[[], Any]) -> None:
         """Save the figure of matplotlib that `draw` returns."""
-        self._try(lambda: f"figure: {save_figure(draw, _here(), self._stem)}")
+
+        def save() -> str:
+            from mars2d.output.figures.figure import save_drawing
+
+            path = free_name(_here(), self._stem, ".png")
+            with _removed_on_failure(path):
+                return f"figure: {save_drawing(draw, path)}"
+
+        self._try(save)
 
     def table(self, write: Callable[[], str]) -> None:
         """Save a table, the text of a CSV file that `write` returns."""
-        self._try(lambda: f"numbers: {save_table(write(), _here(), self._stem)}")
+
+        def save() -> str:
+            text, path = write().encode(), free_name(_here(), self._stem, ".csv")
+            with _removed_on_failure(path), atomic_write(path) as file:
+                file.write(text)
+            return f"numbers: {path}"
+
+        self._try(save)
 
     def film_or_not(self) -> None:
         """Start a film of the window, or end it."""
@@ -175,23 +190,6 @@ def save_python(
     with _removed_on_failure(path), atomic_write(path) as file:
         file.write(text.encode(errors="replace"))
     return path, copied(text)
-
-
-def save_figure(draw: Callable[[], Any], folder: Path, stem: str) -> Path:
-    """Write the figure that `draw` returns as PNG under a free name and return its path."""
-    from mars2d.output.figures.figure import save_drawing
-
-    path = free_name(folder, stem, ".png")
-    with _removed_on_failure(path):
-        return save_drawing(draw, path)
-
-
-def save_table(text: str, folder: Path, stem: str) -> Path:
-    """Write the text of a CSV file under a free name and return its path."""
-    path = free_name(folder, stem, ".csv")
-    with _removed_on_failure(path), atomic_write(path) as file:
-        file.write(text.encode())
-    return path
 
 
 def start_film(folder: Path, stem: str) -> Filming:

@@ -179,7 +179,7 @@ class Follow:
                 return camera
             aim = self._aim
         else:
-            aim = np.array([*_position(frame, self.target), middle[2]])
+            aim = np.array([*frame.body_pose(self.target)[:2], middle[2]])
         off = middle - aim
         moved, self._speed = _damped(off, self._speed, dt)
         if self.target is not None:
@@ -208,12 +208,6 @@ class Follow:
         if self._turning or not seen or camera.scale < SMALL * fit:
             self._turning = False
             self._aim = np.array([*(low + high) / 2, log(fit)])
-
-
-def _position(frame: Frame, body: int) -> tuple[float, float]:
-    """Return the position of a body."""
-    x, y = np.hstack([frame.pose, frame.prop_pose])[:2, body].tolist()
-    return x, y
 
 
 def _box(frame: Frame) -> tuple[Float, Float]:

@@ -9,7 +9,7 @@ from math import ceil
 
 import pygame
 
-from mars2d.output.controls import CONTROLS, PAUSE
+from mars2d.output.controls import CONTROLS, PAUSE, Control
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.slider import draw_tooltip
 
@@ -28,9 +28,10 @@ SVG = (
 
 
 class Buttons:
-    """A row or column of buttons in groups, each with the name of one of `CONTROLS`.
+    """A row or column of buttons in groups, each with the name of one of `controls`.
 
     lit: whether a button shows that what it switches is on. keys: whether their tips name the keys.
+    side: of the largest buttons, points. lettered: whether they show the letters of their keys.
     """
 
     def __init__(
@@ -40,9 +41,13 @@ class Buttons:
         lit: Callable[[str], bool],
         *,
         keys: bool = True,
+        controls: Mapping[str, Control] = CONTROLS,
+        side: float = SIDE,
+        lettered: bool = False,
     ) -> None:
         """Start with nothing drawn."""
         self._groups, self._actions, self._lit, self._keys = groups, actions, lit, keys
+        self._controls, self._side, self._lettered = controls, side, lettered
         self.places: dict[str, pygame.Rect] = {}
         self._upright = False
 
@@ -77,8 +82,12 @@ class Buttons:
                 fill = theme.running.pale if on else theme.key
                 edge = theme.selected if on else theme.key_edge
                 painter.panel(surface, place, fill, 0.18 * place.width, edge)
-            icon = PAUSE if name == "pause" and on else CONTROLS[name].icon
+            icon = PAUSE if name == "pause" and on else self._controls[name].icon
             draw_icon(surface, icon, theme.running.ink if on else theme.text, place)
+            if self._lettered:
+                size, color = 0.25 * place.width, theme.running.ink if on else theme.muted
+                letter = painter.fonts.render(self._controls[name].key, size, color, bold=True)
+                surface.blit(letter, letter.get_rect(bottomright=place.move(-3, -2).bottomright))
 
     def draw_tip(
         self, surface: pygame.Surface, painter: Painter, pointer: tuple[int, int] | None
@@ -90,11 +99,11 @@ class Buttons:
         place, gap = self.places[name], round(6 * painter.ui)
         beside = place.inflate(2 * gap, 2 * gap)
         at = {"midleft": beside.midright} if self._upright else {"midbottom": beside.midtop}
-        control = CONTROLS[name]
+        control = self._controls[name]
         draw_tooltip(surface, painter, control.tip if self._keys else control.title, **at)
 
     def _arrange(self, area: pygame.Rect, ui: float) -> None:
-        """Lay out the buttons in an area: in two columns or smaller if they would not fit."""
+        """Lay out the buttons in an area: in several columns or smaller if they would not fit."""
         upright = self._upright = area.height > area.width
         long, thick = (area.height, area.width) if upright else (area.width, area.height)
         gap = round(GAP * ui)
@@ -102,9 +111,9 @@ class Buttons:
         def side_in(lanes: int) -> int:
             rows = sum(ceil(len(group) / lanes) for group in self._groups)
             each = long / (rows + BREAK * len(self._groups)) - gap
-            return round(max(8, min(SIDE * ui, thick / lanes - 2 * gap, each)))
+            return round(max(8, min(self._side * ui, (thick - gap) / lanes - gap, each)))
 
-        lanes = max((1, 2), key=lambda lanes: (side_in(lanes), -lanes))
+        lanes = max((1, 2, 3), key=lambda lanes: (side_in(lanes), -lanes))
         side = side_in(lanes)
         along, first = round(0.5 * BREAK * side) + gap, (thick - lanes * (side + gap) + gap) // 2
         self.places = {}

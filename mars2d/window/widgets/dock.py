@@ -18,7 +18,7 @@ Pixel = tuple[int, int]
 Frame = Any
 """What panels show: the dock passes it on."""
 
-WIDTH, MIN_WIDTH = 344.0, 220.0
+WIDTH, MIN_WIDTH = 344.0, 210.0
 """The width of a column, points, and the width below which nothing is drawn."""
 MAX_SHARE = 0.46
 """The largest share of the picture's width for a column, and of its height for a strip."""

@@ -62,25 +62,6 @@ def test_a_closed_polyline_is_a_wall_round_free_room(plan):
     assert len(found.obstacles()) == 4
 
 
-@each_case(
-    ("add", "expected"),
-    [
-        (lambda s: s.add_arc((1, 2), 2, 0, 90), pi),
-        (lambda s: s.add_circle((0, 0), 2), 4 * pi),
-        (lambda s: s.add_ellipse((0, 0), (2, 0), 1.0), 4 * pi),
-        (lambda s: s.add_lwpolyline([(0, 0, 1), (2, 0, 0)], format="xyb"), pi),
-        (lambda s: s.add_lwpolyline([(0, 0, 1), (2, 0, 1)], format="xyb", close=True), 2 * pi),
-        (lambda s: s.add_spline([(0, 0), (1, 0), (2, 0), (3, 0)]), 3),
-        (lambda s: s.add_open_spline([(0, 0), (0, 0), (3, 4), (3, 4)]), 5),
-    ],
-)
-def test_curves_are_as_long_as_they_are(plan, add, expected):
-    document, space = dxf(plan)
-    add(space)
-    document.saveas(plan)
-    assert length(read(plan, tolerance=1e-3)) == pytest.approx(expected, rel=1e-3)
-
-
 def test_blocks_are_placed_scaled_turned_mirrored_and_nested(plan):
     document, space = dxf(plan)
     inner = document.blocks.new("INNER")
@@ -115,14 +96,6 @@ def test_what_is_on_layer_0_of_a_block_is_on_the_layer_of_its_reference(plan):
     space.add_blockref("DOOR", (3, 3), dxfattribs={"layer": "DOORS"})
     document.saveas(plan)
     assert read(plan).layers == {"DOORS": 1, "HINGES": 1}
-
-
-def test_a_solid_of_a_dxf_is_solid(plan):
-    document, space = dxf(plan)
-    space.add_solid([(0, 0), (2, 0), (0, 1), (2, 1)])  # in the order of SOLID
-    document.saveas(plan)
-    found = Map.from_file(plan)
-    assert shapely.Polygon(found.outlines[0]).equals(shapely.box(0, 0, 2, 1))
 
 
 def test_hidden_layers_are_read_only_when_they_are_named(plan):
@@ -225,6 +198,10 @@ def of_zero_height(document):
         (pierced, "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 2 1, 2 2, 1 2, 1 1))"),
         (mirrored, "LINESTRING (-5 0, -8 0, -8 1)"),
         (of_zero_height, "LINESTRING (5 0, 8 0)"),
+        (
+            lambda d: d.modelspace().add_solid([(0, 0), (2, 0), (0, 1), (2, 1)]),
+            "POLYGON ((0 0, 2 0, 2 1, 0 1, 0 0))",
+        ),
         (
             lambda d: d.modelspace().add_lwpolyline(
                 [(0, 0), (4, 0)], dxfattribs={"const_width": 1}

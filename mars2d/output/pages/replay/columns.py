@@ -82,17 +82,18 @@ def rounded(values: NDArray[Any], step: float) -> Int:
 
 
 def fitted(
-    room: int, pack: Callable[[int], tuple[Columns, int]], stride: int = 1
-) -> tuple[Columns, int]:
-    """Return columns that take at most `room` bytes, and the stride of rows at which they fit.
+    room: int, pack: Callable[[int], tuple[Columns, Any, int]], stride: int = 1
+) -> tuple[Columns, Any, int]:
+    """Return columns that take at most `room` bytes, what is said of them, and their stride.
 
-    pack: returns the columns of one row in so many, and the number of their rows. stride: the first
-    to try; its multiples follow until the columns fit, or until one row is left.
+    pack: returns the columns of one row in so many, what is said of them, and the number of their
+    rows. stride: the first to try; its multiples follow until the columns fit, or until one row is
+    left.
     """
     every = 1
     while True:
-        columns, rows = pack(every * stride)
+        columns, told, rows = pack(every * stride)
         size = columns.size + columns.beside
         if size <= room or rows <= 1:
-            return columns, every * stride
+            return columns, told, every * stride
         every = max(every + 1, int(every * size / max(room, 1)))

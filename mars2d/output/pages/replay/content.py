@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
 from mars2d.core.quantity import ANGLE, DISTANCE, UNKNOWN, Quantity
 from mars2d.core.scene import Scene
+from mars2d.geometry.shapes import Shape
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.arrows import MAX_ARROW
 from mars2d.output.layers.forces import (
@@ -30,7 +31,7 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
-from mars2d.output.marks import MARKS, Mark
+from mars2d.output.marks import MARKS
 from mars2d.output.pages.replay import sensors
 from mars2d.output.pages.replay.columns import Columns, Int, fitted, rounded
 from mars2d.output.pages.replay.drawings import (
@@ -49,7 +50,6 @@ from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
 from mars2d.scenario.animation import Animation
-from mars2d.scenario.robot import Robot
 
 if TYPE_CHECKING:
     from mars2d.record.rows import Rows
@@ -187,36 +187,39 @@ class _Content:
     def _bodies(self) -> list[dict[str, Any]]:
         """Return the robots and props: their names, their sizes, and how their paths look."""
         scenario = self.scenario
-        wake, colors = scenario.animation.wake_style, prop_colors(scenario.props)
-        robots = [
-            {
-                "name": str(robot.name),
-                "kind": _in_words(robot.drive),
-                "robot": True,
-                "color": color,
-                "bound": [*robot.chassis.bound[0], robot.chassis.bound[1]],
-                "ring": RING if has_ring(scenario, i) else 0,
-                "trail": [trail, TRAIL_WIDTH, wake],
-                "commands": commands_of(robot),
-            }
-            for i, (robot, color, trail) in enumerate(
-                zip(scenario.robots, scenario.colors, trail_colors(scenario), strict=True)
+        robots, props = scenario.robots, scenario.props
+        wake = scenario.animation.wake_style
+        looks: list[tuple[Any, Shape, str, list[Any]]] = [
+            (robot.drive, robot.chassis, color, [trail, TRAIL_WIDTH, wake])
+            for robot, color, trail in zip(
+                robots, scenario.colors, trail_colors(scenario), strict=True
             )
         ]
-        props = [
-            {
-                "name": str(prop.name),
-                "kind": _in_words(prop),
-                "robot": False,
-                "color": color,
-                "bound": [*prop.shape.bound[0], prop.shape.bound[1]],
-                "trail": [trail, PROP_TRAIL_WIDTH, "-"],
-            }
+        looks += [
+            (prop, prop.shape, color, [trail, PROP_TRAIL_WIDTH, "-"])
             for prop, color, trail in zip(
-                scenario.props, colors, prop_trail_colors(scenario), strict=True
+                props, prop_colors(props), prop_trail_colors(scenario), strict=True
             )
         ]
-        return robots + props
+        bodies: list[dict[str, Any]] = [
+            {
+                "name": str(body.name),
+                "kind": snake_case(type(kind).__name__).replace("_", " "),
+                "robot": i < len(robots),
+                "color": color,
+                "bound": [*shape.bound[0], shape.bound[1]],
+                "ring": RING if i < len(robots) and has_ring(scenario, i) else 0,
+                "trail": trail,
+            }
+            for i, (body, (kind, shape, color, trail)) in enumerate(
+                zip(scenario.bodies, looks, strict=True)
+            )
+        ]
+        for robot, told in zip(robots, bodies, strict=False):
+            told["commands"] = [
+                [q.symbol, q.unit, q.kind] for q in robot.drive.quantities or UNKNOWN
+            ]
+        return bodies
 
     # -- the panel ----------------------------------------------------------------------------
 
@@ -225,22 +228,21 @@ class _Content:
         record = self.record
         command, effort = record.command[self.kept], record.effort[self.kept]
         step = max(float(np.abs(command).max(initial=0.0)), 1e-6) / 2**14
-        words: list[dict[str, Any]] = []
 
-        def packed(every: int) -> tuple[Columns, int]:
+        def packed(every: int) -> tuple[Columns, list[dict[str, Any]], int]:
             columns = Columns()
             columns.add("command", rounded(command[::every], step), order=1, step=step, every=every)
             columns.add("effort", rounded(effort[::every], 1e-3), order=1, step=1e-3, every=every)
-            readings, words[:] = pack_readings(self.carried, every)
+            readings, words = pack_readings(self.carried, every)
             columns.take(readings)
-            return columns, len(command[::every])
+            return columns, words, len(command[::every])
 
-        columns, every = fitted(PANEL, packed)
-        self.columns.take(columns)
-        self._note("commands and readings in the panel", every)
+        words: list[dict[str, Any]] = self._fit(
+            "commands and readings in the panel", PANEL, packed
+        )[0]
         return words
 
-    def _add_marks(self) -> list[dict[str, str]]:
+    def _add_marks(self) -> list[dict[str, Any]]:
         """Add the rows that have marks on the time bar; return which kinds there are."""
         kinds = []
         for kind, rows in marks_of(self.record).items():
@@ -248,7 +250,11 @@ class _Content:
                 at = np.minimum(np.searchsorted(self.kept, rows), len(self.kept) - 1)
                 self.columns.add(f"marks:{kind}", np.unique(at), order=1)
                 kinds.append(kind)
-        return [{"kind": kind, **_place_of(MARKS[kind])} for kind in MARKS if kind in kinds]
+        return [
+            {"kind": kind, "above": mark.above, "below": mark.below, "meaning": mark.meaning}
+            for kind, mark in MARKS.items()
+            if kind in kinds
+        ]
 
     # -- layers -------------------------------------------------------------------------------
 
@@ -335,20 +341,17 @@ class _Content:
         The contacts of the panel stand beside the arrows, so they are those of the same rows.
         """
         drawings = [Drawing([*scenes], [*scenes.values()])]
-        headers: list[dict[str, Any]] = []
 
-        def packed(every: int) -> tuple[Columns, int]:
+        def packed(every: int) -> tuple[Columns, dict[str, Any], int]:
             columns, header, most = pack(layer.name, drawings, every, self.size * COARSE)
-            headers.append(header)
             if layer.name == "forces" and len(self.record.contacts):
                 columns.take(pack_contacts(self.record, self.kept, kept_rows(drawings[0], every)))
-            return columns, most
+            return columns, header, most
 
-        columns, every = fitted(LAYER_ROOM.get(layer.name, OTHER_ROOM), packed, stride)
-        self.columns.take(columns)
-        if any(scenes[row].styles for row in [*scenes][:-1]):
-            self._note(layer.title.lower(), every)
-        return {**headers[-1], "every": every, "leap": LEAP * self.size}
+        seen = any(scenes[row].styles for row in [*scenes][:-1])
+        room = LAYER_ROOM.get(layer.name, OTHER_ROOM)
+        header, every = self._fit(layer.title.lower() if seen else "", room, packed, stride)
+        return {**header, "every": every, "leap": LEAP * self.size}
 
     def _add_sensors(self, drawn: dict[str, Any]) -> None:
         """Add what sensors draw to `drawn`, at as many rows as there is room for."""
@@ -358,21 +361,26 @@ class _Content:
         if not self.carried:
             return
         drawings, stride = sensors.drawings(self.carried, self.scenario.colors)
-        headers: list[dict[str, Any]] = []
+        header, every = self._fit(
+            "what sensors draw",
+            ROOM - self.columns.size - self.columns.beside,
+            lambda every: pack("sensors", drawings, every, self.size * OF_SENSORS),
+            stride,
+        )
+        drawn["sensors"] = {**header, "held": every}
 
-        def packed(every: int) -> tuple[Columns, int]:
-            columns, header, most = pack("sensors", drawings, every, self.size * OF_SENSORS)
-            headers.append(header)
-            return columns, most
+    def _fit(
+        self, what: str, room: int, pack: Callable[[int], tuple[Columns, Any, int]], stride: int = 1
+    ) -> tuple[Any, int]:
+        """Add columns as `fitted` makes them, with a note; return what is said of them, and stride.
 
-        columns, every = fitted(ROOM - self.columns.size - self.columns.beside, packed, stride)
+        what: for the note; "" for none.
+        """
+        columns, told, every = fitted(room, pack, stride)
         self.columns.take(columns)
-        self._note("what sensors draw", every)
-        drawn["sensors"] = {**headers[-1], "held": every}
-
-    def _note(self, what: str, every: int) -> None:
-        if every > 1:
+        if every > 1 and what:
             self.notes.append(f"{what}: one row in {every} of this file")
+        return told, every
 
 
 def _table(animation: Animation) -> list[dict[str, Any]]:
@@ -392,10 +400,6 @@ def _table(animation: Animation) -> list[dict[str, Any]]:
     ]
 
 
-def _place_of(mark: Mark) -> dict[str, Any]:
-    return {"above": mark.above, "below": mark.below, "meaning": mark.meaning}
-
-
 def _legend(legend: Legend) -> dict[str, Any]:
     """Return a legend for the page: its arrow at all round numbers, and its signs."""
     ruler = legend.ruler
@@ -413,11 +417,6 @@ def _legend(legend: Legend) -> dict[str, Any]:
 def _drawn(layer: Layer, frame: Frame) -> Flat:
     assert layer.shapes is not None
     return flat(layer.shapes(frame).shapes)
-
-
-def _in_words(part: object) -> str:
-    """Return the kind of a part, in words."""
-    return snake_case(type(part).__name__).replace("_", " ")
 
 
 def _ways(poses: Float) -> Float:
@@ -451,12 +450,6 @@ NEWTON = 0.01
 
 MAX_NUMBERS = 8
 """The most numbers of a reading that is shown as text."""
-
-
-def commands_of(robot: Robot) -> list[list[str]]:
-    """Return the names, units and kinds of the two numbers of a robot's command."""
-    quantities = robot.drive.quantities or UNKNOWN
-    return [[quantity.symbol, quantity.unit, quantity.kind] for quantity in quantities]
 
 
 def pack_contacts(record: Rows, kept: Int, shown: Sequence[int]) -> Columns:

@@ -12,7 +12,7 @@ from mars2d.core.errors import Mars2dError
 from mars2d.record.frame import Frame, between
 from mars2d.record.marks import meetings, meets
 from mars2d.scenario.animation import playback_speed
-from mars2d.window.run.source import Playback, Source
+from mars2d.window.screen.source import Playback, Source
 from mars2d.window.widgets.slider import BEHIND, times
 
 Kind = Literal["running", "waiting", "past", "error"]
