@@ -29,9 +29,7 @@ CONTROLS = {
     "step": Control("One step on", "→", "m8 6 8 6-8 6Z"),
     "newest": Control("To the end", "End", "M18 5v14M5 5l10 7-10 7Z"),
     "loop": Control(
-        "Loop",
-        "J",
-        "M4 11a6 6 0 0 1 6-6h9M16 2l3 3-3 3M20 13a6 6 0 0 1-6 6H5M8 22l-3-3 3-3",
+        "Loop", "J", "M4 11a6 6 0 0 1 6-6h9M16 2l3 3-3 3M20 13a6 6 0 0 1-6 6H5M8 22l-3-3 3-3"
     ),
     "layers": Control("Show", "A", "M12 3 3 8l9 5 9-5ZM3 12.5l9 5 9-5M3 17l9 5 9-5"),
     "contacts": Control(

@@ -72,7 +72,7 @@ def test_a_pipe_is_refused_before_the_run(tmp_path, suffix) -> None:
     os.mkfifo(pipe)
     told = mars("run", "random_walk", "--headless", "--record", pipe)
     assert told.returncode == 2
-    assert f"--record {pipe}: can't be written: this is a pipe or a device" in told.stderr
+    assert f"--record {pipe}: this is a pipe or a device; expected a file" in told.stderr
     with pytest.raises(InputError, match="this is a pipe or a device; expected a file"):
         mars2d.run(Scenario(stop_time=1), record=pipe)
     assert pipe.is_fifo()

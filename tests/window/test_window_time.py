@@ -332,16 +332,6 @@ def test_a_digit_that_is_held_is_typed_once(open_window):
     window.until(lambda s: s["chip"] == "25 ...")
 
 
-def test_escape_forgets_a_number_and_closes_nothing(open_window):
-    window = open_window(0)
-    window.press("2", "5")
-    window.until(lambda s: s["chip"] == "25 ...")
-    window.press("Escape")
-    window.until(lambda s: s["chip"] == "manual")
-    window.press("Right")
-    window.until(lambda s: s["row"] == 1)
-
-
 def test_while_a_law_takes_long_esc_breaks_it_off_and_ctrl_q_closes_the_window(open_window):
     shown = open_window(0).shown
     for key, mod, how in (

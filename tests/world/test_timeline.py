@@ -1,6 +1,5 @@
 """The timeline: going back and on is the same to the bit, whatever laws remember."""
 
-import argparse
 
 import numpy as np
 import pytest
@@ -609,9 +608,8 @@ def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path
         timeline.change(lambda w, y=y: w.operator.place(0, (-4.0, y, 0.0)))
         run_to(timeline, 25)
     record = timeline.record
-    given = argparse.Namespace(record=tmp_path / "out.npz", figure=None, html=None)
     (tmp_path / "out_branch2.npz").write_text("mine")
-    outputs.save_record(given, record)
+    outputs.save_record(tmp_path / "out.npz", record)
     names = ["out.npz", "out_branch1.npz", "out_branch3.npz"]
     saved = [mars2d.load(tmp_path / name).digest for name in names]
     assert saved == [record.digest, *(branch.digest for branch in record.branches)]

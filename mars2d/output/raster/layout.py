@@ -68,8 +68,9 @@ class Layout:
         right = round(min(max(0.24 * width, 160 * ui), 290 * ui, 0.285 * width)) if strip else 0
         buttons = round(min(TRANSPORT * ui, 0.28 * width)) if strip else 0
         plot = max(1, height - top - strip - bottom)
-        tools = _tools((height - top - strip) / ui - FOOTER) * ui if controls else 0
-        tools = round(min(tools, 0.115 * width))
+        tall = (height - top - strip) / ui - FOOTER
+        columns = 1.0 if tall >= 520 else 1.9 if tall >= 330 else 2.7  # of buttons
+        tools = round(min(columns * TOOLS * ui, 0.115 * width)) if controls else 0
         return cls(
             ui,
             header=pygame.Rect(0, 0, width, top),
@@ -80,11 +81,6 @@ class Layout:
             transport=pygame.Rect(0, foot - strip, buttons, strip),
             tools=pygame.Rect(0, top, tools, plot),
         )
-
-
-def _tools(tall: float) -> float:
-    """Return the width of a toolbar of some height, points, for one to three columns of buttons."""
-    return TOOLS * (1.0 if tall >= 520 else 1.9 if tall >= 330 else 2.7)
 
 
 def next_text_size(text: float) -> float:
