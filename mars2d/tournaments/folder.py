@@ -67,15 +67,20 @@ class Folder:
 
     def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
         self._path, self._schedule, self._replays = path, schedule, replays
-        self._head = _head(schedule)
         self._prints = _prints(schedule, limits)
-        _make(path)
+        if path.exists() and not path.is_dir():
+            raise InputError(f"{path}: this is a file; expected a folder")
+        if not path.absolute().parent.is_dir():
+            raise InputError(f"{path}: there is no folder {path.parent}")
+        with writing(path):
+            path.mkdir(exist_ok=True)
         _known(path, schedule, self._prints)  # raises for a folder that holds anything else
         self.before: tuple[Played, ...] = ()
 
     def keep(self, played: Played) -> None:
-        """Write a match that is done."""
-        row = asdict(replace(played, match=_named(played.match)))
+        """Write a match that is done, with its options as text: its hash identifies it."""
+        options = {name: repr(value) for name, value in played.match.options.items()}
+        row = asdict(replace(played, match=replace(played.match, options=options, code={})))
         row = {"print": self._prints[played.match.number], **row}
         self._write({"sum": _sum(row), **row})
 
@@ -85,19 +90,15 @@ class Folder:
             self._file.seek(0)
             data = self._file.read()
             if not data:
-                self._write(self._head)
+                self._write(_head(self._schedule))
             elif not data.endswith(b"\n"):
                 self._file.write(b"\n")  # after a line that was not written to its end
-            self.before = self._found()
+            found = _known(self._path, self._schedule, self._prints)
+            self.before = tuple(p for p in found if p.replay or not (self._replays and p.steps))
         except BaseException:
             self._file.close()
             raise
         return self
-
-    def _found(self) -> tuple[Played, ...]:
-        """Return the matches in the file, now that no other process adds any."""
-        found = _known(self._path, self._schedule, self._prints)
-        return tuple(p for p in found if p.replay or not (self._replays and p.steps))
 
     def __exit__(self, *_: object) -> None:
         with suppress(OSError):  # a full disk, which `keep` has reported already
@@ -160,21 +161,6 @@ def _sum(row: Mapping[str, Any]) -> str:
 
 def _head(schedule: Schedule) -> dict[str, Any]:
     return {"mars2d tournament": FORMAT, "experiment": Path(schedule.experiment).name}
-
-
-def _make(path: Path) -> None:
-    if path.exists() and not path.is_dir():
-        raise InputError(f"{path}: this is a file; expected a folder")
-    if not path.absolute().parent.is_dir():
-        raise InputError(f"{path}: there is no folder {path.parent}")
-    with writing(path):
-        path.mkdir(exist_ok=True)
-
-
-def _named(match: Match) -> Match:
-    """Return a match with its options as text for people; its hash identifies it."""
-    options = {name: repr(value) for name, value in match.options.items()}
-    return replace(match, options=options, code={})
 
 
 def _played(kept: Mapping[str, Any], match: Match) -> Played:

@@ -6,7 +6,7 @@ import glob
 import itertools
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -86,7 +86,11 @@ def schedule(
     _check_names(plan.settings, names)
     beside = None if opened.source.path is None else opened.source.path.parent
     taking_part = entrants(names, roles or {}, players or (), beside)
-    pairings = list(pairings_of(taking_part))
+    pairings = [
+        {role: str(law) for role, law in zip(names, laws, strict=True)}
+        for laws in itertools.product(*taking_part.values())
+        if len({*laws}) == len(laws)  # a law does not play itself
+    ]
     if not pairings:
         raise InputError("there is nobody to play against: a law does not play itself")
     count = len(rounds) * len(pairings) * len(plan.seeds)
@@ -132,7 +136,7 @@ def trial_matches(
     if role not in names:
         raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
     beside = None if opened.source.path is None else opened.source.path.parent
-    files = _all_files(laws, beside)
+    files = law_files(laws, beside)
     check_meant(role, files, names)
     each = itertools.product(files, range(TRIALS))
     return tuple(
@@ -164,28 +168,24 @@ def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
             )
 
 
-def pairings_of(entrants: Mapping[str, Sequence[Path]]) -> Iterator[dict[str, str]]:
-    """Yield each role's law in each pairing; a law does not play itself."""
-    for laws in itertools.product(*entrants.values()):
-        if len({*laws}) == len(laws):
-            yield {role: str(law) for role, law in zip(entrants, laws, strict=True)}
-
-
 # -- entrants --------------------------------------------------------------------------------------
 
 
-def law_files(named: str | Path, beside: Path | None = None) -> tuple[Path, ...]:
-    """Return the files that a name stands for: absolute paths, each once.
+def law_files(named: Files, beside: Path | None = None) -> tuple[Path, ...]:
+    """Return the files that names stand for: absolute paths, each once.
 
     named: a file, a folder (all its laws except those that begin with _), a pattern, or
-    several of these, separated by commas. beside: a folder that is searched for relative names
-    after the current one. Raises InputError, with the nearest name, if there is no such file.
+    several of these, separated by commas or as a list. beside: a folder that is searched for
+    relative names after the current one. Raises InputError, with the nearest name, if there is no
+    such file.
     """
-    parts = [part.strip() for part in str(named).split(",") if part.strip()]
-    if not parts:
+    given = [named] if isinstance(named, (str, Path)) else named
+    if not isinstance(given, Iterable) or not all(isinstance(each, (str, Path)) for each in given):
+        raise InputError(f"{shown(named)}: {EXPECTED}")
+    parts = [part.strip() for each in given for part in str(each).split(",") if part.strip()]
+    if given and not parts:
         raise InputError(f"{named!r}: {EXPECTED}")
-    files = [file for part in parts for file in _files(part, beside)]
-    return tuple(dict.fromkeys(files))
+    return tuple(dict.fromkeys(file for part in parts for file in _files(part, beside)))
 
 
 def _files(part: str, beside: Path | None) -> list[Path]:
@@ -248,10 +248,10 @@ def entrants(
     for role in given:
         if role not in roles:
             raise InputError(f"there is no role {role!r}{nearest(role, roles)}")
-    every = _all_files(players, beside)
+    every = law_files(players, beside)
     found = {}
     for role in roles:
-        own = _all_files(given.get(role, ()), beside)
+        own = law_files(given.get(role, ()), beside)
         check_meant(role, own, roles)
         laws = tuple(dict.fromkeys((*own, *every)))
         if not laws:
@@ -261,13 +261,6 @@ def entrants(
             )
         found[role] = laws
     return found
-
-
-def _all_files(named: Files, beside: Path | None) -> list[Path]:
-    parts = [named] if isinstance(named, (str, Path)) else named
-    if not isinstance(parts, Iterable) or not all(isinstance(p, (str, Path)) for p in parts):
-        raise InputError(f"{shown(named)}: {EXPECTED}")
-    return [file for part in parts for file in law_files(part, beside)]
 
 
 def names_of(files: Iterable[str | Path]) -> dict[str, str]:

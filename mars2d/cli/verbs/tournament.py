@@ -26,13 +26,7 @@ from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, replayed
 from mars2d.tournaments.page.rules import save_rules
 from mars2d.tournaments.schedule import Schedule, schedule
-from mars2d.tournaments.tournament import (
-    LIMITS,
-    PAGE,
-    TournamentInterrupted,
-    missing,
-    play_schedule,
-)
+from mars2d.tournaments.tournament import PAGE, TournamentInterrupted, missing, play_schedule
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -91,13 +85,13 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _limits(arguments: argparse.Namespace) -> Limits:
-    given = {
+    given: dict[str, Any] = {
         "tick": arguments.tick_limit,
         "match": arguments.match_limit,
         "memory": arguments.memory,
         "reads": [file for files in arguments.reads for file in files] or None,
     }
-    return replace(LIMITS, **{name: value for name, value in given.items() if value is not None})
+    return Limits(**{name: value for name, value in given.items() if value is not None})
 
 
 def _roles(given: list[list[str]]) -> dict[str, list[str]]:

@@ -171,6 +171,8 @@ class _Host:
         if isinstance(error, Mars2dError):
             place, text = error.where or place, str(error.args[0])
         causes = (error, error.__cause__)
+        if jail.is_protected() and any(isinstance(each, PermissionError) for each in causes):
+            text += "; this is refused to isolated laws, which read what is beside them and --reads"
         if any(isinstance(each, MemoryError) for each in causes):
             kind, text = "memory", "took too much memory"
         if any(getattr(each, "errno", None) == errno.EFBIG for each in causes):

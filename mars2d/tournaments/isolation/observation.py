@@ -7,7 +7,7 @@ anything that the law's robots may not see.
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -183,22 +183,21 @@ def _hide(rows: Float, seen: Collection[int]) -> None:
 def _reading(world: Simulation, robot: int, name: str) -> Any:
     """Return a reading if a law's process can unpickle it; raise LawError if not."""
     reading = getattr(world.robots[robot].sense, name)
-    _check_shared(name, reading)
+    if foreign := _foreign(reading):
+        raise LawError(
+            f"sensor {name!r} reads a {foreign}, which can't be handed to a law in another "
+            "process: expected numbers, text, arrays, or lists, tuples and dicts of these"
+        )
     return reading
 
 
-def _check_shared(name: str, reading: Any) -> None:
+def _foreign(reading: Any) -> str:
+    """Return the name of a class in a reading that a law's process does not know, or ""."""
     kind = type(reading)
-    parts: Iterable[Any] = ()
     if kind in (list, tuple):
-        parts = reading
-    elif kind is dict:
-        parts = (*reading, *reading.values())
-    for part in parts:
-        _check_shared(name, part)
-    foreign = reading.dtype.hasobject if isinstance(reading, np.ndarray) else callable(reading)
-    if foreign or kind.__module__.partition(".")[0] not in SHARED_PACKAGES:
-        raise LawError(
-            f"sensor {name!r} reads a {kind.__name__}, which can't be handed to a law in another "
-            "process: expected numbers, text, arrays, or lists, tuples and dicts of these"
-        )
+        return next(filter(None, map(_foreign, reading)), "")
+    if kind is dict:
+        return _foreign([*reading, *reading.values()])
+    other = reading.dtype.hasobject if isinstance(reading, np.ndarray) else callable(reading)
+    known = kind.__module__.partition(".")[0] in SHARED_PACKAGES
+    return kind.__name__ if other or not known else ""

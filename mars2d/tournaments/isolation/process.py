@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.usercode import users_line
@@ -51,17 +51,11 @@ CRASH = "Fatal Python error"
 _starting = threading.Lock()
 
 
-class Fault(NamedTuple):
-    """The reason why a law has failed: the kind of a verdict, and a line of text."""
-
-    kind: str
-    text: str
-
-
 class LawProcess:
     """A law in a process of its own.
 
-    fault: why it has failed, or None. printed: the beginning of its output, once it has ended.
+    fault: why it has failed, the kind of a verdict and a line of text, or None. printed: the
+    beginning of its output, once it has ended.
     """
 
     def __init__(self, briefing: Briefing) -> None:
@@ -71,7 +65,7 @@ class LawProcess:
         self._commands: dict[int, tuple[float, float]] = {}
         self._letters: list[Any] = []
         self._used = 0.0  # seconds of its clock for the match
-        self.fault: Fault | None = None
+        self.fault: tuple[str, str] | None = None
         self.printed = ""
         with ExitStack() as resources:
             try:
@@ -201,7 +195,7 @@ class LawProcess:
             if kind == "memory":
                 text += f"; it may take {self._limits.memory:g} MB"
             place = where or self._briefing.file.name
-            self.fault = Fault(kind, one_line(f"{place}: {' '.join(text.split())}"))
+            self.fault = kind, one_line(f"{place}: {' '.join(text.split())}")
 
     # -- output and end ------------------------------------------------------------------------
 
