@@ -13,7 +13,7 @@ CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 LINES = {
     "addons": 4_386,
     "bodies": 1_843,
-    "cli": 2_834,
+    "cli": 2_828,
     "core": 2_906,
     "geometry": 1_549,
     "output": 14_553,
@@ -25,10 +25,10 @@ LINES = {
     "sensors": 2_045,
     "study": 3_219,
     "testing": 998,
-    "tournaments": 4_156,
+    "tournaments": 4_130,
     "window": 15_503,
     "world": 3_795,
-    "tests": 53_087,
+    "tests": 53_097,
 }
 """Lines at most, by room of the package, and of all tests."""
 

@@ -1,6 +1,5 @@
 """The timeline: going back and on is the same to the bit, whatever laws remember."""
 
-
 import numpy as np
 import pytest
 
