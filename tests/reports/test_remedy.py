@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from importlib.metadata import PackageNotFoundError
 from pathlib import Path
@@ -90,12 +91,17 @@ def test_what_compiles_is_installed_first_where_it_is_missing(tools):
     assert remedy().startswith("pip install ")
 
 
-def test_doctor_names_all_extras_and_the_line_for_those_that_are_missing(monkeypatch):
+def test_doctor_names_all_libraries_and_the_line_for_extras_that_are_missing(monkeypatch):
     project = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text("utf-8"))["project"]
     extras = {*project["optional-dependencies"]} - {"all", "dev", "docs", "test"}
     findings = {finding.name: finding for finding in examine()}
     assert extras <= {*findings}
     assert not {"dev", "docs", "test"} & {*findings}
+
+    monkeypatch.setattr("mars2d.reports.doctor.requires", lambda _: project["dependencies"])
+    names = {finding.name for finding in examine()}
+    assert {re.split("[<>=]", line)[0] for line in project["dependencies"]} <= names
+    monkeypatch.undo()
 
     def version(name):
         if name == "av":
