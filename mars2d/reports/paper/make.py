@@ -75,7 +75,7 @@ def _of_run(run: Run, folder: Path, seed: int, records: list[Record]) -> Picture
 
 def _of_chart(chart: Chart, folder: Path, records: Sequence[Record], runs: int) -> Picture:
     if len(records) < runs:
-        raise InputError("not made, since it needs a run that failed")
+        raise InputError("it needs a run that failed")
     with drawn(chart, records) as (drawing, study):
         return Picture(
             stem=chart.stem,
