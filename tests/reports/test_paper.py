@@ -129,7 +129,6 @@ def check_page(folder, figures):
     found = Page(text)
     ids = [attributes["id"] for _, attributes in found.tags if "id" in attributes]
     assert len(ids) == len(set(ids))
-    assert {f"figure-{number}" for number in figures} <= set(ids)
     assert [i for i in ids if re.fullmatch(r"figure-\d", i)] == [f"figure-{n}" for n in figures]
     images = found.all("img")
     files = [name for f in FIGURES if f.number in figures for name in f.files]
@@ -295,9 +294,8 @@ def test_what_can_not_be_done_is_said_in_one_line(paper, arguments, words):
 def test_a_prediction_that_does_not_hold_is_red_and_named_and_is_no_error(
     paper, tmp_path, monkeypatch
 ):
-    run = Run(
-        "fig2_short", written(tmp_path, "short.py", FAILS), "Too short", "It goes half as far."
-    )
+    short = written(tmp_path, "short.py", FAILS)
+    run = Run("fig2_short", short, "Too short", "It goes half as far.")
     monkeypatch.setattr(verb, "FIGURES", (figure(run),))
     code, out, err = paper("out")
     assert (code, err) == (0, "")
@@ -335,8 +333,7 @@ def test_times_after_the_end_of_a_run_show_its_end():
     run = Run("stem", "pursuit_voronoi", "P", "S.", times=(0, 50, 70, 98))
     assert run.times_until(60.0) == [0, 50, 60]
     assert run.times_until(500.0) == [0, 50, 70, 98]
-    words = run.command(0, 97.1)
-    assert words.endswith("--figure stem.pdf --at 0,50,70,97.1")
+    assert run.command(0, 97.1).endswith("--figure stem.pdf --at 0,50,70,97.1")
     moved = Run("other", "path_planning", "P", "S.", settings=["detour=(22, 9.8)"])
     assert cli.parse(shlex.split(moved.command(3, 1.0))[1:]).seed == 3
     assert "--set 'detour=(22, 9.8)'" in moved.command(3, 1.0)

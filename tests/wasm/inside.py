@@ -18,8 +18,8 @@ def say(kind: str, **more: object) -> None:
 about = Path(tempfile.mkdtemp(), "mars2d-0.dist-info")
 about.mkdir()
 project = tomllib.loads(Path("/mars2d/pyproject.toml").read_text())["project"]
-needed = "".join(f"Requires-Dist: {line}\n" for line in project["dependencies"])
-(about / "METADATA").write_text(f"Name: mars2d\nVersion: 0\n{needed}")
+lines = [f"Requires-Dist: {line}\n" for line in project["dependencies"]]
+(about / "METADATA").write_text("".join(["Name: mars2d\nVersion: 0\n", *lines]))
 sys.path.append(str(about.parent))
 
 await load("numpy pymunk")  # noqa: F704, F821, PLE1142 - by run.mjs

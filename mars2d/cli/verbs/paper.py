@@ -45,8 +45,7 @@ def execute(arguments: argparse.Namespace) -> None:
     finally:  # also after Ctrl-C: the page then shows the figures made so far
         progress.close()
         done.sort(key=lambda result: result.figure.number)
-        made = [result.figure.number for result in done]
-        missing = [figure for figure in figures if figure.number not in made]
+        missing = [each for each in figures if each not in [result.figure for result in done]]
         path = finish(folder, done, missing, seed)
         width = max(len(figure.title) for figure in figures)
         for result in done:
