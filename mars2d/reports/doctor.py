@@ -16,8 +16,6 @@ from mars2d.core.errors import MissingExtraError
 from mars2d.core.extras import pip_line
 from mars2d.output.raster import ONLY_CE
 
-LIBRARIES = ("pymunk", "numpy", "scipy", "shapely", "matplotlib", "pygame-ce", "pillow")
-
 PURPOSES = {
     "cluster": "sweeps and tournaments on Dask clusters",
     "completion": "the Tab key in bash, zsh, tcsh, fish and PowerShell",
@@ -47,12 +45,31 @@ def examine() -> Iterator[Finding]:
     yield Finding("mars2d", __version__)
     yield Finding("python", f"{platform.python_version()}, {sys.executable}")
     yield Finding("system", f"{platform.system()} {platform.release()}, {platform.machine()}")
-    yield from map(_library, LIBRARIES)
+    declared = _declared()
+    yield from map(_library, declared.pop("", ()))
     yield _display()
-    yield from _extras()
+    if not declared:
+        yield Finding("libraries", "not known: mars2d is not installed: pip install .", ok=None)
+    every = {*declared.pop("all", ())}
+    for name, packages in sorted(declared.items()):
+        if every.issuperset(packages):  # the others are for developers
+            yield _extra(name, packages)
     yield _engine()
     yield from _plugins()
     yield _physics()
+
+
+def _declared() -> dict[str, list[str]]:
+    """Return the packages that the installed MARS2D asks for by extra; "" needs them always."""
+    packages: dict[str, list[str]] = {}
+    try:
+        declared = "\n".join(requires("mars2d") or ())
+    except PackageNotFoundError:
+        return packages
+    lines = re.findall(r"""^([\w.-]+)(?:.*extra == ['"](\w+))?""", declared, flags=re.M)
+    for package, extra in lines:
+        packages.setdefault(extra, []).append(package)
+    return packages
 
 
 def _library(name: str) -> Finding:
@@ -79,22 +96,6 @@ def _display() -> Finding:
     except MissingExtraError as error:
         return Finding("display", str(error), ok=False)
     return Finding("display", "none: runs are without a window, pictures and films work", ok=None)
-
-
-def _extras() -> Iterator[Finding]:
-    """Yield the extras that "all" brings, as the installed package declares them."""
-    try:
-        declared = "\n".join(requires("mars2d") or ())
-    except PackageNotFoundError:
-        yield Finding("extras", "not known: mars2d is not installed: pip install .", ok=None)
-        return
-    packages: dict[str, list[str]] = {}
-    for package, extra in re.findall(r"""^([\w.-]+).*extra == ['"](\w+)""", declared, flags=re.M):
-        packages.setdefault(extra, []).append(package)
-    every = {*packages.pop("all")}
-    for extra, its in sorted(packages.items()):
-        if every.issuperset(its):  # the others are for developers
-            yield _extra(extra, its)
 
 
 def _extra(name: str, packages: list[str]) -> Finding:

@@ -18,8 +18,7 @@ import mars2d
 from mars2d.cli import command_line as cli
 from mars2d.cli.verbs import paper as verb
 from mars2d.reports.paper.figures import FIGURES, Chart, Figure, Run
-from mars2d.reports.paper.make import names, setting_of
-from mars2d.reports.paper.page import MARK
+from mars2d.reports.paper.make import MARK, setting_of
 from mars2d.scenario.experiment import open_module
 from tests.cases import each_case
 from tests.processes import mars
@@ -51,8 +50,8 @@ def control(world):
 
 def figure(*runs, number=2, charts=()):
     return Figure(
-        number=number, title="A figure", section="4", paper="Reports <this>.", theory="x &lt; 2.",
-        law=("v = k r",), source="Somebody & others", runs=runs, charts=charts,
+        number=number, title="A figure", section="4", paper="Reports this.", theory="x &lt; 2.",
+        law=("v = k r",), source="Somebody", runs=runs, charts=charts,
     )  # fmt: skip
 
 
@@ -130,11 +129,10 @@ def check_page(folder, figures):
     found = Page(text)
     ids = [attributes["id"] for _, attributes in found.tags if "id" in attributes]
     assert len(ids) == len(set(ids))
-    assert {f"figure-{number}" for number in figures} <= set(ids)
     assert [i for i in ids if re.fullmatch(r"figure-\d", i)] == [f"figure-{n}" for n in figures]
     images = found.all("img")
-    stems = [stem for f in FIGURES if f.number in figures for stem in f.stems]
-    assert [image["src"] for image in images] == [f"{stem}.png" for stem in stems]
+    files = [name for f in FIGURES if f.number in figures for name in f.files]
+    assert [image["src"] for image in images] == files[::2]
     for image in images:
         file = folder / image["src"]
         assert len(image["alt"]) > 20
@@ -222,7 +220,7 @@ def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
                 assert parsed.figure == Path(f"{picture['picture']}.pdf")
                 assert parsed.headless
     files = {path.name for path in folder.iterdir()}
-    assert files == {name for f in FIGURES for name in names(f)} | {"index.html", "numbers.json"}
+    assert files == {name for f in FIGURES for name in f.files} | {"index.html", "numbers.json"}
 
 
 def stated_in_the_documents():
@@ -235,8 +233,8 @@ def stated_in_the_documents():
 
 def test_figures_are_those_of_the_paper_and_each_experiment_states_its_setting():
     assert [f.number for f in FIGURES] == list(range(2, 10))
-    stems = [stem for f in FIGURES for stem in f.stems]
-    assert len(stems) == len(set(stems))
+    files = [name for f in FIGURES for name in f.files]
+    assert len(files) == len(set(files))
     for each in FIGURES:
         for run in each.runs:
             assert re.match("(C|c)entralised|(D|d)istributed", setting_of(run.experiment))
@@ -296,7 +294,8 @@ def test_what_can_not_be_done_is_said_in_one_line(paper, arguments, words):
 def test_a_prediction_that_does_not_hold_is_red_and_named_and_is_no_error(
     paper, tmp_path, monkeypatch
 ):
-    run = Run(written(tmp_path, "short.py", FAILS), "Too short", "It goes half as far.")
+    short = written(tmp_path, "short.py", FAILS)
+    run = Run("fig2_short", short, "Too short", "It goes half as far.")
     monkeypatch.setattr(verb, "FIGURES", (figure(run),))
     code, out, err = paper("out")
     assert (code, err) == (0, "")
@@ -315,27 +314,26 @@ def test_a_prediction_that_does_not_hold_is_red_and_named_and_is_no_error(
 def test_a_figure_that_can_not_be_made_is_named_and_the_others_are_made(
     paper, tmp_path, monkeypatch
 ):
-    broken = Run(written(tmp_path, "broken.py", BREAKS), "Broken", "Nothing.")
-    never = Chart("cost", "Never", "Nothing.", "There is no record to study.")
-    walk = Run("random_walk", "Walk", "Short.", settings=["stop_time=5"])
+    broken = Run("fig2_broken", written(tmp_path, "broken.py", BREAKS), "Broken", "Nothing.")
+    never = Chart("fig2_cost", "cost", "Never", "Nothing.", "There is no record to study.", [])
+    walk = Run("fig3_random_walk", "random_walk", "Walk", "Short.", settings=["stop_time=5"])
     every = (figure(broken, charts=[never]), figure(walk, number=3))
     monkeypatch.setattr(verb, "FIGURES", every)
     code, out, err = paper("out")
     assert code == 1
     assert "not all was made: see figure 2 above" in err
     assert "ValueError: no law today" in out
-    assert "cost: not made, since it needs a run that failed" in out
+    assert "fig2_cost: it needs a run that failed" in out
     found = Page(Path("out/index.html").read_text(encoding="utf-8"))
     assert "no law today" in found.words()
     assert [image["src"] for image in found.all("img")] == ["fig3_random_walk.png"]
 
 
 def test_times_after_the_end_of_a_run_show_its_end():
-    run = Run("pursuit_voronoi", "P", "S.", times=(0, 50, 70, 98))
+    run = Run("stem", "pursuit_voronoi", "P", "S.", times=(0, 50, 70, 98))
     assert run.times_until(60.0) == [0, 50, 60]
     assert run.times_until(500.0) == [0, 50, 70, 98]
-    words = run.command("stem", 0, 97.1)
-    assert words.endswith("--figure stem.pdf --at 0,50,70,97.1")
-    moved = Run("path_planning", "P", "S.", settings=["detour=(22, 9.8)"])
-    assert cli.parse(shlex.split(moved.command("stem", 3, 1.0))[1:]).seed == 3
-    assert "--set 'detour=(22, 9.8)'" in moved.command("stem", 3, 1.0)
+    assert run.command(0, 97.1).endswith("--figure stem.pdf --at 0,50,70,97.1")
+    moved = Run("other", "path_planning", "P", "S.", settings=["detour=(22, 9.8)"])
+    assert cli.parse(shlex.split(moved.command(3, 1.0))[1:]).seed == 3
+    assert "--set 'detour=(22, 9.8)'" in moved.command(3, 1.0)

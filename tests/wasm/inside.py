@@ -3,6 +3,7 @@
 import json
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -12,6 +13,14 @@ sys.path.insert(0, "/mars2d")
 def say(kind: str, **more: object) -> None:
     print(json.dumps({"kind": kind, **more}), flush=True)
 
+
+# What an installer notes of MARS2D's libraries.
+about = Path(tempfile.mkdtemp(), "mars2d-0.dist-info")
+about.mkdir()
+project = tomllib.loads(Path("/mars2d/pyproject.toml").read_text())["project"]
+lines = [f"Requires-Dist: {line}\n" for line in project["dependencies"]]
+(about / "METADATA").write_text("".join(["Name: mars2d\nVersion: 0\n", *lines]))
+sys.path.append(str(about.parent))
 
 await load("numpy pymunk")  # noqa: F704, F821, PLE1142 - by run.mjs
 

@@ -12,7 +12,6 @@ from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.reports.paper.figures import FIGURES, Result
 from mars2d.reports.paper.make import finish, make_all, prepare
-from mars2d.reports.paper.page import verdict
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -36,33 +35,34 @@ def execute(arguments: argparse.Namespace) -> None:
     seed, folder = check_seed(arguments.seed), arguments.folder
     figures = [f for f in FIGURES if arguments.only is None or f.number in arguments.only]
     prepare(folder)
-    done: dict[int, Result] = {}
+    done: list[Result] = []
     progress = Progress(len(figures), after=0)
     try:
         progress.update(0, "the first figures")
         for result in make_all(figures, folder, seed):
-            done[result.number] = result
-            progress.update(len(done), f"figure {result.number} is made")
+            done.append(result)
+            progress.update(len(done), f"figure {result.figure.number} is made")
     finally:  # also after Ctrl-C: the page then shows the figures made so far
         progress.close()
-        path = finish(folder, figures, done, seed)
-        for figure in figures:
-            width = max(len(each.title) for each in figures)
-            _report(f"{figure.title:<{width}}", figure.number, done.get(figure.number))
-        failed = sum(result.failed for result in done.values())
+        done.sort(key=lambda result: result.figure.number)
+        missing = [each for each in figures if each not in [result.figure for result in done]]
+        path = finish(folder, done, missing, seed)
+        width = max(len(figure.title) for figure in figures)
+        for result in done:
+            _report(result, width)
+        for figure in missing:
+            tell(f"figure {figure.number}  {figure.title:<{width}}  not made")
+        failed = sum(result.failed for result in done)
         if failed:
             tell(f"{counted(failed, 'prediction')} {'does' if failed == 1 else 'do'} not hold")
         tell(f"page: {path}")
-    broken = [number for number, result in sorted(done.items()) if result.problems]
-    if broken:
-        raise Mars2dError(f"not all was made: see figure {', '.join(map(str, broken))} above")
+    if broken := ", ".join(str(result.figure.number) for result in done if result.problems):
+        raise Mars2dError(f"not all was made: see figure {broken} above")
 
 
-def _report(title: str, number: int, result: Result | None) -> None:
+def _report(result: Result, width: int) -> None:
     """Print the verdict on a figure, and its failed predictions."""
-    tell(f"figure {number}  {title}  {'not made' if result is None else verdict(result)}")
-    if result is None:
-        return
+    tell(f"figure {result.figure.number}  {result.figure.title:<{width}}  {result.verdict}")
     for problem in result.problems:
         tell(f"          {problem}")
     for picture in result.pictures:

@@ -8,9 +8,9 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
+from mars2d.core.errors import counted
 from mars2d.scenario.prediction import Prediction
 
 
@@ -19,31 +19,27 @@ class Run:
     """A run of an experiment, with the title and the caption of its picture.
 
     times: seconds, with one panel each, later ones than the run's end show the end; without any the
-    picture shows the whole run. settings: as of ``mars2d run --set``. name: tells runs of the same
-    experiment apart.
+    picture shows the whole run. settings: as of ``mars2d run --set``. stem: the name of the
+    picture's files, without suffix.
     """
 
+    stem: str
     experiment: str
     title: str
     shows: str
     times: Sequence[float] = ()
     settings: Sequence[str] = ()
-    name: str = ""
-
-    def stem(self, number: int) -> str:
-        """Return the name of the picture's files, without suffix; number: the figure's."""
-        return "_".join(filter(None, [f"fig{number}", Path(self.experiment).stem, self.name]))
 
     def times_until(self, end: float) -> list[float]:
         """Return the times of the panels of a run that ended at `end`."""
         return sorted({min(moment, end) for moment in self.times})
 
-    def command(self, stem: str, seed: int, end: float) -> str:
+    def command(self, seed: int, end: float) -> str:
         """Return the command that makes only this picture."""
         words = ["mars2d", "run", self.experiment, "--headless"]
         words += [word for setting in self.settings for word in ("--set", setting)]
         words += ["--seed", str(seed)] if seed else []
-        words += ["--theory", "--figure", f"{stem}.pdf"]
+        words += ["--theory", "--figure", f"{self.stem}.pdf"]
         if self.times:
             words += ["--at", ",".join(f"{moment:.10g}" for moment in self.times_until(end))]
         return shlex.join(words)
@@ -51,12 +47,19 @@ class Run:
 
 @dataclass(frozen=True)
 class Chart:
-    """A function of `studies`; caption: with the names of its numbers in braces."""
+    """A chart that a function of `studies` draws on axes side by side.
 
-    name: str
+    caption: with the names of the study's numbers in braces. axes: titles, labels and scales.
+    height: inches.
+    """
+
+    stem: str
+    study: str
     title: str
     caption: str
     alt: str
+    axes: Sequence[dict[str, str]]
+    height: float = 3.0
 
 
 @dataclass(frozen=True)
@@ -79,10 +82,14 @@ class Figure:
     work: float = 1.0
 
     @property
-    def stems(self) -> list[str]:
-        """The names of all its files, without suffix: a .png and a .pdf each."""
-        runs = [run.stem(self.number) for run in self.runs]
-        return runs + [f"fig{self.number}_{chart.name}" for chart in self.charts]
+    def shown(self) -> list[Run | Chart]:
+        """What it has pictures of."""
+        return [*self.runs, *self.charts]
+
+    @property
+    def files(self) -> list[str]:
+        """The names of its files: a .png and a .pdf of each picture."""
+        return [f"{each.stem}{suffix}" for each in self.shown for suffix in (".png", ".pdf")]
 
 
 @dataclass(frozen=True)
@@ -123,7 +130,7 @@ class Picture:
 class Result:
     """The pictures made of a figure, and messages of errors; setting: what the robots know."""
 
-    number: int
+    figure: Figure
     setting: str = ""
     pictures: Sequence[Picture] = ()
     problems: Sequence[str] = ()
@@ -143,13 +150,24 @@ class Result:
         """Whether all pictures were made and all predictions hold."""
         return not self.problems and not self.failed
 
-
-def _figure(runs: Sequence[Any], charts: Sequence[Any] = (), **described: Any) -> Figure:
-    drawn = [Chart(**each) for each in charts]
-    return Figure(runs=[Run(**each) for each in runs], charts=drawn, **described)
+    @property
+    def verdict(self) -> str:
+        """The outcome in a few words, such as ``3 of 3 predictions ok``."""
+        every = len(self.predictions)
+        held = f"{every - self.failed} of {counted(every, 'prediction')} ok" if every else "shown"
+        if self.problems:
+            return f"not all was made; {held}" if self.pictures else "not made"
+        return held
 
 
 _TOML = (files(__package__) / "figures.toml").read_text(encoding="utf-8")
 
-FIGURES = [_figure(**described) for described in tomllib.loads(_TOML)["figure"]]
+FIGURES = [
+    Figure(
+        runs=[Run(**run) for run in described.pop("runs")],
+        charts=[Chart(**chart) for chart in described.pop("charts", ())],
+        **described,
+    )
+    for described in tomllib.loads(_TOML)["figure"]
+]
 """Figures 2 to 9."""

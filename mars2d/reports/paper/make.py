@@ -4,27 +4,30 @@ from __future__ import annotations
 
 import json
 import re
-import struct
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
+
+from PIL import Image
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.core.hints import described
-from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_drawing
-from mars2d.reports.paper import studies
+from mars2d.output.figures.figure import save_drawing, save_figure
 from mars2d.reports.paper.figures import FIGURES, Chart, Figure, Picture, Result, Run
-from mars2d.reports.paper.page import MARK, NUMBERS, page
+from mars2d.reports.paper.page import page
+from mars2d.reports.paper.studies import drawn
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.scenario.options import parse_option
 from mars2d.study.work import each_done
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 
-PAGE = "index.html"
-"""The page's file."""
+PAGE, NUMBERS = "index.html", "numbers.json"
+"""The files of the page, and of the numbers, which it links to."""
+
+MARK = '<meta name="generator" content="mars2d paper">'
+"""The tag by which the page of an earlier run is recognized."""
 
 
 def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
@@ -35,39 +38,33 @@ def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
     pictures: list[Picture] = []
     records: list[Record] = []
     problems: list[str] = []
-    shown: list[Run | Chart] = [*figure.runs, *figure.charts]
-    for each, stem in zip(shown, figure.stems, strict=True):
+    for shown in figure.shown:
         try:
-            if isinstance(each, Run):
-                pictures.append(_of_run(each, folder / stem, seed, records))
+            if isinstance(shown, Run):
+                pictures.append(_of_run(shown, folder, seed, records))
             else:
-                pictures.append(_of_chart(each, folder / stem, records, len(figure.runs)))
+                pictures.append(_of_chart(shown, folder, records, len(figure.runs)))
         except Exception as error:  # the page shows the problem in place of the picture
-            name = each.experiment if isinstance(each, Run) else each.name
-            problems.append(f"{name}: {described(error)}")
+            problems.append(f"{shown.stem}: {described(error)}")
     setting = setting_of(figure.runs[0].experiment) if records else ""
-    return Result(figure.number, setting, pictures, problems)
+    return Result(figure, setting, pictures, problems)
 
 
-def _of_run(run: Run, path: Path, seed: int, records: list[Record]) -> Picture:
+def _of_run(run: Run, folder: Path, seed: int, records: list[Record]) -> Picture:
     """Run, draw and save; the record joins the others."""
     options = dict(map(parse_option, run.settings)) | {"animation.theory": True}
     experiment = open_experiment(run.experiment, options, seed=seed)
     record = simulate(experiment).record
     end = float(record.time[-1])
     times = run.times_until(end)
-
-    def draw() -> Any:
-        return plot_snapshots(record, times) if times else plot_paths(record).get_figure()
-
     when = f"at {', '.join(f'{moment:.4g}' for moment in times)} s" if times else f"in {end:.4g} s"
     picture = Picture(
-        stem=path.name,
+        stem=run.stem,
         title=run.title,
         alt=f"Paths of {len(record.scenario.robots)} robots {when}. {run.shows}",
         caption=run.shows,
-        size=_save(draw, path),
-        command=run.command(path.name, record.seed, end),
+        size=_save(partial(save_figure, record, times=times or None), folder / run.stem),
+        command=run.command(record.seed, end),
         outcome=record.over_message,
         digest=record.digest,
         predictions=experiment.predictions(record),
@@ -76,27 +73,26 @@ def _of_run(run: Run, path: Path, seed: int, records: list[Record]) -> Picture:
     return picture
 
 
-def _of_chart(chart: Chart, path: Path, records: Sequence[Record], runs: int) -> Picture:
+def _of_chart(chart: Chart, folder: Path, records: Sequence[Record], runs: int) -> Picture:
     if len(records) < runs:
-        raise InputError("not made, since it needs a run that failed")
-    made = getattr(studies, chart.name)(records)
-    return Picture(
-        stem=path.name,
-        title=chart.title,
-        alt=chart.alt,
-        caption=chart.caption.format(**made.says),
-        size=_save(lambda: made.drawing, path),
-        predictions=made.predictions,
-        columns=made.columns,
-    )
+        raise InputError("it needs a run that failed")
+    with drawn(chart, records) as (drawing, study):
+        return Picture(
+            stem=chart.stem,
+            title=chart.title,
+            alt=chart.alt,
+            caption=chart.caption.format(**study.says),
+            size=_save(partial(save_drawing, lambda: drawing), folder / chart.stem),
+            predictions=study.predictions,
+            columns=study.columns,
+        )
 
 
-def _save(draw: Callable[[], Any], path: Path) -> tuple[int, int]:
-    """Save a drawing as .pdf and .png; return the width and height of the .png, pixels."""
-    save_drawing(draw, path.with_suffix(".pdf"))
-    png = save_drawing(draw, path.with_suffix(".png"))
-    width, height = struct.unpack(">II", png.read_bytes()[16:24])  # in its first chunk
-    return width, height
+def _save(save: Callable[[Path], Path], path: Path) -> tuple[int, int]:
+    """Save a picture as .pdf and .png; return the width and height of the .png, pixels."""
+    save(path.with_suffix(".pdf"))
+    with Image.open(save(path.with_suffix(".png"))) as png:
+        return png.size
 
 
 def setting_of(experiment: str) -> str:
@@ -117,8 +113,7 @@ def make_all(figures: Sequence[Figure], folder: Path, seed: int) -> Iterator[Res
         yield work(order[0])
         return
     for index, made in each_done(work, order):
-        failed = Result(order[index].number, problems=[getattr(made, "error", "")])
-        yield made if isinstance(made, Result) else failed
+        yield made if isinstance(made, Result) else Result(order[index], problems=[made.error])
 
 
 # -- the folder, which never holds other files -----------------------------------------------------
@@ -134,7 +129,7 @@ def prepare(folder: Path) -> None:
         raise InputError(f"{folder}: this is a file; expected a folder")
     if not folder.absolute().parent.is_dir():
         raise InputError(f"{folder}: there is no folder {folder.parent}")
-    own = {PAGE, NUMBERS} | {name for figure in FIGURES for name in names(figure)}
+    own = {PAGE, NUMBERS}.union(*(figure.files for figure in FIGURES))
     try:
         folder.mkdir(exist_ok=True)
         inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
@@ -152,27 +147,21 @@ def prepare(folder: Path) -> None:
         raise InputError(f"{folder}: can't be written: {error.strerror}") from error
 
 
-def finish(folder: Path, figures: Sequence[Figure], done: dict[int, Result], seed: int) -> Path:
-    """Write the page and the numbers, remove pictures that it does not show; return its path."""
-    for figure in figures:
-        for name in names(figure) if figure.number not in done else ():
-            (folder / name).unlink(missing_ok=True)
+def finish(folder: Path, results: Sequence[Result], missing: Sequence[Figure], seed: int) -> Path:
+    """Write the page and the numbers, and remove pictures of what is missing; return its path."""
+    for name in (name for figure in missing for name in figure.files):
+        (folder / name).unlink(missing_ok=True)
     made = [
         {
-            "figure": number,
+            "figure": result.figure.number,
             "ok": result.ok,
             "problems": result.problems,
             "pictures": [picture.as_dict() for picture in result.pictures],
         }
-        for number, result in sorted(done.items())
+        for result in results
     ]
     numbers = json.dumps({"seed": seed, "figures": made}, indent=1, allow_nan=False) + "\n"
-    for path, text in ((NUMBERS, numbers), (PAGE, page(figures, done, seed))):
+    for path, text in ((NUMBERS, numbers), (PAGE, page(results, missing, seed))):
         with atomic_write(folder / path) as file:
             file.write(text.encode())
     return folder / PAGE
-
-
-def names(figure: Figure) -> list[str]:
-    """Return the names of all files of a figure."""
-    return [f"{stem}{suffix}" for stem in figure.stems for suffix in (".png", ".pdf")]

@@ -1,11 +1,13 @@
 """The charts beside the pictures: numbers over time, and sweeps, compared with theory.
 
-Each function takes the records of its figure's runs. figures.toml has the words.
+Each study takes the records of its figure's runs and draws on its axes; figures.toml has the words.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from importlib.resources import as_file, files
 from math import pi, sin, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,7 +16,8 @@ from numpy.typing import NDArray
 
 from mars2d.addons import Beacon, Game, Voronoi
 from mars2d.core.scene import THEORY
-from mars2d.output.figures.figure import GRID, INK, MUTED, new_figure
+from mars2d.output.figures.figure import new_figure
+from mars2d.reports.paper.figures import Chart
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.prediction import Prediction
 from mars2d.world.loop import simulate
@@ -28,13 +31,10 @@ if TYPE_CHECKING:
 Float = NDArray[np.float64]
 Records = Sequence[Record]
 
-MEASURED, BAD = "#0072b2", "#b42318"
-"""The colours of measurements, and of a limit."""
-
 OTHERS, MARKS = ("#d55e00", "#0072b2", "#009e73"), "osD"
-"""The colours of several measured curves, and their marks."""
+"""The colours of several measured curves, and their marks; a single one has that of the style."""
 
-FORMULA: dict[str, Any] = {"color": THEORY, "linestyle": "--", "linewidth": 1.8}
+FORMULA: dict[str, Any] = {"color": THEORY, "linestyle": "--"}
 """How theory is drawn."""
 
 ROWS = 200
@@ -42,68 +42,47 @@ ROWS = 200
 
 
 class Study(NamedTuple):
-    """A chart, the numbers in it, those in its caption, and predictions about them."""
+    """The numbers in a chart, those in its caption, and predictions about them."""
 
-    drawing: Figure
     columns: dict[str, Any]
     says: dict[str, float]
-    predictions: tuple[Prediction, ...] = ()
+    predictions: Sequence[Prediction] = ()
 
 
-def charts(count: int = 1, height: float = 3.0) -> tuple[Figure, list[Axes]]:
-    """Return a figure of several charts side by side, and their axes; height: inches."""
-    figure = new_figure(7.6, height)
-    axes = figure.subplots(1, count, squeeze=False).ravel().tolist()
-    for ax in axes:
-        ax.grid(visible=True, color=GRID, linewidth=0.6)
-        ax.set_axisbelow(True)
-        ax.tick_params(which="both", length=0, labelsize=9, labelcolor=MUTED)
-        ax.spines[:].set(color="#c3cad2", linewidth=0.8)
-        ax.spines[["top", "right"]].set_visible(False)
-    return figure, axes
+@contextmanager
+def drawn(chart: Chart, records: Records) -> Iterator[tuple[Figure, Study]]:
+    """Draw a chart; within the block, matplotlib has the style in which to save it."""
+    from matplotlib import style
+
+    with as_file(files(__package__) / "charts.mplstyle") as path, style.context(path):
+        figure = new_figure(7.6, chart.height)
+        axes = figure.subplots(1, len(chart.axes), squeeze=False).ravel().tolist()
+        study = globals()[chart.study](records, *axes)
+        for ax, words in zip(axes, chart.axes, strict=True):
+            ax.set(**{"xlabel": "time [s]"} | words)
+            for axis in (ax.xaxis, ax.yaxis):
+                if axis.get_scale() == "log":
+                    label_plainly(axis)
+            if curves := len(ax.get_legend_handles_labels()[1]):
+                ax.legend(bbox_to_anchor=(0.0, 1.0), ncols=curves).set_in_layout(False)
+        yield figure, study
 
 
-def curve(ax: Axes, x: Any, y: Any, label: str | None = None, **style: Any) -> None:
-    """Draw measured values."""
-    look: dict[str, Any] = {"color": MEASURED, "linewidth": 1.8, "label": label}
-    ax.plot(x, y, **look | style)
-
-
-def points(ax: Axes, x: Any, y: Any, mark: str, color: str, **style: Any) -> None:
-    """Draw measured values that are not joined."""
-    look: dict[str, Any] = {"color": color, "markersize": 4.5, "markeredgewidth": 0}
-    ax.plot(x, y, mark, **look | style)
-
-
-def name(ax: Axes, title: str, y: str, x: str = "time [s]") -> None:
-    """Give a chart its title, labels of its axes, and a legend in a line above it."""
-    ax.set_xlabel(x, color=INK, fontsize=10)
-    ax.set_ylabel(y, color=INK, fontsize=10)
-    ax.set_title(title, loc="left", fontsize=11, color=INK, pad=24)
-    handles, labels = ax.get_legend_handles_labels()
-    if handles:
-        legend = ax.legend(
-            handles, labels, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(labels),
-            frameon=False, fontsize=8.5, labelcolor=INK, borderaxespad=0.2, handlelength=1.8,
-            columnspacing=1.0, handletextpad=0.4, borderpad=0.0,
-        )  # fmt: skip
-        legend.set_in_layout(False)
-
-
-def logarithmic(axis: Axis) -> None:
-    """Make an axis logarithmic, labelled with plain numbers 1, 2 and 5 times powers of ten."""
+def label_plainly(axis: Axis) -> None:
+    """Label a logarithmic axis with plain numbers: 1, 2 and 5 times powers of ten."""
     from matplotlib.ticker import LogLocator, NullLocator
 
-    axis.axes.set(**{"xscale" if axis is axis.axes.xaxis else "yscale": "log"})
     low, high = axis.get_view_interval()
     axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 200 * low else (1,), numticks=12))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter("{x:g}")
 
 
-def run(experiment: str, seed: int, **options: Any) -> Record:
-    """Return the record of an example with other options."""
-    return simulate(open_experiment(experiment, options, seed=seed)).record
+def run(experiment: str, seed: int, **options: Any) -> tuple[Record, Sequence[Prediction]]:
+    """Return the record of an example with other options, and what its checks predict."""
+    opened = open_experiment(experiment, options, seed=seed)
+    record = simulate(opened).record
+    return record, opened.predictions(record)
 
 
 def some_rows(record: Record) -> list[int]:
@@ -129,7 +108,7 @@ STARTS = ((-2.0, 2.0, 0.0), (0.0, 0.0, 0.0), (3.0, -3.0, 0.0))
 """The pursuer's speed over the evader's, and its initial poses: metres and radians."""
 
 
-def speed_ratio(records: Records) -> Study:
+def speed_ratio(records: Records, left: Axes, right: Axes) -> Study:
     """Sweep the ratio of the two speeds; plot the least distance and the time of capture."""
     scenario, seed = records[0].scenario, records[0].seed
     pursuer, evader = scenario.robots
@@ -144,7 +123,7 @@ def speed_ratio(records: Records) -> Study:
     near, time = np.empty((2, len(RATIOS), len(STARTS)))
     for i, ratio in enumerate(RATIOS.tolist()):
         for j, start in enumerate(STARTS):
-            record = run("pursuit_corners", seed, **{"mu": ratio, "robots.0.pose": start})
+            record, _ = run("pursuit_corners", seed, **{"mu": ratio, "robots.0.pose": start})
             near[i, j] = lengths(np.diff(record.pose[-lap:, :2])[..., 0]).min()
             time[i, j] = record.time[-1]
     free = time >= scenario.stop_time
@@ -152,30 +131,29 @@ def speed_ratio(records: Records) -> Study:
     fine = np.linspace(0.8, 1.0, 20_001)[:-1]
     begins = float(fine[least(fine) > pursuer.diameter][-1])
 
-    figure, (left, right) = charts(2)
     left.plot(fine, least(fine), label="theory", **FORMULA)
-    left.axhline(pursuer.diameter, color=BAD, linewidth=1, label="touch")
-    points(left, RATIOS, near, "o", MEASURED)
-    points(left, [], [], "o", MEASURED, label="measured")
+    left.axhline(pursuer.diameter, color="#b42318", linewidth=1, label="touch")
+    left.plot(RATIOS, near, "o")
+    left.plot([], [], "o", label="measured")
     left.set_ylim(0, None)
-    name(left, "Least distance in a round", "[m]", "pursuer's speed / evader's")
     for j, (mark, color, (x, y, _)) in enumerate(zip(MARKS, OTHERS, STARTS, strict=True)):
         ends, escaped = time[:, j], free[:, j]
-        label, edge = f"from ({x:g}, {y:g})", {"markeredgecolor": color, "markeredgewidth": 1}
-        points(right, RATIOS[~escaped], ends[~escaped], mark, color, label=label)
-        points(right, RATIOS[escaped], ends[escaped], mark, "white", **edge)
+        look: dict[str, Any] = {"color": "white", "markeredgecolor": color, "markeredgewidth": 1}
+        right.plot(
+            RATIOS[~escaped], ends[~escaped], mark, color=color, label=f"from ({x:g}, {y:g})"
+        )
+        right.plot(RATIOS[escaped], ends[escaped], mark, **look)
     right.axvline(begins, **FORMULA)
     right.set_ylim(0, 1.08 * scenario.stop_time)
     right.set_xlim(left.get_xlim())
-    name(right, "Time of capture; hollow: escaped", "[s]", "pursuer's speed / evader's")
     columns = {"ratio": RATIOS}
     columns |= {f"least_distance_{j} [m]": near[:, j] for j in range(len(STARTS))}
     columns |= {f"end_{j} [s]": time[:, j] for j in range(len(STARTS))}
     caught = Prediction("ratio from which it is caught", begins, (last + first) / 2, 0.01)
-    return Study(figure, columns, {"last": last, "first": first}, (caught,))
+    return Study(columns, {"last": last, "first": first}, (caught,))
 
 
-def cell_area(records: Records) -> Study:
+def cell_area(records: Records, left: Axes, right: Axes) -> Study:
     """Plot the area of the evader's cell, and the distance between pursuer and evader."""
     (record,) = records
     game, voronoi, rows = addon(record, Game), addon(record, Voronoi), some_rows(record)
@@ -183,14 +161,11 @@ def cell_area(records: Records) -> Study:
     area = np.array([voronoi.of(record.frame(row)).areas[prey] for row in rows])
     distance = lengths(record.pose[rows, :2, hunter] - record.pose[rows, :2, prey])
     time = record.time[rows]
-    figure, (left, right) = charts(2)
     for ax, values in ((left, area), (right, distance)):
-        curve(ax, time, values)
+        ax.plot(time, values)
         ax.set_ylim(0, None)
-    name(left, "Area of the evader's cell", "[m²]")
-    name(right, "Distance of the two", "[m]")
     columns = {"time [s]": time, "area [m^2]": area, "distance [m]": distance}
-    return Study(figure, columns, {"first": area[0], "last": area[-1]})
+    return Study(columns, {"first": area[0], "last": area[-1]})
 
 
 # -- coverage --------------------------------------------------------------------------------------
@@ -204,39 +179,31 @@ def _costs(record: Record) -> tuple[Float, Float, Float]:
     return record.time[rows], np.array([each.cost for each in cells]), np.array(off)
 
 
-def cost(records: Records) -> Study:
+def cost(records: Records, left: Axes, right: Axes) -> Study:
     """Plot the cost H of a coverage, and the largest distance of a robot from its centroid."""
     (record,) = records
     time, values, off = _costs(record)
     xmin, xmax, ymin, ymax = record.scenario.bounds
     count, area = len(record.scenario.robots), (xmax - xmin) * (ymax - ymin)
     at_60 = values[np.searchsorted(time, min(60, time[-1]))]
-    figure, (left, right) = charts(2)
-    curve(left, time, values, "measured")
+    left.plot(time, values, label="measured")
     left.axhline(5 * area**2 / (18 * sqrt(3) * count), label="hexagons", **FORMULA)
-    curve(right, time, off)
-    logarithmic(left.yaxis)
-    logarithmic(right.yaxis)
-    name(left, "Cost H", "[m⁴]")
-    name(right, "Furthest from its centroid", "[m]")
+    right.plot(time, off)
     columns = {"time [s]": time, "H [m^4]": values, "off [m]": off}
-    return Study(figure, columns, {"at_60": at_60, "last": values[-1], "count": count})
+    return Study(columns, {"at_60": at_60, "last": values[-1], "count": count})
 
 
-def two_ends(records: Records) -> Study:
+def two_ends(records: Records, left: Axes, right: Axes) -> Study:
     """Plot the costs of two runs of the same law, and the distance between the runs."""
     (time, of_a, _), (_, of_b, _) = map(_costs, records)
     first, second = (record.pose[some_rows(record), :2] for record in records)
     apart = lengths(second - first).max(axis=1)
-    figure, (left, right) = charts(2)
-    curve(left, time, of_a, "A")
-    curve(left, time, of_b, "B", color=OTHERS[0])
-    name(left, "Cost H", "[m⁴]")
-    curve(right, time, apart)
+    left.plot(time, of_a, label="A")
+    left.plot(time, of_b, label="B", color=OTHERS[0])
+    right.plot(time, apart)
     right.set_ylim(0, None)
-    name(right, "Furthest from where it is in the other run", "[m]")
     columns = {"time [s]": time, "H of A [m^4]": of_a, "H of B [m^4]": of_b, "apart [m]": apart}
-    return Study(figure, columns, {"first": apart[0], "last": apart[-1]})
+    return Study(columns, {"first": apart[0], "last": apart[-1]})
 
 
 # -- cyclic pursuit, and circling ------------------------------------------------------------------
@@ -248,72 +215,52 @@ SHARES = (0.9, 1.0, 1.1)
 """The ratio of the gains, in units of that at which robots circle."""
 
 
-def _middle_distance(record: Record) -> Float:
-    """Return the mean distance from the middle of the team, (T,) metres."""
-    off = record.pose[:, :2] - record.pose[:, :2].mean(axis=2, keepdims=True)
-    return np.asarray(lengths(off).mean(axis=1))
-
-
-def radius(records: Records) -> Study:
+def radius(records: Records, left: Axes, right: Axes) -> Study:
     """Compare the radius with the formula for several teams and gains."""
-    speed, seed = float(records[0].command[-1, 0, 0]), records[0].seed
-    columns: dict[str, list[float]] = {
-        "robots": [n for teams in GAINS.values() for n in teams],
-        "gain [1/s]": [gain for gain, teams in GAINS.items() for _ in teams],
-        "predicted [m]": [],
-        "measured [m]": [],
-    }
+    cases = [(n, gain) for gain, teams in GAINS.items() for n in teams]
     predictions = []
-    for n, gain in zip(columns["robots"], columns["gain [1/s]"], strict=True):
+    for n, gain in cases:
         stop = 500.0 * max(1.0, (n / 6) ** 2 * 0.1 / gain)  # large circles take longer
-        record = run("cyclic_pursuit", seed, n=n, gain=gain, stop_time=stop)
-        expected, found = n * speed / (pi * gain), float(_middle_distance(record)[-1])
-        columns["predicted [m]"].append(expected)
-        columns["measured [m]"].append(found)
-        what = f"radius, n = {n}, k_a = {gain:g}/s"
-        predictions.append(Prediction.within(what, expected, found, 1, "m"))
-
-    figure, (left, right) = charts(2)
-    robots, gains, predicted, measured = map(np.array, columns.values())
+        _, checks = run("cyclic_pursuit", records[0].seed, n=n, gain=gain, stop_time=stop)
+        (found,) = (check for check in checks if check.name == "radius")
+        predictions.append(found.replace(name=f"radius, n = {n}, k_a = {gain:g}/s"))
+    robots, gains = np.array(cases).T
+    predicted, measured = np.array([(p.predicted, p.measured) for p in predictions]).T
     ends = [predicted.min(), predicted.max()]
     left.plot(ends, ends, label="n v / (π k_a)", **FORMULA)
     for gain, mark, color in zip(GAINS, MARKS, OTHERS, strict=True):
         x, y = predicted[gains == gain], measured[gains == gain]
-        points(left, x, y, mark, color, markersize=5, label=f"{gain:g}/s")
-        points(right, robots[gains == gain], 1e6 * (y / x - 1), mark, color, markersize=5)
-    logarithmic(left.xaxis)
-    logarithmic(left.yaxis)
+        left.plot(x, y, mark, color=color, markersize=5, label=f"{gain:g}/s")
+        right.plot(robots[gains == gain], 1e6 * (y / x - 1), mark, color=color, markersize=5)
     right.axhline(0, **FORMULA)
-    name(left, "Radius", "measured [m]", "predicted [m]")
-    name(right, "Off the prediction", "[millionths]", "robots")
-    return Study(figure, columns, {"runs": len(predictions)}, tuple(predictions))
+    columns = {"robots": robots, "gain [1/s]": gains}
+    columns |= {"predicted [m]": predicted, "measured [m]": measured}
+    return Study(columns, {"runs": len(cases)}, predictions)
 
 
-def growth(records: Records) -> Study:
+def growth(records: Records, ax: Axes) -> Study:
     """Plot how a team shrinks, circles or grows, depending on the ratio of its two gains."""
     count, seed = len(records[0].scenario.robots), records[0].seed
     limit = 2 * count / pi * sin(pi / count)
-    figure, (ax,) = charts(height=2.6)
     columns: dict[str, Any] = {}
     grown = []
     for share, color in zip(SHARES, OTHERS, strict=True):
         options = {"ratio": share * limit, "speed": 9.0, "stop_time": 300.0, "sampling_time": 0.05}
-        record = run("cyclic_pursuit", seed, **options)
-        time, size = record.time, _middle_distance(record)
-        curve(ax, time, size, f"{share:g} of the limit", color=color)
+        record, _ = run("cyclic_pursuit", seed, **options)
+        off = record.pose[:, :2] - record.pose[:, :2].mean(axis=2, keepdims=True)
+        time, size = record.time, lengths(off).mean(axis=1)
+        ax.plot(time, size, label=f"{share:g} of the limit", color=color)
         columns |= {"time [s]": time[::30], f"{share:g} of the limit [m]": size[::30]}
         grown.append(float(size[-1] / size[np.searchsorted(time, 150)]))
-    logarithmic(ax.yaxis)
-    name(ax, "Mean distance from the middle", "[m]")
     predictions = (
         Prediction("size at 300 s / at 150 s, at the limit", 1.0, grown[1], 0.01),
         Prediction("below it: 1 for growing", 1.0, np.sign(grown[0] - 1), 0),
         Prediction("above it: -1 for shrinking", -1.0, np.sign(grown[2] - 1), 0),
     )
-    return Study(figure, columns, {"limit": limit}, predictions)
+    return Study(columns, {"limit": limit}, predictions)
 
 
-def radius_and_gaps(records: Records) -> Study:
+def radius_and_gaps(records: Records, left: Axes, right: Axes) -> Study:
     """Plot the robots' distances from the beacon, and the gaps between them as seen from it."""
     (record,) = records
     beacon, time, rows = addon(record, Beacon), record.time, some_rows(record)
@@ -322,21 +269,18 @@ def radius_and_gaps(records: Records) -> Study:
     away = lengths(off)
     angles = np.sort(np.degrees(np.arctan2(off[:, 1], off[:, 0])), axis=1)
     gaps = np.diff(angles, axis=1, append=angles[:, :1] + 360)
-    formulas = {p.name: p.predicted for p in open_experiment("circular_motion").predictions(record)}
+    checks = open_experiment("circular_motion").predictions(record)
 
-    figure, (left, right) = charts(2)
-    curve(left, time, away, linewidth=1.0, alpha=0.8)
-    curve(left, [], [], "each robot")
-    if "radius" in formulas:
-        left.axhline(formulas["radius"], label="theory", **FORMULA)
+    left.plot(time, away, linewidth=1.0, alpha=0.8)
+    left.plot([], [], label="each robot")
+    for radius in (check.predicted for check in checks if check.name == "radius"):
+        left.axhline(radius, label="theory", **FORMULA)
     left.set_ylim(0, None)
-    name(left, "Distance from the beacon", "[m]")
-    curve(right, time, gaps.max(axis=1), "largest", color=OTHERS[0], linewidth=1.5)
-    curve(right, time, gaps.min(axis=1), "smallest", color=OTHERS[2], linewidth=1.5)
+    right.plot(time, gaps.max(axis=1), label="largest", color=OTHERS[0], linewidth=1.5)
+    right.plot(time, gaps.min(axis=1), label="smallest", color=OTHERS[2], linewidth=1.5)
     right.axhline(360 / away.shape[1], label="theory", **FORMULA)
     right.set_yticks(range(0, 361, 90))
     right.set_ylim(0, 360)
-    name(right, "Gaps as seen from the beacon", "[degrees]")
     columns = {
         "time [s]": time,
         "nearest [m]": away.min(axis=1),
@@ -346,4 +290,4 @@ def radius_and_gaps(records: Records) -> Study:
     }
     _, near, far, least, most = (values[-1] for values in columns.values())
     says = {"near": near, "far": far, "least": least, "most": most}
-    return Study(figure, {title: values[rows] for title, values in columns.items()}, says)
+    return Study({title: values[rows] for title, values in columns.items()}, says)
