@@ -134,11 +134,7 @@ class Floor(Addon):
         return None if self.color is None else rgb(self.color)
 
     def on_start(self, world: WorldLike) -> None:  # noqa: ARG002
-        """Read the image, so that its errors are raised at once, as InputError."""
-        self._prepare()
-
-    def _prepare(self) -> None:
-        """Fill the caches, so that a look at the floor changes nothing."""
+        """Read the image, so that its errors are raised at once, and fill the caches."""
         self._colored  # noqa: B018
         if self.image is not None:
             self.pixels  # noqa: B018

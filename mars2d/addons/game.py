@@ -128,11 +128,6 @@ class Game(Contest):
         return tuple(capture.time for capture in self.captures)
 
     @property
-    def hunters(self) -> tuple[int, ...]:
-        """The indices of the hunters."""
-        return self._teams[0]
-
-    @property
     def safe(self) -> tuple[int, ...]:
         """The indices of the evaders that have reached the goal, in order."""
         return tuple(self._events.safe)
@@ -301,7 +296,9 @@ class Game(Contest):
         hunter = f"the {hunting}"
         if len(hunters) > 1:
             hunter = f"one of {len(hunters)} {hunting.removesuffix('s')}s"
-        hunters_win, evaders_win = (f"{role} {_wins(role)}" for role in (hunting, evading))
+        hunters_win, evaders_win = (
+            f"{role} win" if role.endswith("s") else f"{role} wins" for role in (hunting, evading)
+        )
         how = how.replace("an evader", f"the {evading}" if count == 1 else f"one of {count}")
         if self.hunted is not None:
             how = how.replace(f"the {evading}", "the hunted one")
@@ -352,10 +349,6 @@ def _so_many_are(count: int, needed: int) -> str:
     """Return how many of so many evaders decide it by their goal, with the verb."""
     safe = count - needed + 1
     return "it is" if count == 1 else f"{safe} of {count} {'is' if safe == 1 else 'are'}"
-
-
-def _wins(role: str) -> str:
-    return "win" if role.endswith("s") else "wins"
 
 
 def _edges(scenario: ScenarioLike) -> Float:

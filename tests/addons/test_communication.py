@@ -263,13 +263,6 @@ def test_each_receiver_has_a_copy_of_its_own():
 # -- in reach -------------------------------------------------------------------------------------
 
 
-def test_within_the_range_robots_hear_each_other_the_bound_included():
-    world = World(team(4, talk=Communication(range=2.0)))
-    world.robots[0].send("x")
-    stand(world)
-    assert heard(world) == [[], ["x"], ["x"], []]
-
-
 def test_to_all_in_reach_has_a_row_for_each_of_those_and_to_a_name_in_any_case():
     def say(world):
         world.robots[0].send("all")
@@ -318,15 +311,6 @@ def test_a_wall_a_prop_or_a_robot_in_between_breaks_the_line_of_sight():
             stand(world)
             through = not sight or what == "nothing"
             assert heard(world)[1] == (["x"] if through else []), what
-
-
-def test_only_those_whose_neighbour_one_is_hear_one_if_so_wanted():
-    ahead = Graph([[0, 0, 0], [1, 0, 0], [0, 1, 0]])  # each sees, and may hear, the one before
-    world = World(team(3, talk=Communication(neighbours_only=True), neighbours=ahead))
-    for robot in world.robots:
-        robot.send(robot.index)
-    stand(world)
-    assert heard(world) == [[], [0], [1]]
 
 
 @each_case("seed", range(4))
@@ -384,12 +368,6 @@ def test_a_message_arrives_at_the_first_control_step_that_is_a_delay_later(delay
 
 def lost(record: Record) -> np.ndarray:
     return record.messages["status"] == LOST
-
-
-@each_case("loss", [0.1, 1.0])
-def test_the_share_that_is_lost_is_the_probability(loss):
-    record = talking(team(2, talk=Communication(loss=loss), stop_time=200.0), to_one)
-    assert np.mean(lost(record)) == pytest.approx(loss, abs=4 * math.sqrt(loss * (1 - loss) / 2001))
 
 
 def test_a_lost_message_never_arrives_and_the_sender_is_not_told():
@@ -492,26 +470,18 @@ def test_an_inbox_is_ordered_by_sender_and_then_as_sent():
 
 
 @pytest.mark.parametrize("talk", [Communication(loss=0.4), Communication(burst=Burst())])
-def test_what_happens_does_not_depend_on_the_order_in_which_robots_send(talk):
-    def in_order(order):
+def test_what_is_lost_depends_on_the_seed_and_not_on_the_order_in_which_robots_send(talk):
+    def in_order(order, seed=0):
         def say(world):
             for i in order:
                 world.robots[i].send((i, world.time))
 
-        return talking(team(3, talk=talk, stop_time=5.0), say)
+        return talking(team(3, talk=talk, stop_time=5.0), say, seed)
 
     records = [in_order(order) for order in ((0, 1, 2), (2, 0, 1), (1, 2, 0))]
     assert len({record.digest for record in records}) == 1
     assert 50 < lost(records[0]).sum() < 306
-
-
-@pytest.mark.parametrize("talk", [Communication(loss=0.4), Communication(burst=Burst())])
-def test_the_same_seed_loses_the_same_messages_and_another_seed_others(talk):
-    first, again, other = (
-        talking(team(2, talk=talk, stop_time=20.0), to_one, seed=seed) for seed in (1, 1, 2)
-    )
-    assert first.digest == again.digest
-    assert not np.array_equal(lost(first), lost(other))
+    assert not np.array_equal(lost(records[0]), lost(in_order((0, 1, 2), seed=1)))
 
 
 # -- the record -----------------------------------------------------------------------------------
@@ -569,22 +539,15 @@ def test_a_burst_and_a_graph_come_back_from_plain_data():
     assert serialize.to_scenario(serialize.from_description(nearest))[0].neighbours == Nearest(1)
 
 
-@each_case("field", [name for name in MESSAGE.names if name != "arrival"])
-def test_the_digest_covers_each_field_of_messages(chatter, field):
-    changed = chatter.messages.copy()
-    changed[field][0] += 1
-    assert dataclasses.replace(chatter, messages=changed).digest != chatter.digest
-
-
-def test_the_digest_covers_arrivals_and_contents(chatter):
-    later = chatter.messages.copy()
-    later["arrival"] += 1
+def test_the_digest_covers_each_field_of_messages_and_their_contents(chatter):
     other = ("null", *chatter.contents[1:])
-    digests = {
-        dataclasses.replace(chatter, **change).digest
-        for change in ({}, {"messages": later}, {"contents": other}, {"contents": ("", *other)})
-    }
-    assert len(digests) == 4
+    changes: list[dict] = [{}, {"contents": other}, {"contents": ("", *other)}]
+    for field in MESSAGE.names:
+        changed = chatter.messages.copy()
+        changed[field] += 1
+        changes.append({"messages": changed})
+    digests = {dataclasses.replace(chatter, **change).digest for change in changes}
+    assert len(digests) == len(changes)
 
 
 def test_as_long_as_nobody_speaks_the_digest_is_that_without_the_addon():
@@ -705,10 +668,16 @@ def run(name: str, seed: int = 0, **options):
     return {p.name: p for p in experiment.source.checks(record)}, record
 
 
-@each_case("loss", [0.0, 0.5, 0.8])
-def test_robots_meet_at_any_loss(loss):
-    predictions, _ = run("rendezvous", loss=loss, seed=2)
-    assert len(predictions) == (4 if loss == 0 else 2)
+@each_case(
+    ("name", "seed", "loss", "count"),
+    [
+        *(("rendezvous", 2, loss, count) for loss, count in ((0.0, 4), (0.5, 2), (0.8, 2))),
+        *(("token_ring", seed, loss, 3) for loss in (0.0, 0.3, 0.7) for seed in (0, 1)),
+    ],
+)
+def test_robots_meet_and_pass_the_token_on_at_any_loss(name, seed, loss, count):
+    predictions, _ = run(name, seed, loss=loss)
+    assert len(predictions) == count
     assert all(p.ok for p in predictions.values())
 
 
@@ -717,11 +686,3 @@ def test_who_loses_much_meets_later():
     ends = [run("rendezvous", loss=loss, stop_time=30.0)[1].pose[-1, :2] for loss in (0.0, 0.8)]
     left = [np.ptp(end - places, axis=1).max() for end in ends]
     assert left[1] > 3 * left[0]
-
-
-@each_case("loss", [0.0, 0.3, 0.7])
-@each_case("seed", [0, 1])
-def test_the_token_goes_round_and_is_never_in_two_hands(loss, seed):
-    predictions, _ = run("token_ring", seed, loss=loss)
-    assert len(predictions) == 3
-    assert all(p.ok for p in predictions.values())

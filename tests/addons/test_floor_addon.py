@@ -43,23 +43,28 @@ def read_at(point, *floors, sensor=None):
 # -- what is read ---------------------------------------------------------------------------
 
 
-def test_a_floor_of_which_nothing_is_said_is_white():
-    assert read_at((0, 0)) == [1, 1, 1]
+OVER = [(1, 0), (3, 0), (3, 2), (1, 2)]
+PATCH = Floor(patches=[(SQUARE, "#ff0000")])
+BOTH = Floor(color="#0000ff", patches=[(SQUARE, "#ff0000")])
+LATER = Floor(patches=[(SQUARE, "#ff0000"), (OVER, "#0000ff")])
 
 
-def test_a_floor_has_one_colour_and_patches_of_others():
-    floor = Floor(color="#0000ff", patches=[(SQUARE, "#ff0000")])
-    assert read_at((1, 1), floor) == [1, 0, 0]
-    assert read_at((3, 1), floor) == [0, 0, 1]
-
-
-def test_the_later_patch_and_the_later_floor_lie_on_top():
-    over = [(1, 0), (3, 0), (3, 2), (1, 2)]
-    floor = Floor(patches=[(SQUARE, "#ff0000"), (over, "#0000ff")])
-    assert floor.ground((0.5, 1)) == RED
-    assert floor.ground((1.5, 1)) == BLUE
-    below, above = Floor(color="#0000ff", name="below"), Floor(color="#ff0000", name="above")
-    assert read_at((0, 0), below, above) == [1, 0, 0]
+@each_case(
+    ("floors", "point", "mount", "color"),
+    [
+        ([], (0, 0), (0, 0, 0), [1, 1, 1]),  # white, where nothing is said
+        ([BOTH], (1, 1), (0, 0, 0), [1, 0, 0]),
+        ([BOTH], (3, 1), (0, 0, 0), [0, 0, 1]),
+        ([LATER], (0.5, 1), (0, 0, 0), [1, 0, 0]),
+        ([LATER], (1.5, 1), (0, 0, 0), [0, 0, 1]),  # the later patch lies on top
+        ([Floor(color="#0000ff", name="a"), Floor(color="#ff0000")], (0, 0), (0, 0, 0), [1, 0, 0]),
+        ([PATCH], (-0.2, 1), (0, 0, 0), [1, 1, 1]),
+        ([PATCH], (-0.2, 1), (0.3, 0, 0), [1, 0, 0]),
+        ([PATCH], (1, 2.1), (0, -0.2, 0), [1, 0, 0]),
+    ],
+)
+def test_the_uppermost_colour_below_the_mount_is_read(floors, point, mount, color):
+    assert read_at(point, *floors, sensor=Ground(mount=mount)) == color
 
 
 FLOORS = {
@@ -80,13 +85,6 @@ def test_what_is_read_is_what_is_seen(floors):
     for x, y in ((1, 1), (3, 1), (-3, -3)):
         color = (seen[int(50 - 10 * y), int(50 + 10 * x)] / 255).tolist()
         assert read_at((x, y), *floors) == color
-
-
-def test_the_mount_is_where_it_looks():
-    floor = Floor(patches=[(SQUARE, "#ff0000")])
-    assert read_at((-0.2, 1), floor) == [1, 1, 1]
-    assert read_at((-0.2, 1), floor, sensor=Ground(mount=(0.3, 0, 0))) == [1, 0, 0]
-    assert read_at((1, 2.1), floor, sensor=Ground(mount=(0, -0.2, 0))) == [1, 0, 0]
 
 
 def test_each_pixel_of_an_image_covers_its_part_of_the_floor(picture):

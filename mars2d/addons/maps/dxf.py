@@ -36,7 +36,9 @@ def read_dxf(path: Path, unit: Unit | None, within: float) -> Drawing:
 
         from mars2d.addons.maps.recorder import recorded
     with broken(name, "a DXF drawing"):
-        _quiet()
+        log = logging.getLogger("ezdxf")
+        if not log.handlers:  # whoever wants to see it has one
+            log.addHandler(logging.NullHandler())
         notes: tuple[tuple[str, str], ...] = ()
         try:
             document = ezdxf.filemanagement.readfile(path)
@@ -59,13 +61,6 @@ def read_dxf(path: Path, unit: Unit | None, within: float) -> Drawing:
         name, "a DXF drawing", unit, tuple(pieces), notes=notes,
         hidden=frozenset({*hidden, "Defpoints"}), skipped=skipped, within=within + GRID,
     )  # fmt: skip
-
-
-def _quiet() -> None:
-    """Drop the library's log, unless the program that uses us wants it."""
-    log = logging.getLogger("ezdxf")
-    if not log.handlers:
-        log.addHandler(logging.NullHandler())
 
 
 def _unit(document: Document, *, named: bool) -> Unit:

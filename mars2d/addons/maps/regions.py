@@ -46,7 +46,9 @@ def region(rings: Sequence[Float], *, even_odd: bool = False) -> list[shapely.Po
     if not len(faces):
         return []
     middles = shapely.get_coordinates(shapely.point_on_surface(faces))
-    turns = _turns(middles, _edges(edges))
+    points, ring = shapely.get_coordinates(edges, return_index=True)
+    steps = np.stack([points[:-1], points[1:]], axis=1)[ring[1:] == ring[:-1]]
+    turns = _turns(middles, steps)
     inside = turns % 2 != 0 if even_odd else turns != 0
     whole = shapely.coverage_union_all(faces[inside])  # faces meet edge to edge
     return [part for part in shapely.get_parts(whole).tolist() if part.geom_type == "Polygon"]
@@ -97,18 +99,6 @@ def simple_area(area: shapely.Polygon, tolerance: float) -> shapely.Polygon:
         if found.is_valid and abs(found.area / area.area - 1) <= LOSS:
             return found
     return area
-
-
-def _edges(geometries: Sequence[shapely.Geometry]) -> Float:
-    """Return all edges of lines and polygons, (k, 2, 2)."""
-    import shapely
-
-    parts = shapely.get_parts(geometries)
-    areal = shapely.get_dimensions(parts) == 2
-    lines = np.concatenate([shapely.get_rings(parts[areal]), parts[~areal]])
-    points, line = shapely.get_coordinates(lines, return_index=True)
-    same = line[1:] == line[:-1]
-    return np.stack([points[:-1][same], points[1:][same]], axis=1)
 
 
 def _turns(points: Float, edges: Float) -> NDArray[np.int64]:

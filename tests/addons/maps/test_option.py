@@ -45,12 +45,6 @@ def test_a_map_takes_the_place_of_the_scenarios_and_keeps_its_surface(folder):
     assert (found.friction, found.key) == (0.2, "walls")
 
 
-def test_a_map_is_added_where_there_is_none(folder):
-    path = experiment(folder, "scenario = Scenario(robots=[Robot(pose=(2, 2, 0))])")
-    scenario = open_experiment(path, {"map": "room.wkt"}).scenario
-    assert [type(addon) for addon in scenario.addons] == [Map]
-
-
 @each_case(
     ("workspace", "expected"),
     [
@@ -167,13 +161,6 @@ def test_check_shows_what_was_read_and_draws_it(folder):
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.slow
-def test_check_names_the_nearest_file_and_how_to_bring_a_dwg(folder):
-    said = "mars2d: rom.wkt: there is no such file; did you mean 'room.wkt'?\n"
-    assert mars("check", "rom.wkt").stderr == said
-    assert mars("check", "plan.dwg").stderr.endswith("; save the drawing as DXF\n")
-
-
 @each_case(
     ("words", "said"),
     [
@@ -184,12 +171,13 @@ def test_check_names_the_nearest_file_and_how_to_bring_a_dwg(folder):
             ["plan.dwg"],
             "plan.dwg: expected a Python file (.py), a learned law (.onnx), a scenario (.toml)",
         ),
-        (["gone.dxf"], "gone.dxf: there is no such file"),
+        (["rom.wkt"], "rom.wkt: there is no such file; did you mean 'room.wkt'?"),
+        (["plan.dwg"], "; save the drawing as DXF"),
     ],
 )
 def test_check_says_what_it_can_not_do(words, said, capsys):
     assert main(["check", *words]) == 2
-    assert capsys.readouterr().err.startswith(f"mars2d: {said}")
+    assert said in capsys.readouterr().err
 
 
 @pytest.mark.slow
