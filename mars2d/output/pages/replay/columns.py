@@ -46,16 +46,7 @@ class Columns:
         planes = signless.ravel().view(np.uint8).reshape(-1, 4).T
         used = max((k + 1 for k in range(4) if planes[k].any()), default=0)
         packed = zlib.compress(np.ascontiguousarray(planes[:used]).tobytes(), 6)
-        self._put(name, packed, {"shape": list(shape), "order": order, "planes": used, **more})
-
-    def add_bytes(self, name: str, values: NDArray[np.uint8], **more: Any) -> None:
-        """Pack bytes (T, ...) as changes from row to row, modulo 256."""
-        changes = values.copy()
-        changes[1:] -= values[:-1]
-        packed = zlib.compress(changes.tobytes(), 6)
-        self._put(name, packed, {"shape": list(values.shape), **more})
-
-    def _put(self, name: str, packed: bytes, entry: dict[str, Any]) -> None:
+        entry = {"shape": list(shape), "order": order, "planes": used, **more}
         self.index[name] = {"at": self.size, "bytes": len(packed), **entry}
         self._parts.append(packed)
         self.size += len(packed)

@@ -99,7 +99,7 @@ function imagesOf(columns) {
   const made = new Map();
   return (name) => {
     if (!made.has(name)) {
-      const { entry, values } = columns[name], [height, width] = entry.shape;
+      const { entry, values } = columns[name], [height, width] = entry.size;
       const canvas = document.createElement("canvas");
       Object.assign(canvas, { width, height });
       canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(values), width, height), 0, 0);
