@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from hashlib import sha256
 from itertools import pairwise
@@ -91,7 +91,7 @@ def of_text(text: str | bytes) -> dict[str, Any]:
     Raises various exceptions where it is no header at all.
     """
     header: dict[str, Any] = json.loads(text)
-    check_format(header)
+    _check_format(header)
     check_sums(header, header["format"])
     return header
 
@@ -132,7 +132,7 @@ def names_of_bodies(header: Mapping[str, Any]) -> list[str]:
     return [*columns_in(header), *(f"sensor:{name}" for name in header["sensor_robots"])]
 
 
-def check_format(header: Mapping[str, Any]) -> None:
+def _check_format(header: Mapping[str, Any]) -> None:
     """Raise InputError for a file of another version, which says which MARS2D wrote it.
 
     Raises various exceptions where this is no header at all.
@@ -158,10 +158,14 @@ def restored(header: Mapping[str, Any], columns: Columns) -> Rows:
             kind, shape = header["columns"][name]
             values = columns.get(name, np.empty(0)).reshape(shape)
             whole[name] = values.astype(kind, copy=False)
-    texts = [text.encode() for text in header["contents"]]
-    whole["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
-    whole["content_sizes"] = np.array([len(text) for text in texts], dtype=np.int64)
-    return to_record(header, whole)
+    return to_record(header, whole | texts_of(header["contents"]))
+
+
+def texts_of(contents: Sequence[str]) -> dict[str, NDArray[Any]]:
+    """Return the columns that are texts, of the contents of messages."""
+    texts = [text.encode() for text in contents]
+    sizes = np.array([len(text) for text in texts], dtype=np.int64)
+    return {"contents": np.frombuffer(b"".join(texts), dtype=np.uint8), "content_sizes": sizes}
 
 
 def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False) -> Rows:
