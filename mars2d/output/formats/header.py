@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
 from hashlib import sha256
 from itertools import pairwise
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.record import interventions
+from mars2d.record.columns import Texts
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE
@@ -158,14 +159,8 @@ def restored(header: Mapping[str, Any], columns: Columns) -> Rows:
             kind, shape = header["columns"][name]
             values = columns.get(name, np.empty(0)).reshape(shape)
             whole[name] = values.astype(kind, copy=False)
-    return to_record(header, whole | texts_of(header["contents"]))
-
-
-def texts_of(contents: Sequence[str]) -> dict[str, NDArray[Any]]:
-    """Return the columns that are texts, of the contents of messages."""
-    texts = [text.encode() for text in contents]
-    sizes = np.array([len(text) for text in texts], dtype=np.int64)
-    return {"contents": np.frombuffer(b"".join(texts), dtype=np.uint8), "content_sizes": sizes}
+    texts = Texts.of(header["contents"])
+    return to_record(header, {**whole, "contents": texts.data, "content_sizes": texts.sizes})
 
 
 def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False) -> Rows:

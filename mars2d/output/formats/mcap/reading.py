@@ -15,6 +15,7 @@ from mars2d.output.formats import header as headers
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.output.formats.mcap.row import decoded
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
+from mars2d.record.columns import Texts
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE as MESSAGES
@@ -146,7 +147,8 @@ def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | Non
         ("message", MESSAGES, as_of(np.concatenate(messages), now)),
     ):
         columns |= {f"{family}:{name}": table[name] for name in dtype.names or ()}
-    columns |= headers.texts_of(contents)
+    texts = Texts.of(contents)
+    columns |= {"contents": texts.data, "content_sizes": texts.sizes}
     whole = header | {
         "interventions": [*header["interventions"], *changes],
         "messages": bool(contents),
