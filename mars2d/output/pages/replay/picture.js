@@ -1,4 +1,5 @@
-// The picture of one moment, layer by layer: what stands still is kept, all else is drawn anew.
+// The picture of one moment, layer by layer: what stands still and the paths are kept, all else is
+// drawn anew.
 
 const LEAST_GRID = 42; // pixels between its lines
 
@@ -16,7 +17,10 @@ class Picture {
     this.y = new Float64Array(this.bodies.length);
     this.theta = new Float64Array(this.bodies.length);
     this.still = document.createElement("canvas");
-    this.stillKey = "";
+    this.paths = document.createElement("canvas");
+    this.stillKey = this.pathsKey = "";
+    this.pathRow = 0;
+    this.ends = [];
     this.leaps = record.bodies.map(() => new Set()); // the rows on the way to which there is no line
     const { values: rows } = record.columns["leaps:row"], { values: leapt } = record.columns["leaps:body"];
     rows.forEach((row, k) => this.leaps[leapt[k]].add(row));
@@ -27,13 +31,13 @@ class Picture {
   resize(width, height, ratio, numbers) {
     if (!(width > 0 && height > 0)) return;
     const size = { width: Math.round(width * ratio), height: Math.round(height * ratio) };
-    for (const canvas of [this.canvas, this.still]) Object.assign(canvas, size);
+    for (const canvas of [this.canvas, this.still, this.paths]) Object.assign(canvas, size);
     this.ratio = ratio;
     const edge = 12;
     this.camera.resize(width, height, {
       left: numbers ? 44 : edge, bottom: numbers ? 30 : edge, right: edge, top: edge,
     });
-    this.stillKey = "";
+    this.stillKey = this.pathsKey = "";
   }
 
   // -- where everything is ----------------------------------------------------------------------
@@ -112,9 +116,7 @@ class Picture {
     const context = this.canvas.getContext("2d"), { camera } = this;
     const painter = new Painter(context, camera, look.dark, this.images);
     this.drawStill(look);
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.drawImage(this.still, 0, 0);
-    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    this.put(context, this.still);
     for (const { name, stands } of this.record.layers) {
       if (look[name] && !stands) {
         if (name === "trails") this.drawTrails(context, look);
@@ -125,6 +127,13 @@ class Picture {
       if (name === this.record.lastBodies && look.picked >= 0) this.drawPicked(context, look);
     }
     if (look.grid) this.drawNumbers(painter, look);
+  }
+
+  // Put one canvas on another, pixel by pixel.
+  put(context, canvas) {
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.drawImage(canvas, 0, 0);
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
   }
 
   paintLayer(painter, name) {
@@ -251,41 +260,115 @@ class Picture {
 
   // -- paths ------------------------------------------------------------------------------------
 
-  // The paths up to now, each in one stroke; that of the picked body broad.
   drawTrails(context, look) {
-    this.bodies.forEach(({ trail: [, width, style] }, i) => this.drawTrail(context, i, width, style, look));
-    if (look.picked >= 0) this.drawTrail(context, look.picked, 3.2, "-", look);
+    this.drawPaths(look);
+    this.put(context, this.paths);
+    this.drawLooseEnds(context, look);
   }
 
-  drawTrail(context, i, width, style, look) {
-    const { camera, row: now } = this, { places } = this.columns, { rows, values } = places;
-    const scale = camera.scale * places.step, [low, bottom] = places.entry.low;
-    const left = camera.x + camera.scale * low, foot = camera.y - camera.scale * bottom;
-    const xs = i * rows, ys = (this.bodies.length + i) * rows;
-    const { marker, dashes, solid } = wakeOf(style), marks = [];
-    let px = Infinity, py = Infinity, along = 0;
-    context.beginPath();
-    for (let row = 0; row <= now; row++) {
-      const x = left + scale * values[xs + row], y = foot - scale * values[ys + row];
-      const leapt = row === 0 || this.leaps[i].has(row); // it was put there, and went no way
-      const length = leapt ? 0 : Math.hypot(x - px, y - py);
-      if (!leapt && length < 1.5) continue; // no dots on top of dots
-      if (leapt) context.moveTo(x, y);
-      else context.lineTo(x, y);
-      if (row === 0 || Math.floor((along + length) / MARK_SPACING) > Math.floor(along / MARK_SPACING)) marks.push([x, y]);
-      along += length;
-      [px, py] = [x, y];
+  // As it looks with its opacity on the paper: pieces of a path overlap.
+  trailColor(i, look) {
+    return laidOver(shade(this.bodies[i].trail[0], look.dark), look.colors.paper);
+  }
+
+  // Prolong the paths on their own canvas up to the row, or draw them from the start.
+  drawPaths(look) {
+    const key = `${this.camera.key} ${look.dark}`;
+    if (key !== this.pathsKey || this.pathRow > this.row) {
+      this.pathsKey = key;
+      this.paths.getContext("2d").setTransform(1, 0, 0, 1, 0, 0);
+      this.paths.getContext("2d").clearRect(0, 0, this.paths.width, this.paths.height);
+      this.ends = this.bodies.map(() => ({ row: 0, along: 0 }));
+      this.pathRow = 0;
     }
-    if (solid) context.lineTo(camera.x + camera.scale * this.x[i], camera.y - camera.scale * this.y[i]);
-    // As the path looks with its opacity on the paper.
-    const color = laidOver(shade(this.bodies[i].trail[0], look.dark), look.colors.paper);
-    Object.assign(context, { strokeStyle: color, lineWidth: width, lineJoin: "round" });
-    context.setLineDash(dashes ?? []);
-    if (solid || dashes) context.stroke();
-    context.setLineDash([]);
-    if (!marker) return;
-    const painter = new Painter(context, camera, false, this.images);
-    for (const [x, y] of marks) painter.mark(marker, x, y, color, width);
+    const context = this.paths.getContext("2d");
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    for (let i = 0; i < this.bodies.length; i++) this.prolong(context, i, this.ends[i], look);
+    this.pathRow = this.row;
+  }
+
+  prolong(context, i, end, look) {
+    const { places } = this.columns, { rows } = places, { camera } = this, n = this.bodies.length;
+    const scale = camera.scale * places.step;
+    const left = camera.x + camera.scale * places.entry.low[0];
+    const foot = camera.y - camera.scale * places.entry.low[1];
+    const [, width, style] = this.bodies[i].trail;
+    const { marker, dashes, solid } = wakeOf(style);
+    const xs = i * rows, ys = (n + i) * rows;
+    let px = left + scale * places.values[xs + end.row], py = foot - scale * places.values[ys + end.row];
+    const marks = [], start = end.along;
+    let drawn = false;
+    context.beginPath();
+    context.moveTo(px, py);
+    if (marker && end.row === 0 && end.along === 0) marks.push([px, py]);
+    for (let row = end.row + 1; row <= this.row; row++) {
+      const x = left + scale * places.values[xs + row], y = foot - scale * places.values[ys + row];
+      if (this.leaps[i].has(row)) { // it was put there, and went no way
+        context.moveTo(x, y);
+        end.row = row;
+        [px, py] = [x, y];
+        continue;
+      }
+      const length = Math.hypot(x - px, y - py);
+      if (length < 1.5) continue; // no dots on top of dots; the loose end leads on to the body
+      context.lineTo(x, y);
+      const before = end.along;
+      end.along += length;
+      if (marker && Math.floor(end.along / MARK_SPACING) > Math.floor(before / MARK_SPACING)) marks.push([x, y]);
+      end.row = row;
+      [px, py] = [x, y];
+      drawn = true;
+    }
+    this.pathInk(context, i, look);
+    if (drawn && (solid || dashes)) {
+      if (dashes) {
+        context.setLineDash(dashes);
+        context.lineDashOffset = start;
+      }
+      context.stroke();
+      context.setLineDash([]);
+    }
+    if (marks.length) {
+      const painter = new Painter(context, camera, false, this.images);
+      for (const [x, y] of marks) painter.mark(marker, x, y, this.trailColor(i, look), width);
+    }
+  }
+
+  pathInk(context, i, look) {
+    context.strokeStyle = this.trailColor(i, look);
+    context.globalAlpha = 1;
+    context.lineWidth = this.bodies[i].trail[1];
+    context.lineJoin = "round";
+  }
+
+  // From where each path was last drawn to where its body is; and the path of the picked one, broad.
+  drawLooseEnds(context, look) {
+    const { camera } = this;
+    for (let i = 0; i < this.bodies.length; i++) {
+      if (!wakeOf(this.bodies[i].trail[2]).solid) continue;
+      this.pathInk(context, i, look);
+      context.beginPath();
+      const [x, y] = this.placeAt(this.ends[i].row, i);
+      context.moveTo(camera.x + camera.scale * x, camera.y - camera.scale * y);
+      context.lineTo(camera.x + camera.scale * this.x[i], camera.y - camera.scale * this.y[i]);
+      context.stroke();
+    }
+    if (look.picked < 0) return;
+    const i = look.picked;
+    context.beginPath();
+    let px = Infinity, py = Infinity;
+    for (let row = 0; row <= this.row + 1; row++) {
+      const [x, y] = row > this.row ? [this.x[i], this.y[i]] : this.placeAt(row, i);
+      const at = [camera.x + camera.scale * x, camera.y - camera.scale * y];
+      const leapt = row <= this.row && this.leaps[i].has(row);
+      if (row <= this.row && !leapt && Math.hypot(at[0] - px, at[1] - py) < 1.5) continue;
+      if (leapt) context.moveTo(...at);
+      else context.lineTo(...at);
+      [px, py] = at;
+    }
+    this.pathInk(context, i, look);
+    context.lineWidth = 3.2;
+    context.stroke();
   }
 
   // -- what is laid over ------------------------------------------------------------------------
