@@ -6,9 +6,8 @@ can be repeated to the bit from its commands and interventions.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, fields
-from math import isfinite
 from typing import Any
 
 from mars2d.core.plane import Point
@@ -122,44 +121,6 @@ def of_one_hand(before: Intervention, after: Intervention) -> bool:
     if isinstance(before, Change) and isinstance(after, Change) and after.options:
         return [name for name, _ in before.options] == [name for name, _ in after.options]
     return False
-
-
-def check(done: Sequence[Intervention], scenario: Scenario, rows: int) -> None:
-    """Raise ValueError for interventions that no run of `rows` rows can have, in this order."""
-    robots, bodies = len(scenario.robots), len(scenario.bodies)
-    before = 0
-    for each in done:
-        if isinstance(each, Place):
-            sound = _is_index(each.body, bodies) and _are_numbers(each.pose, 3)
-        elif isinstance(each, Pull):
-            aimed = each.target is None or _are_numbers(each.target, 2)
-            held = _are_numbers(each.grip, 2) and _are_numbers((each.force, each.speed), 2)
-            sound = _is_index(each.body, bodies) and held and aimed
-        elif isinstance(each, Steer):
-            sound = _is_index(each.robot, robots) and isinstance(each.driven, bool)
-        else:
-            sound = isinstance(each.scenario, Scenario) and all(
-                _is_index(body, bodies) and _are_numbers(pose, 3) for body, pose in each.moved
-            )
-            sound &= [body.name for body in each.scenario.bodies] == [
-                body.name for body in scenario.bodies
-            ]
-            sound &= all(len(pair) == 2 and isinstance(pair[0], str) for pair in each.options)
-        if not (sound and _is_index(each.row, rows + 1) and each.row >= before):
-            raise ValueError(type(each).__name__)
-        before = each.row
-
-
-def _is_index(value: object, end: int) -> bool:
-    return type(value) is int and 0 <= value < end
-
-
-def _are_numbers(values: object, count: int) -> bool:
-    return (
-        isinstance(values, tuple)
-        and len(values) == count
-        and all(type(value) in (int, float) and isfinite(value) for value in values)
-    )
 
 
 def _read(value: Any) -> Any:

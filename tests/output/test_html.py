@@ -44,8 +44,6 @@ def held(text):
 
 def decoded(entry, raw):
     shape = entry["shape"]
-    if "order" not in entry:
-        return np.cumsum(raw.reshape(shape), axis=0, dtype=np.uint8)
     count = int(np.prod(shape))
     if count == 0:
         return np.empty(shape)

@@ -137,16 +137,16 @@ def _swapped(header):
 
 
 EDITS = [
-    (_swapped, "its scenario"),
-    (lambda header: {"seed": header["seed"] + 1}, "its seed"),
-    (lambda header: {"finished": not header["finished"]}, "whether it was finished"),
-    (lambda header: {"filename": "other.py"}, "the name of its experiment"),
-    (lambda header: {"versions": header["versions"] | {"numpy": "1"}}, "the versions"),
-    (lambda header: {"sensor_robots": {}}, "which robots carry its sensors"),
-    (lambda header: {"interventions": []}, "what was done by hand"),
-    (lambda header: {"digest": "0" * 64}, "its digest"),
-    (lambda header: {"over_message": "the other one won"}, "why it ended"),
-    (lambda _: {"signed": "by me"}, "'signed'"),
+    (_swapped, "scenario"),
+    (lambda header: {"seed": header["seed"] + 1}, "seed"),
+    (lambda header: {"finished": not header["finished"]}, "finished"),
+    (lambda header: {"filename": "other.py"}, "filename"),
+    (lambda header: {"versions": header["versions"] | {"numpy": "1"}}, "versions"),
+    (lambda header: {"sensor_robots": {}}, "sensor_robots"),
+    (lambda header: {"interventions": []}, "interventions"),
+    (lambda header: {"digest": "0" * 64}, "digest"),
+    (lambda header: {"over_message": "the other one won"}, "over_message"),
+    (lambda _: {"signed": "by me"}, "signed"),
 ]  # fmt: skip
 
 

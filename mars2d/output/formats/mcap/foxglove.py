@@ -104,15 +104,7 @@ class Topics:
             pose = self._poses.poses.add()
             link = self._tf.transforms.add(parent_frame_id=self._world, child_frame_id=name)
             pose.position.z = link.translation.z = 0.0
-            self._places.append(
-                (
-                    pose.position,
-                    pose.orientation,
-                    link.timestamp,
-                    link.translation,
-                    link.rotation,
-                )
-            )
+            self._places.append((pose, link))
         self._contacts_channel, self._touched = channel("/contacts", SceneUpdate), False
         self._scans = list(self._scanned(scenario, sensor_robots, channel))
         self._drawn: Scenario | None = None
@@ -165,16 +157,13 @@ class Topics:
             yield self._scene_channel, self._scene(scenario, ns)
         seconds, nanos = divmod(ns, 10**9)
         self._poses.timestamp.seconds, self._poses.timestamp.nanos = seconds, nanos
-        poses = [row.pose.tolist(), row.prop_pose.tolist()]
-        places = iter(self._places)
-        for xs, ys, thetas in poses:
-            for x, y, theta in zip(xs, ys, thetas, strict=True):
-                position, orientation, stamp, translation, rotation = next(places)
-                position.x = translation.x = x
-                position.y = translation.y = y
-                orientation.z = rotation.z = sin(theta / 2)
-                orientation.w = rotation.w = cos(theta / 2)
-                stamp.seconds, stamp.nanos = seconds, nanos
+        poses = np.hstack([row.pose.reshape(3, -1), row.prop_pose.reshape(3, -1)]).T.tolist()
+        for (pose, link), (x, y, theta) in zip(self._places, poses, strict=True):
+            pose.position.x = link.translation.x = x
+            pose.position.y = link.translation.y = y
+            pose.orientation.z = link.rotation.z = sin(theta / 2)
+            pose.orientation.w = link.rotation.w = cos(theta / 2)
+            link.timestamp.seconds, link.timestamp.nanos = seconds, nanos
         yield self._poses_channel, self._poses.SerializeToString()
         yield self._tf_channel, self._tf.SerializeToString()
         if len(row.contacts) or self._touched:

@@ -15,6 +15,7 @@ from mars2d.output.formats import header as headers
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.output.formats.mcap.row import decoded
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
+from mars2d.record.columns import Texts
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.message import MESSAGE as MESSAGES
@@ -50,9 +51,7 @@ def read(path: Path, largest: int) -> Rows:
             elif isinstance(told, Channel) and told.topic == TOPIC:
                 channels.add(told.id)
             elif isinstance(told, Metadata) and told.name == BEGIN:
-                header = json.loads(told.metadata["header"])
-                headers.check_format(header)
-                headers.check_sums(header, header["format"])
+                header = headers.of_text(told.metadata["header"])
                 _cut(rows, int(told.metadata["row"]))
             elif isinstance(told, Metadata) and told.name == END:
                 end, count = json.loads(told.metadata["end"]), int(told.metadata["rows"])
@@ -148,9 +147,8 @@ def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | Non
         ("message", MESSAGES, as_of(np.concatenate(messages), now)),
     ):
         columns |= {f"{family}:{name}": table[name] for name in dtype.names or ()}
-    texts = [text.encode() for text in contents]
-    columns["contents"] = np.frombuffer(b"".join(texts), dtype=np.uint8)
-    columns["content_sizes"] = np.array([len(text) for text in texts], dtype=np.int64)
+    texts = Texts.of(contents)
+    columns |= {"contents": texts.data, "content_sizes": texts.sizes}
     whole = header | {
         "interventions": [*header["interventions"], *changes],
         "messages": bool(contents),

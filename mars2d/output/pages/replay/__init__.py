@@ -128,12 +128,7 @@ def _read(name: str) -> str:
 
 def filled(template: str, words: Mapping[str, str]) -> str:
     """Return a template with each {{name}} replaced by its words, which are taken as they are."""
-    parts = template.split("{{")
-    found = [parts[0]]
-    for part in parts[1:]:
-        name, _, rest = part.partition("}}")
-        found.append(words[name] + rest)
-    return "".join(found)
+    return re.sub("{{(.*?)}}", lambda found: words[found[1]], template)
 
 
 def policy(scripts: Iterable[str], styles: Iterable[str]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -46,16 +45,7 @@ class Columns:
         planes = signless.ravel().view(np.uint8).reshape(-1, 4).T
         used = max((k + 1 for k in range(4) if planes[k].any()), default=0)
         packed = zlib.compress(np.ascontiguousarray(planes[:used]).tobytes(), 6)
-        self._put(name, packed, {"shape": list(shape), "order": order, "planes": used, **more})
-
-    def add_bytes(self, name: str, values: NDArray[np.uint8], **more: Any) -> None:
-        """Pack bytes (T, ...) as changes from row to row, modulo 256."""
-        changes = values.copy()
-        changes[1:] -= values[:-1]
-        packed = zlib.compress(changes.tobytes(), 6)
-        self._put(name, packed, {"shape": list(values.shape), **more})
-
-    def _put(self, name: str, packed: bytes, entry: dict[str, Any]) -> None:
+        entry = {"shape": list(shape), "order": order, "planes": used, **more}
         self.index[name] = {"at": self.size, "bytes": len(packed), **entry}
         self._parts.append(packed)
         self.size += len(packed)
@@ -79,21 +69,3 @@ def rounded(values: NDArray[Any], step: float) -> Int:
     steps = np.rint(np.where(finite, values, 0.0) / step)
     kept = np.clip(steps, 1 - MAX_NUMBER, MAX_NUMBER)
     return np.where(finite, kept, MISSING).astype(np.int64)
-
-
-def fitted(
-    room: int, pack: Callable[[int], tuple[Columns, Any, int]], stride: int = 1
-) -> tuple[Columns, Any, int]:
-    """Return columns that take at most `room` bytes, what is said of them, and their stride.
-
-    pack: returns the columns of one row in so many, what is said of them, and the number of their
-    rows. stride: the first to try; its multiples follow until the columns fit, or until one row is
-    left.
-    """
-    every = 1
-    while True:
-        columns, told, rows = pack(every * stride)
-        size = columns.size + columns.beside
-        if size <= room or rows <= 1:
-            return columns, told, every * stride
-        every = max(every + 1, int(every * size / max(room, 1)))

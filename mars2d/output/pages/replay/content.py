@@ -33,7 +33,7 @@ from mars2d.output.layers.trails import (
 )
 from mars2d.output.marks import MARKS
 from mars2d.output.pages.replay import sensors
-from mars2d.output.pages.replay.columns import Columns, Int, fitted, rounded
+from mars2d.output.pages.replay.columns import Columns, Int, rounded
 from mars2d.output.pages.replay.drawings import (
     Drawing,
     Flat,
@@ -372,11 +372,20 @@ class _Content:
     def _fit(
         self, what: str, room: int, pack: Callable[[int], tuple[Columns, Any, int]], stride: int = 1
     ) -> tuple[Any, int]:
-        """Add columns as `fitted` makes them, with a note; return what is said of them, and stride.
+        """Add columns of at most `room` bytes, and a note; return what is said of them, and stride.
 
-        what: for the note; "" for none.
+        what: for the note; "" for none. pack: returns the columns of one row in so many, what is
+        said of them, and the number of their rows. stride: the first to try; its multiples follow
+        until the columns fit, or until one row is left.
         """
-        columns, told, every = fitted(room, pack, stride)
+        times = 1
+        while True:
+            columns, told, rows = pack(times * stride)
+            size = columns.size + columns.beside
+            if size <= room or rows <= 1:
+                break
+            times = max(times + 1, int(times * size / max(room, 1)))
+        every = times * stride
         self.columns.take(columns)
         if every > 1 and what:
             self.notes.append(f"{what}: one row in {every} of this file")

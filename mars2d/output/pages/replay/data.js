@@ -21,14 +21,7 @@ class Column {
     this.width = entry.shape.slice(1).reduce((a, b) => a * b, 1);
     this.step = entry.step ?? 1;
     this.every = entry.every ?? 1;
-    if (entry.order === undefined) this.values = this.summed(bytes);
-    else this.values = this.joined(bytes);
-  }
-
-  // Bytes, row by row, each row as what it differs from the one before.
-  summed(bytes) {
-    for (let k = this.width; k < bytes.length; k++) bytes[k] += bytes[k - this.width];
-    return bytes;
+    this.values = this.joined(bytes);
   }
 
   // Whole numbers, series by series, from planes of their bytes and differences in time.

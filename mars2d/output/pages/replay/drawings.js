@@ -100,9 +100,10 @@ function imagesOf(columns) {
   return (name) => {
     if (!made.has(name)) {
       const { entry, values } = columns[name], [height, width] = entry.shape;
+      const pixels = Uint8ClampedArray.from(values, (_, k) => values[(k % (4 * width)) * height + Math.floor(k / (4 * width))]);
       const canvas = document.createElement("canvas");
       Object.assign(canvas, { width, height });
-      canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(values), width, height), 0, 0);
+      canvas.getContext("2d").putImageData(new ImageData(pixels, width, height), 0, 0);
       made.set(name, canvas);
     }
     return made.get(name);

@@ -136,7 +136,7 @@ class Book:
         for key, pixels in scene.images.items():
             if key not in self.images:
                 self.images[key] = f"{name}:image{len(self.images)}"
-                columns.add_bytes(self.images[key], pixels)
+                columns.add(self.images[key], pixels, order=1)
         listed: list[int] = []
         for style, count in zip(scene.styles, scene.counts, strict=True):
             own = ("image", self.images[style[1]]) if style[0] == "image" else style
