@@ -11,7 +11,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mars2d.cli.arguments import add_shared
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.files import why_unwritable
 from mars2d.core.interrupt import interrupts
@@ -55,11 +54,6 @@ Make = Callable[[], object]
 
 Made = dict[str, Path]
 """The files that were made, by the names of their arguments."""
-
-
-def add_html(parser: argparse.ArgumentParser) -> None:
-    """Add the replay as an HTML page."""
-    add_shared(parser, "html")
 
 
 def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str, ...]]) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 
 from mars2d.addons import maps
 from mars2d.cli import remarks
+from mars2d.cli.arguments import MANY, option
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import run_headless
 from mars2d.core.deadline import PATIENCE, Deadline
@@ -50,34 +51,21 @@ LOADING = 60.0
 """The time that loading a file may take, seconds."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    parser.add_argument(
-        "file",
-        metavar="FILE",
-        help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
-        f"a learned law ({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), "
-        "or a map",
-    )
-    parser.add_argument(
-        "--laws",
-        nargs="?",
-        const=SAME,
-        metavar="EXPERIMENT",
-        help="with a record: ask the laws again; by default those of its own experiment",
-    )
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY=VALUE",
-        help="how a map is read; with --laws, a field of the experiment, if not as in the record",
-    )
-    parser.add_argument(
-        "--for", dest="game", metavar="GAME", help="with a law: play it in this game, with --role"
-    )
-    parser.add_argument("--role", metavar="ROLE", help="with --for: the role that the law plays")
-    parser.add_argument("--figure", type=Path, metavar="OUT", help="draw a map: .png, .pdf, .svg")
+_FILES = (
+    "an experiment, sensors, add-ons, drives, laws (.py or an example's name), a learned law "
+    f"({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map"
+)
+_LAWS = "with a record: ask the laws again; by default those of its own experiment"
+_SET = "how a map is read; with --laws, a field of the experiment, if not as in the record"
+
+ARGUMENTS = {
+    "file": option("FILE", _FILES),
+    "--laws": option("EXPERIMENT", _LAWS, nargs="?", const=SAME),
+    "--set": option("KEY=VALUE", _SET, **MANY),
+    "--for": option("GAME", "with a law: play it in this game, with --role", dest="game"),
+    "--role": option("ROLE", "with --for: the role that the law plays"),
+    "--figure": option("OUT", "draw a map: .png, .pdf, .svg", Path),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:

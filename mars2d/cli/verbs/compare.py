@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.cli.arguments import add_shared, options_of, preferences_of
+from mars2d.cli.arguments import options_of, preferences_of, shared
 from mars2d.cli.outputs import DURATION, FPS, OUTPUTS, check_outputs, film_speed, filming
 from mars2d.cli.runs import has_display, make_folder, run_headless
 from mars2d.core.errors import InputError, Mars2dError
@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 FOLDER = Path("mars2d_compare")
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add_shared(parser, "experiment headless seed speed stop-time set figure video dark text json")
+ARGUMENTS = shared("experiment headless seed speed stop-time set figure video dark text json")
 
 
 def execute(arguments: argparse.Namespace) -> None:

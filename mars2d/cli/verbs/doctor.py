@@ -6,6 +6,7 @@ import argparse
 import json
 from pathlib import Path
 
+from mars2d.cli.arguments import option
 from mars2d.cli.verbs import VERBS
 from mars2d.core.errors import InputError, Mars2dError, nearest
 from mars2d.core.extras import extra
@@ -33,22 +34,13 @@ _mars2d_experiments() {{
 """A function of the shell that completes the names of examples, and files."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what to print instead of the examination."""
-    add = parser.add_argument
-    add(
-        "--completion",
-        metavar="SHELL",
-        help="print the script by which bash, zsh, tcsh, fish or powershell completes commands",
-    )
-    add(
-        "--schema",
-        nargs="?",
-        const=Path("-"),
-        type=Path,
-        metavar="OUT",
-        help="print the JSON Schema of scenario files, for editors, or write it to a file",
-    )
+_SHELL = "print the script by which bash, zsh, tcsh, fish or powershell completes commands"
+_SCHEMA = "print the JSON Schema of scenario files, for editors, or write it to a file"
+
+ARGUMENTS = {
+    "--completion": option("SHELL", _SHELL),
+    "--schema": option("OUT", _SCHEMA, Path, nargs="?", const=Path("-")),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mars2d.cli.arguments import add_shared, options_of, preferences_of
+from mars2d.cli.arguments import option, options_of, preferences_of, shared
 from mars2d.cli.runs import require_display
 from mars2d.core.errors import InputError
 from mars2d.core.terminal import warn
@@ -19,11 +19,10 @@ NO_DISPLAY = (
 )
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    what = "a .toml or .py file, or an example"
-    parser.add_argument("scenario", metavar="SCENARIO", nargs="?", help=what)
-    add_shared(parser, "set dark text")
+ARGUMENTS = {
+    "scenario": option("SCENARIO", "a .toml or .py file, or an example", nargs="?"),
+    **shared("set dark text"),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 from mars2d.cli import remarks
-from mars2d.cli.arguments import add_shared, options_of, preferences_of
+from mars2d.cli.arguments import MANY, option, options_of, preferences_of, shared
 from mars2d.cli.outputs import (
     FPS,
     OUTPUTS,
@@ -43,32 +43,17 @@ LONG = 20.0
 """Seconds of the engine's work after which it is worth while to have it compiled."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add_shared(parser, "experiment headless seed speed stop-time set figure at video size from to")
-    add_shared(parser, "html theory dark text json")
-    add = parser.add_argument
-    add(
-        "--record",
-        type=Path,
-        metavar="OUT",
-        help="save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc",
-    )
-    add(
-        "--foxglove",
-        type=int,
-        nargs="?",
-        const=FOXGLOVE,
-        metavar="PORT",
-        help=f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}",
-    )
-    add(
-        "--human",
-        action="append",
-        default=[],
-        metavar="WHO",
-        help="a robot to drive by hand: its name or index, or a role; may be given twice",
-    )
+_SAVED = "save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc"
+_SERVED = f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}"
+_DRIVEN = "a robot to drive by hand: its name or index, or a role; may be given twice"
+
+ARGUMENTS = {
+    **shared("experiment headless seed speed stop-time set figure at video size from to"),
+    **shared("html theory dark text json"),
+    "--record": option("OUT", _SAVED, Path),
+    "--foxglove": option("PORT", _SERVED, int, nargs="?", const=FOXGLOVE),
+    "--human": option("WHO", _DRIVEN, **MANY),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import argparse
 import dataclasses
 from pathlib import Path
-from typing import Any
 
-from mars2d.cli.arguments import add_preferences, add_workers, workers_of
-from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, naming_lost_letters
+from mars2d.cli.arguments import MANY, option, shared, workers_of
+from mars2d.cli.outputs import OUTPUTS, check_outputs, naming_lost_letters
 from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
@@ -35,36 +34,33 @@ OF_TABLES = ("compare", "unit", "style")
 OF_ROWS = ("view", "record", "html")
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add = parser.add_argument
-    several: dict[str, Any] = {"action": "append", "default": []}
-    add("experiment", nargs="?", metavar="EXPERIMENT",
-        help="a .py or .toml file, an example's name, or a study's .csv")  # fmt: skip
-    add("--set", **several, metavar="KEY=VALUES",
-        help="a setting's values: 4,8,16; or 0.1:1.0:10, ten from 0.1 to 1.0; or one")  # fmt: skip
-    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
-    add("--seeds", type=int, metavar="N", help="number of seeds, the same at each point (1)")
-    add("--first-seed", type=int, metavar="K", help="the first seed (default: 0)")
-    add("--measure", **several, metavar="NAME",
-        help="a function of the record in the experiment's file, or a built-in one")  # fmt: skip
-    add("--unit", **several, metavar="NAME=UNIT",
-        help="the unit of a setting or a measure, such as spread=m")  # fmt: skip
-    add("--out", type=Path, metavar="OUT.csv", help=f"file of the rows (default: {TABLE})")
-    add("--figure", type=Path, metavar="OUT", help="draw the measures: .png, .pdf, .svg")
-    add("--style", metavar="STYLE", help=f"of the figure: {', '.join(STYLES)}")
-    add("--compare", metavar="KEY", help="compare a setting's values, seed by seed")
-    add("--confidence", type=float, default=0.95, metavar="P", help="of intervals (default: 0.95)")
-    add("--time-limit", type=float, metavar="S", help="seconds that a run may take")
-    add("--retry", action="store_true", help="run rows with an error again")
-    add("--keep", action="store_true",
-        help="keep the records beside the table; other measures then need no run")  # fmt: skip
-    add_workers(parser)
-    add("--row", type=int, metavar="N", help="run one row of a study again")
-    add("--view", action="store_true", help="with --row: show it in a window")
-    add("--record", type=Path, metavar="OUT", help="with --row: save all data of the run")
-    add_html(parser)
-    add_preferences(parser)
+_FILE = "a .py or .toml file, an example's name, or a study's .csv"
+_VALUES = "a setting's values: 4,8,16; or 0.1:1.0:10, ten from 0.1 to 1.0; or one"
+_MEASURE = "a function of the record in the experiment's file, or a built-in one"
+_KEEP = "keep the records beside the table; other measures then need no run"
+
+ARGUMENTS = {
+    "experiment": option("EXPERIMENT", _FILE, nargs="?"),
+    "--set": option("KEY=VALUES", _VALUES, **MANY),
+    **shared("stop-time"),
+    "--seeds": option("N", "number of seeds, the same at each point (1)", int),
+    "--first-seed": option("K", "the first seed (default: 0)", int),
+    "--measure": option("NAME", _MEASURE, **MANY),
+    "--unit": option("NAME=UNIT", "the unit of a setting or a measure, such as spread=m", **MANY),
+    "--out": option("OUT.csv", f"file of the rows (default: {TABLE})", Path),
+    "--figure": option("OUT", "draw the measures: .png, .pdf, .svg", Path),
+    "--style": option("STYLE", f"of the figure: {', '.join(STYLES)}"),
+    "--compare": option("KEY", "compare a setting's values, seed by seed"),
+    "--confidence": option("P", "of intervals (default: 0.95)", float, default=0.95),
+    "--time-limit": option("S", "seconds that a run may take", float),
+    "--retry": option(None, "run rows with an error again"),
+    "--keep": option(None, _KEEP),
+    **shared("workers cluster"),
+    "--row": option("N", "run one row of a study again", int),
+    "--view": option(None, "with --row: show it in a window"),
+    "--record": option("OUT", "with --row: save all data of the run", Path),
+    **shared("html dark text"),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:
