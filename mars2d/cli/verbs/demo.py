@@ -7,13 +7,12 @@ from pathlib import Path
 
 from mars2d.cli.arguments import option, shared
 from mars2d.cli.outputs import DURATION
-from mars2d.cli.runs import has_display, make_folder, print_examples
+from mars2d.cli.runs import has_display, print_examples
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.experiment import open_experiment
 
 FOLDER = Path("mars2d_demo")
-
 
 ARGUMENTS = {
     "name": option("NAME", "an example (default: list all)", nargs="?"),
@@ -38,7 +37,7 @@ def execute(arguments: argparse.Namespace) -> None:
     if asked.headless or not has_display():
         require_pygame("a film")
         asked.speed = max(open_experiment(name).scenario.stop_time / DURATION, 1e-9)
-        make_folder(FOLDER)
+        FOLDER.mkdir(exist_ok=True)
         files = [FOLDER / f"{Path(name).stem}{suffix}" for suffix in (".png", ".gif")]
         asked.headless, asked.size, (asked.figure, asked.video) = True, (640, 480), files
     run.execute(asked)

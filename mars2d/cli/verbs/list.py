@@ -17,7 +17,6 @@ FAMILIES = {
     "Add-ons": "addons",
 }
 
-
 ARGUMENTS: dict[str, dict[str, Any]] = {}
 
 

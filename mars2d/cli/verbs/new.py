@@ -38,7 +38,6 @@ if __name__ == "__main__":  # for the Run button of an editor
     mars2d.run(scenario, speed=1)
 '''
 
-
 ARGUMENTS = {"name": option("NAME", "the file to write, as walk or walk.py")}
 
 

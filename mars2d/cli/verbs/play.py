@@ -15,7 +15,6 @@ from mars2d.scenario.roles import contest_of, contests_of, robots_named
 MOST_NAMES = 5
 """How many robots a message names."""
 
-
 ARGUMENTS = {
     "game": option("GAME", "an example or a file (default: list the games)", nargs="?"),
     "--role": option(

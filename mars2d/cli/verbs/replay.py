@@ -16,7 +16,6 @@ NO_DISPLAY = (
     "with --html OUT.html, or a figure with mars2d plot"
 )
 
-
 ARGUMENTS = shared("record speed theory video size from to html dark text")
 
 

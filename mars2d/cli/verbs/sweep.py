@@ -23,16 +23,8 @@ from mars2d.study.units import checked_units, parse_units
 TABLE = Path("sweep.csv")
 """The default file of the rows."""
 
-OF_RUNS = (
-    "set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry", "keep",
-    "workers", "cluster",
-)  # fmt: skip
+OF_RUNS = "set stop-time seeds first-seed measure out time-limit retry keep workers cluster"
 """The arguments that choose the runs; they don't apply to an existing table."""
-
-OF_TABLES = ("compare", "unit", "style")
-
-OF_ROWS = ("view", "record", "html")
-
 
 _FILE = "a .py or .toml file, an example's name, or a study's .csv"
 _VALUES = "a setting's values: 4,8,16; or 0.1:1.0:10, ten from 0.1 to 1.0; or one"
@@ -68,14 +60,14 @@ def execute(arguments: argparse.Namespace) -> None:
     check_outputs(arguments, {name: OUTPUTS[name] for name in ("record", "figure", "html")})
     given = arguments.experiment or ""
     if arguments.row is not None:
-        _refuse(arguments, (*OF_RUNS, *OF_TABLES), "--row N runs one row as it was")
+        _refuse(arguments, f"{OF_RUNS} compare unit style", "--row N runs one row as it was")
         show_row(arguments, _table_here(arguments))
         return
     if arguments.figure is None:
-        _refuse(arguments, ("style",), "it is of a figure: give --figure OUT as well")
+        _refuse(arguments, "style", "it is of a figure: give --figure OUT as well")
     style_of(arguments.style or "screen")
     confident(arguments.confidence)
-    _refuse(arguments, OF_ROWS, "it is of one run: give --row N")
+    _refuse(arguments, "view record html", "it is of one run: give --row N")
     if not given:
         raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
     if given.lower().endswith(".csv"):
@@ -92,10 +84,10 @@ def execute(arguments: argparse.Namespace) -> None:
             tell(f"records: {records_beside(out)}")
 
 
-def _refuse(arguments: argparse.Namespace, names: tuple[str, ...], why: str) -> None:
-    for name in names:
-        if getattr(arguments, name) not in (None, False, []):
-            raise InputError(f"--{name.replace('_', '-')}: {why}")
+def _refuse(arguments: argparse.Namespace, names: str, why: str) -> None:
+    for name in names.split():
+        if getattr(arguments, name.replace("-", "_")) not in (None, False, []):
+            raise InputError(f"--{name}: {why}")
 
 
 def _table_here(arguments: argparse.Namespace) -> Path:
