@@ -7,14 +7,15 @@ from pathlib import Path
 
 from mars2d.cli.arguments import preferences_of
 from mars2d.cli.outputs import conclude, run_and_save
-from mars2d.cli.runs import has_display, run_headless, show, source_of
+from mars2d.cli.runs import opens_window, run_headless, show, source_of
 from mars2d.core.errors import InputError, shown
-from mars2d.core.terminal import aligned, tell, warn
+from mars2d.core.terminal import tell, warn
 from mars2d.output.formats import log_to
 from mars2d.scenario.experiment import open_experiment
 from mars2d.study.job import code_of
 from mars2d.study.measures import measure_named, measured
 from mars2d.study.table import Result, Table
+from mars2d.tournaments.league_text import aligned
 from mars2d.world.record import Record
 
 
@@ -37,9 +38,7 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
         tell(f"then: {then.error}")
     if then.code and code_of(experiment, then.code) != then.code:
         warn(f"{table.experiment}, what it reads, or MARS2D has changed")
-    view = arguments.view and has_display()
-    if arguments.view and not view:
-        warn("there is no display, so this runs without a window")
+    view = opens_window(arguments.view)
     arguments.video = arguments.at = None
 
     def run() -> tuple[Record, None]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
-from mars2d.core.terminal import tell
+from mars2d.core.terminal import tell, warn
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import courses, examples, experiment_name, title_of
 from mars2d.scenario.experiment import Experiment
@@ -36,6 +36,14 @@ def has_display() -> bool:
     from mars2d.window.screen.display import display_available
 
     return display_available()
+
+
+def opens_window(wanted: bool) -> bool:
+    """Return whether a window is wanted and can be opened; warn if it can't be."""
+    if wanted and not has_display():
+        warn("there is no display, so this runs without a window")
+        return False
+    return wanted
 
 
 def require_display(otherwise: str) -> None:

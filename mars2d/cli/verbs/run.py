@@ -25,10 +25,11 @@ from mars2d.cli.outputs import (
     run_and_save,
     save_film,
 )
-from mars2d.cli.runs import has_display, require_display, run_headless, show
+from mars2d.cli.runs import opens_window, require_display, run_headless, show
 from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
+from mars2d.physics.islands import reason_without
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.prediction import table
 from mars2d.scenario.roles import robots_named
@@ -70,7 +71,7 @@ def execute(arguments: argparse.Namespace) -> None:
             watchers: list[Watcher] = [bounds, *live]
 
             def run() -> tuple[Record, Make | None]:
-                if not _wants_window(arguments):
+                if not opens_window(not arguments.headless):
                     return _run_headless(arguments, experiment, watchers)
                 log, kept = formats.log_to(arguments.record), arguments.record is not None
                 look, speed = preferences_of(arguments), arguments.speed
@@ -138,13 +139,6 @@ def _live(port: int | None) -> Iterator[list[Watcher]]:
         yield [live]
 
 
-def _wants_window(arguments: argparse.Namespace) -> bool:
-    if arguments.headless or has_display():
-        return not arguments.headless
-    warn("there is no display, so this runs without a window")
-    return False
-
-
 def _run_headless(
     arguments: argparse.Namespace, experiment: Experiment, watchers: Sequence[Watcher]
 ) -> tuple[Record, Make | None]:
@@ -161,22 +155,13 @@ def _run_headless(
         world = run_headless(experiment, [footage, *watchers], log, pace)
         last = world.frame
         film = partial(save_film, footage.frames(last), footage.count(last), speed, arguments)
-    _advise_to_compile(world.simulation.engine_seconds)
+    seconds = world.simulation.engine_seconds
+    if seconds >= LONG and reason_without():
+        from mars2d.reports.remedy import remedy
+
+        slow = f"the engine took {seconds:.0f} s, since {reason_without()}"
+        warn(f"{slow}. Compiled it is many times quicker: {remedy()}")
     return world.record, film
-
-
-def _advise_to_compile(seconds: float) -> None:
-    """Print how the engine would be quicker, if it took long because it was not compiled."""
-    from mars2d.physics.islands import reason_without
-
-    if seconds < LONG or not reason_without():
-        return
-    from mars2d.reports.remedy import remedy
-
-    warn(
-        f"the engine took {seconds:.0f} s, since {reason_without()}. "
-        f"Compiled it is many times quicker: {remedy()}"
-    )
 
 
 def _warn_lawless(experiment: Experiment) -> None:
