@@ -38,72 +38,52 @@ def _times(text: str) -> list[float | str]:
     return [item if item == "end" else float(item) for item in items]
 
 
-def _many(**action: Any) -> dict[str, Any]:
-    return {"action": "append", "default": [], **action}
+def option(metavar: str | None, about: str, kind: Any = None, **more: Any) -> dict[str, Any]:
+    """Return what argparse is told of an argument; metavar: None for a switch."""
+    if metavar is None:
+        return {"action": "store_true", "help": about, **more}
+    return {"metavar": metavar, "help": about, "type": kind, **more}
 
+
+MANY: dict[str, Any] = {"action": "append", "default": []}
+"""What argparse is told of an option that may be given several times."""
+
+_TEXT = value(lambda text: Preferences(text=float(text)).text, "a number from 0.5 to 4")
+_LOOKS = {"action": argparse.BooleanOptionalAction, "help": "a dark window, or a light one"}
+_SIZE = value(size_of, "width and height in pixels, such as 1280x720")
+_FACTOR = value(_speed, "a number >= 0, or max")
+_PACE = "of window or film: 1 is real time, 0 is one step per key press, max"
+_MOMENTS = value(_times, "times, such as 1,30,end")
 
 SHARED: dict[str, dict[str, Any]] = {
-    "experiment": {"help": "a .py or .toml file, or the name of an example"},
-    "record": {"type": Path, "help": "a saved run: .npz, .csv, .mcap"},
-    "--headless": {"action": "store_true", "help": "run without a window"},
-    "--seed": {"type": int, "default": 0, "metavar": "N", "help": "of all random streams"},
-    "--speed": {
-        "type": value(_speed, "a number >= 0, or max"),
-        "metavar": "X",
-        "help": "of window or film: 1 is real time, 0 is one step per key press, max",
-    },
-    "--stop-time": {"type": float, "metavar": "S", "help": "seconds to simulate"},
-    "--set": _many(metavar="KEY=VALUE", help="override a field"),
-    "--figure": {"type": Path, "metavar": "OUT", "help": "draw a picture: .png, .pdf, .svg"},
-    "--at": {
-        "type": value(_times, "times, such as 1,30,end"),
-        "metavar": "T1,T2,...",
-        "help": "draw snapshots at these times",
-    },
-    "--video": {"type": Path, "metavar": "OUT", "help": "make a film: .gif, .mp4"},
-    "--size": {
-        "type": value(size_of, "width and height in pixels, such as 1280x720"),
-        "metavar": "WxH",
-        "help": "of the film, pixels (default: 1280x720)",
-    },
-    "--from": {"type": float, "dest": "start", "metavar": "S", "help": "start at this time"},
-    "--to": {"type": float, "dest": "end", "metavar": "S", "help": "end at this time"},
-    "--html": {
-        "type": Path,
-        "metavar": "OUT.html",
-        "help": "a replay for any browser, in one file",
-    },
-    "--theory": {"action": "store_true", "help": "draw what theory predicts"},
-    "--dark": {"action": argparse.BooleanOptionalAction, "help": "a dark window, or a light one"},
-    "--text": {
-        "type": value(lambda text: Preferences(text=float(text)).text, "a number from 0.5 to 4"),
-        "metavar": "X",
-        "help": "the window's text X times as large",
-    },
-    "--workers": {"type": int, "metavar": "N", "help": "processes; by default one per core"},
-    "--cluster": {"metavar": "ADDRESS", "help": "a Dask scheduler, such as tcp://10.0.0.5:8786"},
-    "--json": {"action": "store_true", "help": "print the outcome as one line of JSON"},
+    "experiment": option("EXPERIMENT", "a .py or .toml file, or the name of an example"),
+    "record": option("RECORD", "a saved run: .npz, .csv, .mcap", Path),
+    "--headless": option(None, "run without a window"),
+    "--seed": option("N", "of all random streams", int, default=0),
+    "--speed": option("X", _PACE, _FACTOR),
+    "--stop-time": option("S", "seconds to simulate", float),
+    "--set": option("KEY=VALUE", "override a field", **MANY),
+    "--figure": option("OUT", "draw a picture: .png, .pdf, .svg", Path),
+    "--at": option("T1,T2,...", "draw snapshots at these times", _MOMENTS),
+    "--video": option("OUT", "make a film: .gif, .mp4", Path),
+    "--size": option("WxH", "of the film, pixels (default: 1280x720)", _SIZE),
+    "--from": option("S", "start at this time", float, dest="start"),
+    "--to": option("S", "end at this time", float, dest="end"),
+    "--html": option("OUT.html", "a replay for any browser, in one file", Path),
+    "--theory": option(None, "draw what theory predicts"),
+    "--dark": _LOOKS,
+    "--text": option("X", "the window's text X times as large", _TEXT),
+    "--workers": option("N", "processes; by default one per core", int),
+    "--cluster": option("ADDRESS", "a Dask scheduler, such as tcp://10.0.0.5:8786"),
+    "--json": option(None, "print the outcome as one line of JSON"),
 }
-"""The arguments by name."""
+"""The arguments that several verbs have, by name."""
 
 
-def add_shared(parser: argparse.ArgumentParser, names: str) -> None:
-    """Add shared arguments to a verb; names: with spaces between them, options without hyphens."""
-    for name in names.split():
-        if name in SHARED:
-            parser.add_argument(name, metavar=name.upper(), **SHARED[name])
-        else:
-            parser.add_argument(f"--{name}", **SHARED[f"--{name}"])
-
-
-def add_preferences(parser: argparse.ArgumentParser) -> None:
-    """Add the looks of the window."""
-    add_shared(parser, "dark text")
-
-
-def add_workers(parser: argparse.ArgumentParser) -> None:
-    """Add the number of processes on this machine, or the cluster, for many runs."""
-    add_shared(parser, "workers cluster")
+def shared(names: str) -> dict[str, dict[str, Any]]:
+    """Return shared arguments; names: with spaces between them, without hyphens."""
+    keys = (name if name in SHARED else f"--{name}" for name in names.split())
+    return {key: SHARED[key] for key in keys}
 
 
 def options_of(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -125,7 +105,7 @@ def preferences_of(arguments: argparse.Namespace) -> Preferences:
 
 @contextmanager
 def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None, int | None]]:
-    """Yield the executor and the number of workers that `add_workers` asks for."""
+    """Yield the executor and the number of workers that --workers and --cluster ask for."""
     from mars2d.study.cluster import cluster
     from mars2d.study.work import worker_count
 

@@ -117,7 +117,8 @@ def parser_of(verb: str) -> argparse.ArgumentParser:
     module = import_module(f"mars2d.cli.verbs.{verb}")
     parser = _Parser(prog=f"mars2d {verb}", description=module.execute.__doc__, allow_abbrev=False)
     parser.set_defaults(execute=module.execute)
-    module.add_arguments(parser)
+    for name, settings in module.ARGUMENTS.items():
+        parser.add_argument(name, **settings)
     return parser
 
 

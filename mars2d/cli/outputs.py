@@ -6,12 +6,11 @@ import argparse
 import os
 import re
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from mars2d.cli.arguments import add_shared
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.files import why_unwritable
 from mars2d.core.interrupt import interrupts
@@ -23,6 +22,7 @@ from mars2d.output.films import film
 from mars2d.output.films.footage import Cut, shots
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster import require_pygame
+from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
@@ -57,11 +57,6 @@ Made = dict[str, Path]
 """The files that were made, by the names of their arguments."""
 
 
-def add_html(parser: argparse.ArgumentParser) -> None:
-    """Add the replay as an HTML page."""
-    add_shared(parser, "html")
-
-
 def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str, ...]]) -> None:
     """Raise InputError before the run for an output file that can't be written after it.
 
@@ -93,14 +88,13 @@ def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str
 
 def check_film(arguments: argparse.Namespace, scenario: Scenario, last: float) -> None:
     """Check the options of a film of a run that lasts `last` seconds. Raises InputError."""
-    options = {"--size": arguments.size, "--from": arguments.start, "--to": arguments.end}
     if arguments.video is not None:
         film.check_film(arguments.video, arguments.size or SIZE, FPS)
         speed = film_speed(scenario, arguments.speed)
         Cut.of(last, speed, FPS, arguments.start, arguments.end, "the run")
         return
-    for name, value in options.items():
-        if value is not None:
+    for name, dest in {"--size": "size", "--from": "start", "--to": "end"}.items():
+        if getattr(arguments, dest) is not None:
             raise InputError(f"{name} needs --video OUT: it is of the film")
 
 
@@ -116,11 +110,9 @@ def save_film(
     frames: Iterable[Frame], count: int, speed: float, arguments: argparse.Namespace
 ) -> None:
     """Make the requested film of `count` frames, with a progress bar."""
-    size = arguments.size or SIZE
-    with filming(count) as update:
-        film.save_film(
-            frames, arguments.video, fps=FPS, size=size, status=f"{speed:.3g}x", progress=update
-        )
+    look: dict[str, Any] = {"size": arguments.size or SIZE, "status": f"{speed:.3g}x"}
+    with closing(Progress(count, "frames")) as bar:
+        film.save_film(frames, arguments.video, fps=FPS, progress=bar.update, **look)
 
 
 def save_film_of(record: Record, arguments: argparse.Namespace) -> None:
@@ -129,16 +121,6 @@ def save_film_of(record: Record, arguments: argparse.Namespace) -> None:
     cut = film.cut_of(record, speed, FPS, arguments.start, arguments.end)
     frames = shots(cut, record.scenario.sampling_time, len(record) - 1, record.frame)
     save_film(frames, cut.count, speed, arguments)
-
-
-@contextmanager
-def filming(frames: int) -> Iterator[Callable[[int], None]]:
-    """Show a progress bar of a film; yields a function to be called with the frames done."""
-    progress = Progress(frames, "frames")
-    try:
-        yield progress.update
-    finally:
-        progress.close()
 
 
 # -- a run and its files ---------------------------------------------------------------------------
@@ -171,8 +153,13 @@ def run_and_save(
             ended, record = error, error.record
         makers: dict[str, Make] = {"record": lambda: save_record(arguments.record, record)}
         made, troubles = _tried(arguments, makers)
+
+    def save_figure() -> None:
+        with naming_lost_letters():
+            figure.save_figure(record, arguments.figure, _times_within(arguments.at, record))
+
     makers = {
-        "figure": lambda: _save_figure(arguments, record),
+        "figure": save_figure,
         "html": lambda: record.save_html(arguments.html),
         "video": of_run or (lambda: save_film_of(record, arguments)),
     }
@@ -202,22 +189,32 @@ def _tried(
 
 def _say_kept(made: Made, troubles: Iterable[Mars2dError], record: Record) -> None:
     """Print errors of saving, and where the data of a run that was broken off are."""
-    say(troubles)
+    for trouble in troubles:
+        warn(trouble)
     if made:
         files = ", ".join(one_line(path) for path in made.values())
         warn(f"what was recorded until {record.time[-1]:g} s is in {files}")
 
 
-def tell_files(made: Made) -> None:
-    """Print the files that were made, each with its kind."""
+def conclude(made: Made, troubles: Sequence[Mars2dError]) -> None:
+    """Print the files that were made, each with its kind; print all errors, and raise the last."""
     for name, path in made.items():
         tell(f"{KINDS[name] + ':':<8}{one_line(path)}")
-
-
-def say(troubles: Iterable[Mars2dError]) -> None:
-    """Print errors of saving, unless the command ends with them."""
-    for trouble in troubles:
+    for trouble in troubles[:-1]:
         warn(trouble)
+    if troubles:
+        raise troubles[-1]
+
+
+def outcome(record: Rows) -> dict[str, Any]:
+    """Return how a run went, as JSON can hold it."""
+    return {
+        "ticks": max(len(record) - 1, 0),
+        "time": float(record.time[-1]) if len(record) else 0.0,
+        "collisions": record.collisions,
+        "message": record.over_message,
+        "digest": record.digest,
+    }
 
 
 def save_record(target: Path, record: Record) -> None:
@@ -234,11 +231,6 @@ def save_record(target: Path, record: Record) -> None:
     for branch, saved in zip(record.branches, formats.save_branches(record, target), strict=True):
         end = f"left at {branch.time[-1]:g} s" if len(branch) else "empty"
         warn(f"another branch, {end}, is in {saved}")
-
-
-def _save_figure(arguments: argparse.Namespace, record: Record) -> None:
-    with naming_lost_letters():
-        figure.save_figure(record, arguments.figure, _times_within(arguments.at, record))
 
 
 @contextmanager

@@ -30,6 +30,10 @@ WAITING = {
 }
 """Calls that would wait for somebody, and what to write instead."""
 
+BOUNDS = [f"max_{name}" for name in ("linear_speed", "angular_speed", "acceleration")]
+BOUNDS += ["max_steering", "max_steering_rate"]
+"""The bounds that a drive may have."""
+
 MOST = 0.5
 """The share of cut commands above which a run gets a remark."""
 
@@ -91,11 +95,7 @@ def _meant(value: float) -> str:
 
 def _bounds(robot: Robot) -> str:
     """Return the bounds of a drive that are set, in words."""
-    names = (
-        "max_linear_speed", "max_angular_speed", "max_acceleration", "max_steering",
-        "max_steering_rate",
-    )  # fmt: skip
-    found = ((name, getattr(robot.drive, name, None)) for name in names)
+    found = ((name, getattr(robot.drive, name, None)) for name in BOUNDS)
     told = [f"{name}={value:g}" for name, value in found if value is not None]
     return f"{type(robot.drive).__name__}({', '.join(told)})"
 

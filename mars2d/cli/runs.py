@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.progress import Progress
-from mars2d.core.terminal import tell
+from mars2d.core.terminal import tell, warn
 from mars2d.output.raster import require_pygame
-from mars2d.scenario.examples import courses, title_of
+from mars2d.scenario.examples import courses, examples, experiment_name, title_of
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.screen.display import Preferences
@@ -35,6 +36,14 @@ def has_display() -> bool:
     from mars2d.window.screen.display import display_available
 
     return display_available()
+
+
+def opens_window(wanted: bool) -> bool:
+    """Return whether a window is wanted and can be opened; warn if it can't be."""
+    if wanted and not has_display():
+        warn("there is no display, so this runs without a window")
+        return False
+    return wanted
 
 
 def require_display(otherwise: str) -> None:
@@ -98,11 +107,21 @@ def run_headless(
     speed: float | str = "max",
 ) -> World:
     """Run to the end without a window, with a progress bar, and return the world."""
-    progress = Progress(experiment.scenario.last_iteration)
-    try:
-        return simulate(experiment, speed, [*watchers, progress], log)
-    finally:
-        progress.close()
+    with closing(Progress(experiment.scenario.last_iteration)) as bar:
+        return simulate(experiment, speed, [*watchers, bar], log)
+
+
+def source_of(name: str, path: Path, otherwise: str = "") -> str:
+    """Return the experiment that a file names: a file here or beside that file, or an example.
+
+    otherwise: what there is to do where it is none of these.
+    """
+    for place in (Path(name), path.parent / name, path.parent / Path(name).name):
+        if name and place.is_file():
+            return str(place)
+    if experiment_name(Path(name)) in examples():
+        return experiment_name(Path(name))
+    raise InputError(f"{path}: {name} is neither in this folder nor beside it{otherwise}")
 
 
 def print_table(title: str, lines: Mapping[str, str]) -> None:
@@ -117,11 +136,3 @@ def print_examples() -> None:
     """Print the examples and their first lines, by course."""
     for course, names in courses().items():
         print_table(course, {name: title_of(name)[1] for name in names})
-
-
-def make_folder(path: Path) -> None:
-    """Make a folder, unless it exists. Raises InputError if it can't be made."""
-    try:
-        path.mkdir(exist_ok=True)
-    except OSError as error:
-        raise InputError(f"{path.absolute()}: can't be made: {error.strerror}") from error

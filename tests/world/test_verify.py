@@ -270,5 +270,5 @@ def test_laws_that_can_not_be_asked_are_refused(walk, capsys, words, message):
 def test_an_experiment_that_is_gone_is_asked_for(walk, capsys):
     walk.rename("elsewhere.py")
     assert cli.main(["check", "walk.npz", "--laws"]) == 2
-    assert "walk.npz: walk.py is not here: name the experiment" in capsys.readouterr().err
+    assert "walk.py is neither in this folder nor beside it: name" in capsys.readouterr().err
     assert cli.main(["check", "walk.npz", "--laws", "elsewhere.py"]) == 0

@@ -1,7 +1,7 @@
 """The verbs of ``mars2d``, one module each, imported when it is asked for.
 
-The module `run` is the verb ``mars2d run``. A verb's module has a function `add_arguments(parser)`
-and a function `execute(arguments)`, whose docstring is the verb's help.
+The module `run` is the verb ``mars2d run``. A verb's module has `ARGUMENTS`, by
+name, and a function `execute(arguments)`, whose docstring is the verb's help.
 """
 
 __all__ = ["GROUPS", "VERBS"]

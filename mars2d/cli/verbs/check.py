@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -13,8 +13,9 @@ from typing import Any
 
 from mars2d.addons import maps
 from mars2d.cli import remarks
+from mars2d.cli.arguments import MANY, option
 from mars2d.cli.outputs import check_outputs
-from mars2d.cli.runs import run_headless
+from mars2d.cli.runs import run_headless, source_of
 from mars2d.core.deadline import PATIENCE, Deadline
 from mars2d.core.errors import InputError, Late, LawError, Mars2dError, counted, nearest, one_line
 from mars2d.core.progress import Progress
@@ -22,7 +23,6 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.figures.map import save_map
-from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
 from mars2d.scenario.options import options_in_words, parse_option, reading_options
 from mars2d.scenario.policy import SUFFIX as LEARNED
@@ -49,35 +49,21 @@ SAME = ""
 LOADING = 60.0
 """The time that loading a file may take, seconds."""
 
+_FILES = (
+    "an experiment, sensors, add-ons, drives, laws (.py or an example's name), a learned law "
+    f"({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map"
+)
+_LAWS = "with a record: ask the laws again; by default those of its own experiment"
+_SET = "how a map is read; with --laws, a field of the experiment, if not as in the record"
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    parser.add_argument(
-        "file",
-        metavar="FILE",
-        help="an experiment, sensors, add-ons, drives, laws (.py or an example's name), "
-        f"a learned law ({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), "
-        "or a map",
-    )
-    parser.add_argument(
-        "--laws",
-        nargs="?",
-        const=SAME,
-        metavar="EXPERIMENT",
-        help="with a record: ask the laws again; by default those of its own experiment",
-    )
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY=VALUE",
-        help="how a map is read; with --laws, a field of the experiment, if not as in the record",
-    )
-    parser.add_argument(
-        "--for", dest="game", metavar="GAME", help="with a law: play it in this game, with --role"
-    )
-    parser.add_argument("--role", metavar="ROLE", help="with --for: the role that the law plays")
-    parser.add_argument("--figure", type=Path, metavar="OUT", help="draw a map: .png, .pdf, .svg")
+ARGUMENTS = {
+    "file": option("FILE", _FILES),
+    "--laws": option("EXPERIMENT", _LAWS, nargs="?", const=SAME),
+    "--set": option("KEY=VALUE", _SET, **MANY),
+    "--for": option("GAME", "with a law: play it in this game, with --role", dest="game"),
+    "--role": option("ROLE", "with --for: the role that the law plays"),
+    "--figure": option("OUT", "draw a map: .png, .pdf, .svg", Path),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -334,21 +320,23 @@ def _check_record(path: Path) -> Record:
 @contextmanager
 def _repeating(path: Path, record: Record) -> Iterator[Callable[[int], None]]:
     """Show a progress bar, and name the record in errors but those of laws."""
-    bar = Progress(max(len(record), 1), "rows")
-    try:
-        yield bar.update
-    except LawError:
-        raise
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
-    finally:
-        bar.close()
+    with closing(Progress(len(record), "rows")) as bar:
+        try:
+            yield bar.update
+        except LawError:
+            raise
+        except InputError as error:
+            raise InputError(f"{path}: {error}") from error
 
 
 def _ask_laws(path: Path, record: Record, source: str, options: dict[str, Any]) -> None:
     """Ask the laws of an experiment again in the states of a record."""
     if source == SAME:
-        source, options = _source_of(path, record), {**record.options, **options}
+        name_it = ": name the experiment, --laws EXPERIMENT"
+        if not record.filename:
+            raise InputError(f"{path}: is not of a file{name_it}")
+        source = source_of(record.filename, path, name_it)
+        options = {**record.options, **options}
     experiment = open_experiment(source, options, seed=record.seed)
     with _repeating(path, record) as update:
         departures = ask_again(record, experiment, update)
@@ -357,16 +345,3 @@ def _ask_laws(path: Path, record: Record, source: str, options: dict[str, Any]) 
         also = f"; and in {counted(more, 'other row')}" if more else ""
         raise Mars2dError(f"{path}: asked again, {source} departs at {departures[0]}{also}")
     tell(f"laws        of {source}: decide the same in all rows")
-
-
-def _source_of(path: Path, record: Record) -> str:
-    """Return the experiment of a record: a file here or beside the record, or an example."""
-    name = record.filename
-    if not name:
-        raise InputError(f"{path}: is not of a file: name the experiment, --laws EXPERIMENT")
-    found = [each for each in (Path(name), path.parent / Path(name).name) if each.is_file()]
-    if found:
-        return str(found[0])
-    if experiment_name(Path(name)) in examples():
-        return experiment_name(Path(name))
-    raise InputError(f"{path}: {name} is not here: name the experiment, --laws EXPERIMENT")

@@ -7,19 +7,22 @@ import dataclasses
 import json
 import time
 from collections.abc import Callable
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.cli.arguments import add_shared, options_of, preferences_of
-from mars2d.cli.outputs import DURATION, FPS, OUTPUTS, check_outputs, film_speed, filming
-from mars2d.cli.runs import has_display, make_folder, run_headless
+from mars2d.cli.arguments import options_of, preferences_of, shared
+from mars2d.cli.outputs import DURATION, FPS, OUTPUTS, check_outputs, film_speed, outcome
+from mars2d.cli.runs import has_display, run_headless
 from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell
 from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.tournaments.league_text import aligned
 from mars2d.world.record import Record
 
 if TYPE_CHECKING:
@@ -27,10 +30,7 @@ if TYPE_CHECKING:
 
 FOLDER = Path("mars2d_compare")
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add_shared(parser, "experiment headless seed speed stop-time set figure video dark text json")
+ARGUMENTS = shared("experiment headless seed speed stop-time set figure video dark text json")
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -51,15 +51,12 @@ def execute(arguments: argparse.Namespace) -> None:
             _show(arguments, opened)
             return
         require_pygame("a film")
-        make_folder(FOLDER)
+        FOLDER.mkdir(exist_ok=True)
         stem = experiment_name(Path(arguments.experiment))
         arguments.figure, arguments.video = FOLDER / f"{stem}.png", FOLDER / f"{stem}.gif"
         arguments.speed = arguments.speed or opened("contact").scenario.stop_time / DURATION
-    records: dict[str, Record] = {}
     reels: dict[str, Reel] = {}
-    for mode in MODES:
-        records[mode] = _run(opened(mode), mode, arguments, reels)
-    comparison = Comparison(**records)
+    comparison = Comparison(**{mode: _run(opened(mode), mode, arguments, reels) for mode in MODES})
     if arguments.json:
         _save(comparison, reels, arguments)
         tell(_as_json(comparison, arguments, time.perf_counter() - start))
@@ -121,8 +118,9 @@ def _save(
         from mars2d.output.films.triptych import triptych
 
         made["film"] = arguments.video
-        with filming(max(footage.count(last) for footage, last in reels.values())) as update:
-            save_pictures(triptych(comparison, reels), arguments.video, FPS, update)
+        count = max(footage.count(last) for footage, last in reels.values())
+        with closing(Progress(count, "frames")) as bar:
+            save_pictures(triptych(comparison, reels), arguments.video, FPS, bar.update)
     return made
 
 
@@ -136,32 +134,20 @@ def _as_table(comparison: Comparison) -> str:
         apart = [f"{round(float(each), 6):.3g} m" for each in last] or ["-", "-"]
         counts = str(len(record) - 1), str(record.collisions)
         lines.append((mode, *counts, apart[0], apart[1], record.over_message))
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    table = [f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}"]
-    for first, *middle, last_word in lines:
-        cells = [cell.rjust(width) for cell, width in zip(middle, widths[1:-1], strict=True)]
-        table.append("  ".join([first.ljust(widths[0]), *cells, last_word]))
-    return "\n".join(table)
+    title = f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}"
+    cells = aligned([line[:-1] for line in lines], left=1)
+    ends = (line[-1] for line in lines)
+    return "\n".join([title, *("  ".join(row) for row in zip(cells, ends, strict=True))])
 
 
 def _as_json(comparison: Comparison, arguments: argparse.Namespace, seconds: float) -> str:
     runs = []
     for mode, record in comparison.records.items():
         drift = comparison.drifts.get(mode)
-        runs.append(
-            {
-                "physics": mode,
-                "ticks": len(record) - 1,
-                "time": float(record.time[-1]),
-                "collisions": record.collisions,
-                "drift_max": 0.0 if drift is None else float(drift.max[-1]),
-                "drift_mean": 0.0 if drift is None else float(drift.mean[-1]),
-                "message": record.over_message,
-                "digest": record.digest,
-            }
-        )
-    scenario, seed = comparison.contact.scenario, comparison.contact.seed
+        last, mean = (0.0, 0.0) if drift is None else (drift.max[-1], drift.mean[-1])
+        run = {"physics": mode, "drift_max": float(last), "drift_mean": float(mean)}
+        runs.append(run | outcome(record))
+    found = {"title": comparison.contact.scenario.title, "seed": comparison.contact.seed}
     files = {"figure": arguments.figure, "video": arguments.video}
-    outcome = {"title": scenario.title, "seed": seed, "runs": runs}
-    outcome |= {name: str(path) for name, path in files.items() if path}
-    return json.dumps(outcome | {"wall_s": round(seconds, 6)})
+    found |= {name: str(path) for name, path in files.items() if path}
+    return json.dumps(found | {"runs": runs, "wall_s": round(seconds, 6)})

@@ -7,16 +7,16 @@ import shlex
 import shutil
 from pathlib import Path
 
+from mars2d.cli.arguments import option
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
 from mars2d.scenario.examples import GAME, examples
 from mars2d.scenario.experiment import open_experiment
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the example, and the folder."""
-    parser.add_argument("example", metavar="EXAMPLE", help="its name, as in mars2d demo")
-    parser.add_argument("folder", metavar="FOLDER", nargs="?", default=".", help="else here")
+ARGUMENTS = {
+    "example": option("EXAMPLE", "its name, as in mars2d demo"),
+    "folder": option("FOLDER", "else here", nargs="?", default="."),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:

@@ -5,21 +5,19 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mars2d.cli.arguments import add_shared
+from mars2d.cli.arguments import option, shared
 from mars2d.cli.outputs import DURATION
-from mars2d.cli.runs import has_display, make_folder, print_examples
-from mars2d.cli.verbs import run
+from mars2d.cli.runs import has_display, print_examples
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.experiment import open_experiment
 
 FOLDER = Path("mars2d_demo")
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the example, and some of the arguments of ``run``."""
-    parser.add_argument("name", nargs="?", metavar="NAME", help="an example (default: list all)")
-    add_shared(parser, "headless seed theory dark text")
+ARGUMENTS = {
+    "name": option("NAME", "an example (default: list all)", nargs="?"),
+    **shared("headless seed theory dark text"),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -32,13 +30,14 @@ def execute(arguments: argparse.Namespace) -> None:
         print_examples()
         tell("\nPlay one:  mars2d demo random_walk")
         return
-    of_run = argparse.ArgumentParser()
-    run.add_arguments(of_run)
-    asked = argparse.Namespace(**vars(of_run.parse_args([name])) | vars(arguments))
+    from mars2d.cli.command_line import parse
+
+    run = parse(["run", name])
+    asked = argparse.Namespace(**vars(run) | vars(arguments))
     if asked.headless or not has_display():
         require_pygame("a film")
         asked.speed = max(open_experiment(name).scenario.stop_time / DURATION, 1e-9)
-        make_folder(FOLDER)
+        FOLDER.mkdir(exist_ok=True)
         files = [FOLDER / f"{Path(name).stem}{suffix}" for suffix in (".png", ".gif")]
         asked.headless, asked.size, (asked.figure, asked.video) = True, (640, 480), files
     run.execute(asked)

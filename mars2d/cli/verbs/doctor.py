@@ -6,11 +6,15 @@ import argparse
 import json
 from pathlib import Path
 
+from mars2d.cli.arguments import option
 from mars2d.cli.verbs import VERBS
 from mars2d.core.errors import InputError, Mars2dError, nearest
 from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.core.terminal import tell
+from mars2d.reports.doctor import examine
+from mars2d.scenario.examples import examples
+from mars2d.scenario.schema import schema
 
 MARKS = {True: "ok", None: "--", False: "NO"}
 
@@ -32,62 +36,38 @@ _mars2d_experiments() {{
 }
 """A function of the shell that completes the names of examples, and files."""
 
+_SHELL = "print the script by which bash, zsh, tcsh, fish or powershell completes commands"
+_SCHEMA = "print the JSON Schema of scenario files, for editors, or write it to a file"
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add what to print instead of the examination."""
-    add = parser.add_argument
-    add(
-        "--completion",
-        metavar="SHELL",
-        help="print the script by which bash, zsh, tcsh, fish or powershell completes commands",
-    )
-    add(
-        "--schema",
-        nargs="?",
-        const=Path("-"),
-        type=Path,
-        metavar="OUT",
-        help="print the JSON Schema of scenario files, for editors, or write it to a file",
-    )
+ARGUMENTS = {
+    "--completion": option("SHELL", _SHELL),
+    "--schema": option("OUT", _SCHEMA, Path, nargs="?", const=Path("-")),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:
     """Show the libraries and devices of this machine, and test the installation."""
     if arguments.completion is not None:
         tell(_completion(arguments.completion))
-    elif arguments.schema is not None:
-        _write_schema(arguments.schema)
-    else:
-        _examine()
-
-
-def _examine() -> None:
-    from mars2d.reports.doctor import examine
-
-    broken = []
-    for finding in examine():
-        tell(f"{MARKS[finding.ok]}  {finding.name:<12}{finding.text}")
-        if finding.ok is False:
-            broken.append(finding.name)
-    if broken:
-        raise Mars2dError(f"the installation does not work: {', '.join(broken)}")
-
-
-def _write_schema(path: Path) -> None:
-    from mars2d.scenario.schema import schema
-
-    text = json.dumps(schema(), indent=1) + "\n"
-    if path == Path("-"):
-        tell(text, end="")
         return
-    with atomic_write(path) as file:
-        file.write(text.encode())
+    if arguments.schema is not None:
+        text = json.dumps(schema(), indent=1) + "\n"
+        if arguments.schema == Path("-"):
+            tell(text, end="")
+            return
+        with atomic_write(arguments.schema) as file:
+            file.write(text.encode())
+        return
+    findings = [*examine()]
+    for finding in findings:
+        tell(f"{MARKS[finding.ok]}  {finding.name:<12}{finding.text}")
+    if broken := [finding.name for finding in findings if finding.ok is False]:
+        raise Mars2dError(f"the installation does not work: {', '.join(broken)}")
 
 
 def _completion(shell: str) -> str:
     """Return the script by which a shell completes commands, options and examples."""
     from mars2d.cli.command_line import parser_of
-    from mars2d.scenario.examples import examples
 
     with extra("completion", "completion needs shtab"):
         import shtab

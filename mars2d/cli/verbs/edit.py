@@ -5,12 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mars2d.cli.arguments import add_shared, options_of, preferences_of
+from mars2d.cli.arguments import option, options_of, preferences_of, shared
 from mars2d.cli.runs import require_display
 from mars2d.core.errors import InputError
 from mars2d.core.terminal import warn
 from mars2d.scenario.examples import examples
-from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 
 NO_DISPLAY = (
@@ -18,12 +18,10 @@ NO_DISPLAY = (
     "see docs/scenario_files.md"
 )
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    what = "a .toml or .py file, or an example"
-    parser.add_argument("scenario", metavar="SCENARIO", nargs="?", help=what)
-    add_shared(parser, "set dark text")
+ARGUMENTS = {
+    "scenario": option("SCENARIO", "a .toml or .py file, or an example", nargs="?"),
+    **shared("set dark text"),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -34,6 +32,10 @@ def execute(arguments: argparse.Namespace) -> None:
     if new and path is not None and not path.parent.is_dir():
         raise InputError(f"{path}: there is no folder {path.parent}")
     experiment = open_experiment(Scenario() if new else arguments.scenario, options)
+    if path and not new and not path.is_file() and arguments.scenario in examples():
+        path = Path(f"{arguments.scenario}.toml")  # the drawing of a shipped example goes here
+    elif not new:
+        path = experiment.source.path or path
     require_display(NO_DISPLAY)
     from mars2d.window.editor import Editor
     from mars2d.window.editor_window import EditorWindow
@@ -43,7 +45,7 @@ def execute(arguments: argparse.Namespace) -> None:
     editor = Editor(
         experiment.scenario,
         Looks(preferences_of(arguments)),
-        path=path if new else _kept_in(arguments.scenario, experiment),
+        path=path,
         control=experiment.control,
         empty=new and not robots_wanted,
         changed=bool(options),
@@ -55,13 +57,3 @@ def execute(arguments: argparse.Namespace) -> None:
         if kept is not None:
             warn(f"what was drawn and not saved is in {kept}")
         raise
-
-
-def _kept_in(source: str, experiment: Experiment) -> Path:
-    """Return the file of a drawing: the scenario file itself, or one beside the experiment.
-
-    The drawing of a shipped example goes to the current folder.
-    """
-    if not Path(source).is_file() and source in examples():
-        return Path(f"{source}.toml")
-    return Path(source) if experiment.source.path is None else experiment.source.path

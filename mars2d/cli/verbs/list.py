@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from mars2d.cli.runs import print_examples, print_table
 from mars2d.scenario.registry import members, misspelt_groups, plugins, summary
@@ -16,9 +17,7 @@ FAMILIES = {
     "Add-ons": "addons",
 }
 
-
-def add_arguments(_: argparse.ArgumentParser) -> None:
-    """Add nothing: the verb has no arguments."""
+ARGUMENTS: dict[str, dict[str, Any]] = {}
 
 
 def execute(_: argparse.Namespace) -> None:

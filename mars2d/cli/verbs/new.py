@@ -6,6 +6,7 @@ import argparse
 import shlex
 from pathlib import Path
 
+from mars2d.cli.arguments import option
 from mars2d.core.errors import InputError, shown
 from mars2d.core.files import atomic_write
 from mars2d.core.terminal import tell
@@ -37,10 +38,7 @@ if __name__ == "__main__":  # for the Run button of an editor
     mars2d.run(scenario, speed=1)
 '''
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the name of the file."""
-    parser.add_argument("name", metavar="NAME", help="the file to write, as walk or walk.py")
+ARGUMENTS = {"name": option("NAME", "the file to write, as walk or walk.py")}
 
 
 def execute(arguments: argparse.Namespace) -> None:

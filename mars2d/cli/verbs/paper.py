@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from mars2d.cli.arguments import value
+from mars2d.cli.arguments import option, shared, value
 from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.progress import Progress
 from mars2d.core.streams import check_seed
@@ -14,20 +14,20 @@ from mars2d.reports.paper.figures import FIGURES, Result
 from mars2d.reports.paper.make import finish, make_all, prepare
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add = parser.add_argument
-    add("folder", metavar="OUT", type=Path, help="a folder: new, empty, or of an earlier run")
-    numbers = value(_numbers, "numbers of figures from 2 to 9, such as 4,7")
-    add("--only", type=numbers, metavar="N1,N2,...", help="only these figures of 2 to 9")
-    add("--seed", type=int, default=0, metavar="N", help="of all random streams")
-
-
 def _numbers(text: str) -> list[int]:
     numbers = {int(item) for item in text.split(",")}
     if not numbers <= {figure.number for figure in FIGURES}:
         raise ValueError(text)
     return sorted(numbers)
+
+
+_ONLY = value(_numbers, "numbers of figures from 2 to 9, such as 4,7")
+
+ARGUMENTS = {
+    "folder": option("OUT", "a folder: new, empty, or of an earlier run", Path),
+    "--only": option("N1,N2,...", "only these figures of 2 to 9", _ONLY),
+    **shared("seed"),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:

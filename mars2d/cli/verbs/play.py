@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from mars2d.cli.arguments import add_shared, options_of, preferences_of
+from mars2d.cli.arguments import MANY, option, options_of, preferences_of, shared
 from mars2d.cli.runs import print_table, require_display, show
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
@@ -15,19 +15,13 @@ from mars2d.scenario.roles import contest_of, contests_of, robots_named
 MOST_NAMES = 5
 """How many robots a message names."""
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add = parser.add_argument
-    add("game", nargs="?", metavar="GAME", help="an example or a file (default: list the games)")
-    add(
-        "--role",
-        action="append",
-        default=[],
-        metavar="ROLE",
-        help="the role to play; for two people twice; without it, the window asks",
-    )
-    add_shared(parser, "seed speed stop-time set theory dark text")
+ARGUMENTS = {
+    "game": option("GAME", "an example or a file (default: list the games)", nargs="?"),
+    "--role": option(
+        "ROLE", "the role to play; for two people twice; without it, the window asks", **MANY
+    ),
+    **shared("seed speed stop-time set theory dark text"),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:

@@ -7,7 +7,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import add_shared, value
+from mars2d.cli.arguments import option, shared, value
 from mars2d.cli.outputs import OUTPUTS, check_outputs, naming_lost_letters
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
@@ -30,19 +30,6 @@ OPTIONS = {
 """Options of some kinds of figures only: the kinds, and where the value is."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add_shared(parser, "record")
-    add = parser.add_argument
-    add("kind", metavar="KIND", nargs="?", default="paths", help=f"{', '.join(KINDS)}")
-    words = value(_words, "names with commas between them")
-    add("--columns", type=words, metavar="A,B,...", help="signals: such as x,speed,effort")
-    add("--robots", type=words, metavar="A,B,...", help="signals: of robots, by name or index")
-    add("--layers", type=words, metavar="A,B,...", help="such as names,neighbours,no-grid")
-    add("--style", default="screen", metavar="STYLE", help=f"{', '.join(STYLES)}")
-    add_shared(parser, "figure at from to")
-
-
 def _words(text: str) -> list[str]:
     words = [word.strip() for word in text.split(",")]
     if not all(words):
@@ -50,15 +37,28 @@ def _words(text: str) -> list[str]:
     return words
 
 
+_NAMES = value(_words, "names with commas between them")
+
+ARGUMENTS = {
+    **shared("record"),
+    "kind": option("KIND", ", ".join(KINDS), nargs="?", default="paths"),
+    "--columns": option("A,B,...", "signals: such as x,speed,effort", _NAMES),
+    "--robots": option("A,B,...", "signals: of robots, by name or index", _NAMES),
+    "--layers": option("A,B,...", "such as names,neighbours,no-grid", _NAMES),
+    "--style": option("STYLE", ", ".join(STYLES), default="screen"),
+    **shared("figure at from to"),
+}
+
+
 def execute(arguments: argparse.Namespace) -> None:
     """Draw a recorded run: paths, snapshots, signals, energy, momentum, contacts or distances."""
     kind, path = arguments.kind, arguments.record
     if kind not in KINDS:
         raise InputError(f"there is no figure of {kind!r}{nearest(kind, KINDS)}")
-    for option, (kinds, name) in OPTIONS.items():
+    for given, (kinds, name) in OPTIONS.items():
         if getattr(arguments, name) is not None and kind not in kinds:
             wanted = f"{' and '.join(kinds)}: mars2d plot {path} {kinds[0]}"
-            raise InputError(f"{option} is for {wanted}")
+            raise InputError(f"{given} is for {wanted}")
     if kind == "snapshots" and arguments.at is None:
         raise InputError("snapshots need their times, such as --at 0,5,end")
     look = style_of(arguments.style)

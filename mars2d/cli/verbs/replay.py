@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from mars2d.cli.arguments import add_shared, preferences_of
+from mars2d.cli.arguments import preferences_of, shared
 from mars2d.cli.outputs import OUTPUTS, check_film, check_outputs, save_film_of
 from mars2d.cli.runs import require_display
 from mars2d.core.terminal import tell
@@ -16,10 +16,7 @@ NO_DISPLAY = (
     "with --html OUT.html, or a figure with mars2d plot"
 )
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add_shared(parser, "record speed theory video size from to html dark text")
+ARGUMENTS = shared("record speed theory video size from to html dark text")
 
 
 def execute(arguments: argparse.Namespace) -> None:

@@ -12,25 +12,26 @@ from functools import partial
 from pathlib import Path
 
 from mars2d.cli import remarks
-from mars2d.cli.arguments import add_shared, options_of, preferences_of
+from mars2d.cli.arguments import MANY, option, options_of, preferences_of, shared
 from mars2d.cli.outputs import (
     FPS,
     OUTPUTS,
     Make,
     check_film,
     check_outputs,
+    conclude,
     film_speed,
+    outcome,
     run_and_save,
     save_film,
-    say,
-    tell_files,
 )
-from mars2d.cli.runs import has_display, require_display, run_headless, show
+from mars2d.cli.runs import opens_window, require_display, run_headless, show
 from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
+from mars2d.physics.islands import reason_without
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.prediction import Prediction, table
+from mars2d.scenario.prediction import table
 from mars2d.scenario.roles import robots_named
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
@@ -42,33 +43,17 @@ FOXGLOVE = 8765
 LONG = 20.0
 """Seconds of the engine's work after which it is worth while to have it compiled."""
 
+_SAVED = "save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc"
+_SERVED = f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}"
+_DRIVEN = "a robot to drive by hand: its name or index, or a role; may be given twice"
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add_shared(parser, "experiment headless seed speed stop-time set figure at video size from to")
-    add_shared(parser, "html theory dark text json")
-    add = parser.add_argument
-    add(
-        "--record",
-        type=Path,
-        metavar="OUT",
-        help="save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc",
-    )
-    add(
-        "--foxglove",
-        type=int,
-        nargs="?",
-        const=FOXGLOVE,
-        metavar="PORT",
-        help=f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}",
-    )
-    add(
-        "--human",
-        action="append",
-        default=[],
-        metavar="WHO",
-        help="a robot to drive by hand: its name or index, or a role; may be given twice",
-    )
+ARGUMENTS = {
+    **shared("experiment headless seed speed stop-time set figure at video size from to"),
+    **shared("html theory dark text json"),
+    "--record": option("OUT", _SAVED, Path),
+    "--foxglove": option("PORT", _SERVED, int, nargs="?", const=FOXGLOVE),
+    "--human": option("WHO", _DRIVEN, **MANY),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -86,7 +71,7 @@ def execute(arguments: argparse.Namespace) -> None:
             watchers: list[Watcher] = [bounds, *live]
 
             def run() -> tuple[Record, Make | None]:
-                if not _wants_window(arguments):
+                if not opens_window(not arguments.headless):
                     return _run_headless(arguments, experiment, watchers)
                 log, kept = formats.log_to(arguments.record), arguments.record is not None
                 look, speed = preferences_of(arguments), arguments.speed
@@ -97,20 +82,27 @@ def execute(arguments: argparse.Namespace) -> None:
         _warn_unchecked(experiment, "cut short")
         raise
     _warn_lawless(experiment)
+    if not arguments.json:
+        steps = counted(max(len(record) - 1, 0), "step")
+        done = f"{steps}, {counted(record.collisions, 'collision')}, digest {record.digest[:16]}"
+        tell(f"{record.scenario.title}: {one_line(record.over_message)}. {done}")
+    if not record.finished:
+        _warn_unchecked(experiment, "cut short")
+    elif record.interventions:
+        _warn_unchecked(experiment, "changed by hand")
+    predictions = experiment.predictions(record)
     if arguments.json:
-        predictions = _predictions(experiment, record)
-        tell(_as_json(record, predictions, time.perf_counter() - start))
+        found = outcome(record) | {"over": record.finished, "seed": record.seed}
+        found["wall_s"] = round(time.perf_counter() - start, 6)
+        found["checks"] = [prediction.as_dict() for prediction in predictions]
+        tell(json.dumps(found, allow_nan=False))
     else:
-        tell(_as_text(record))
-        if predictions := _predictions(experiment, record):
+        if predictions:
             title = [experiment.source.summary] if experiment.source.summary else []
             tell("", *title, table(predictions), sep="\n")
         for remark in bounds.remarks():
             tell(f"note: {remark}")
-        tell_files(made)
-    if troubles:
-        say(troubles[:-1])
-        raise troubles[-1]
+    conclude({} if arguments.json else made, troubles)
 
 
 def _check(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
@@ -147,13 +139,6 @@ def _live(port: int | None) -> Iterator[list[Watcher]]:
         yield [live]
 
 
-def _wants_window(arguments: argparse.Namespace) -> bool:
-    if arguments.headless or has_display():
-        return not arguments.headless
-    warn("there is no display, so this runs without a window")
-    return False
-
-
 def _run_headless(
     arguments: argparse.Namespace, experiment: Experiment, watchers: Sequence[Watcher]
 ) -> tuple[Record, Make | None]:
@@ -170,22 +155,13 @@ def _run_headless(
         world = run_headless(experiment, [footage, *watchers], log, pace)
         last = world.frame
         film = partial(save_film, footage.frames(last), footage.count(last), speed, arguments)
-    _advise_to_compile(world.simulation.engine_seconds)
+    seconds = world.simulation.engine_seconds
+    if seconds >= LONG and reason_without():
+        from mars2d.reports.remedy import remedy
+
+        slow = f"the engine took {seconds:.0f} s, since {reason_without()}"
+        warn(f"{slow}. Compiled it is many times quicker: {remedy()}")
     return world.record, film
-
-
-def _advise_to_compile(seconds: float) -> None:
-    """Print how the engine would be quicker, if it took long because it was not compiled."""
-    from mars2d.physics.islands import reason_without
-
-    if seconds < LONG or not reason_without():
-        return
-    from mars2d.reports.remedy import remedy
-
-    warn(
-        f"the engine took {seconds:.0f} s, since {reason_without()}. "
-        f"Compiled it is many times quicker: {remedy()}"
-    )
 
 
 def _warn_lawless(experiment: Experiment) -> None:
@@ -203,41 +179,6 @@ def _warn_lawless(experiment: Experiment) -> None:
     warn(f"there is no law, so all robots stood still{hint}")
 
 
-def _predictions(experiment: Experiment, record: Record) -> Sequence[Prediction]:
-    """Return the predictions of an experiment's checks; print why if they can't be made."""
-    if not record.finished:
-        _warn_unchecked(experiment, "cut short")
-    elif record.interventions:
-        _warn_unchecked(experiment, "changed by hand")
-    return experiment.predictions(record)
-
-
 def _warn_unchecked(experiment: Experiment, happened: str) -> None:
     if experiment.source.checks is not None:
         warn(f"the run was {happened}, so its checks were not made")
-
-
-def _as_text(record: Record) -> str:
-    done = f"{counted(_ticks(record), 'step')}, {counted(record.collisions, 'collision')}"
-    message = f"{record.scenario.title}: {one_line(record.over_message)}"
-    return f"{message}. {done}, digest {record.digest[:16]}"
-
-
-def _as_json(record: Record, predictions: Sequence[Prediction], wall: float) -> str:
-    outcome = {
-        "ticks": _ticks(record),
-        "time": float(record.time[-1]) if len(record) else 0.0,
-        "over": record.finished,
-        "message": record.over_message,
-        "digest": record.digest,
-        "collisions": record.collisions,
-        "seed": record.seed,
-        "wall_s": round(wall, 6),
-        "checks": [prediction.as_dict() for prediction in predictions],
-    }
-    return json.dumps(outcome, allow_nan=False)
-
-
-def _ticks(record: Record) -> int:
-    """Return the number of control steps: one less than the number of rows."""
-    return max(len(record) - 1, 0)

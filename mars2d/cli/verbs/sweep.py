@@ -5,10 +5,9 @@ from __future__ import annotations
 import argparse
 import dataclasses
 from pathlib import Path
-from typing import Any
 
-from mars2d.cli.arguments import add_preferences, add_workers, workers_of
-from mars2d.cli.outputs import OUTPUTS, add_html, check_outputs, naming_lost_letters
+from mars2d.cli.arguments import MANY, option, shared, workers_of
+from mars2d.cli.outputs import OUTPUTS, check_outputs, naming_lost_letters
 from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
@@ -24,47 +23,36 @@ from mars2d.study.units import checked_units, parse_units
 TABLE = Path("sweep.csv")
 """The default file of the rows."""
 
-OF_RUNS = (
-    "set", "stop_time", "seeds", "first_seed", "measure", "out", "time_limit", "retry", "keep",
-    "workers", "cluster",
-)  # fmt: skip
+OF_RUNS = "set stop-time seeds first-seed measure out time-limit retry keep workers cluster"
 """The arguments that choose the runs; they don't apply to an existing table."""
 
-OF_TABLES = ("compare", "unit", "style")
+_FILE = "a .py or .toml file, an example's name, or a study's .csv"
+_VALUES = "a setting's values: 4,8,16; or 0.1:1.0:10, ten from 0.1 to 1.0; or one"
+_MEASURE = "a function of the record in the experiment's file, or a built-in one"
+_KEEP = "keep the records beside the table; other measures then need no run"
 
-OF_ROWS = ("view", "record", "html")
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add = parser.add_argument
-    several: dict[str, Any] = {"action": "append", "default": []}
-    add("experiment", nargs="?", metavar="EXPERIMENT",
-        help="a .py or .toml file, an example's name, or a study's .csv")  # fmt: skip
-    add("--set", **several, metavar="KEY=VALUES",
-        help="a setting's values: 4,8,16; or 0.1:1.0:10, ten from 0.1 to 1.0; or one")  # fmt: skip
-    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
-    add("--seeds", type=int, metavar="N", help="number of seeds, the same at each point (1)")
-    add("--first-seed", type=int, metavar="K", help="the first seed (default: 0)")
-    add("--measure", **several, metavar="NAME",
-        help="a function of the record in the experiment's file, or a built-in one")  # fmt: skip
-    add("--unit", **several, metavar="NAME=UNIT",
-        help="the unit of a setting or a measure, such as spread=m")  # fmt: skip
-    add("--out", type=Path, metavar="OUT.csv", help=f"file of the rows (default: {TABLE})")
-    add("--figure", type=Path, metavar="OUT", help="draw the measures: .png, .pdf, .svg")
-    add("--style", metavar="STYLE", help=f"of the figure: {', '.join(STYLES)}")
-    add("--compare", metavar="KEY", help="compare a setting's values, seed by seed")
-    add("--confidence", type=float, default=0.95, metavar="P", help="of intervals (default: 0.95)")
-    add("--time-limit", type=float, metavar="S", help="seconds that a run may take")
-    add("--retry", action="store_true", help="run rows with an error again")
-    add("--keep", action="store_true",
-        help="keep the records beside the table; other measures then need no run")  # fmt: skip
-    add_workers(parser)
-    add("--row", type=int, metavar="N", help="run one row of a study again")
-    add("--view", action="store_true", help="with --row: show it in a window")
-    add("--record", type=Path, metavar="OUT", help="with --row: save all data of the run")
-    add_html(parser)
-    add_preferences(parser)
+ARGUMENTS = {
+    "experiment": option("EXPERIMENT", _FILE, nargs="?"),
+    "--set": option("KEY=VALUES", _VALUES, **MANY),
+    **shared("stop-time"),
+    "--seeds": option("N", "number of seeds, the same at each point (1)", int),
+    "--first-seed": option("K", "the first seed (default: 0)", int),
+    "--measure": option("NAME", _MEASURE, **MANY),
+    "--unit": option("NAME=UNIT", "the unit of a setting or a measure, such as spread=m", **MANY),
+    "--out": option("OUT.csv", f"file of the rows (default: {TABLE})", Path),
+    "--figure": option("OUT", "draw the measures: .png, .pdf, .svg", Path),
+    "--style": option("STYLE", f"of the figure: {', '.join(STYLES)}"),
+    "--compare": option("KEY", "compare a setting's values, seed by seed"),
+    "--confidence": option("P", "of intervals (default: 0.95)", float, default=0.95),
+    "--time-limit": option("S", "seconds that a run may take", float),
+    "--retry": option(None, "run rows with an error again"),
+    "--keep": option(None, _KEEP),
+    **shared("workers cluster"),
+    "--row": option("N", "run one row of a study again", int),
+    "--view": option(None, "with --row: show it in a window"),
+    "--record": option("OUT", "with --row: save all data of the run", Path),
+    **shared("html dark text"),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -72,14 +60,14 @@ def execute(arguments: argparse.Namespace) -> None:
     check_outputs(arguments, {name: OUTPUTS[name] for name in ("record", "figure", "html")})
     given = arguments.experiment or ""
     if arguments.row is not None:
-        _refuse(arguments, (*OF_RUNS, *OF_TABLES), "--row N runs one row as it was")
+        _refuse(arguments, f"{OF_RUNS} compare unit style", "--row N runs one row as it was")
         show_row(arguments, _table_here(arguments))
         return
     if arguments.figure is None:
-        _refuse(arguments, ("style",), "it is of a figure: give --figure OUT as well")
+        _refuse(arguments, "style", "it is of a figure: give --figure OUT as well")
     style_of(arguments.style or "screen")
     confident(arguments.confidence)
-    _refuse(arguments, OF_ROWS, "it is of one run: give --row N")
+    _refuse(arguments, "view record html", "it is of one run: give --row N")
     if not given:
         raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
     if given.lower().endswith(".csv"):
@@ -96,10 +84,10 @@ def execute(arguments: argparse.Namespace) -> None:
             tell(f"records: {records_beside(out)}")
 
 
-def _refuse(arguments: argparse.Namespace, names: tuple[str, ...], why: str) -> None:
-    for name in names:
-        if getattr(arguments, name) not in (None, False, []):
-            raise InputError(f"--{name.replace('_', '-')}: {why}")
+def _refuse(arguments: argparse.Namespace, names: str, why: str) -> None:
+    for name in names.split():
+        if getattr(arguments, name.replace("-", "_")) not in (None, False, []):
+            raise InputError(f"--{name}: {why}")
 
 
 def _table_here(arguments: argparse.Namespace) -> Path:

@@ -8,7 +8,7 @@ from math import dist
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import add_preferences, add_workers, preferences_of, workers_of
+from mars2d.cli.arguments import MANY, option, preferences_of, shared, workers_of
 from mars2d.cli.outputs import check_outputs
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError, Mars2dError, counted, one_line
@@ -28,33 +28,31 @@ from mars2d.tournaments.page.rules import save_rules
 from mars2d.tournaments.schedule import Schedule, schedule
 from mars2d.tournaments.tournament import PAGE, TournamentInterrupted, missing, play_schedule
 
+EACH: dict[str, Any] = {**MANY, "nargs": "+"}
+_LAWS = "the laws of a role: files, a folder, or a pattern such as pursuers/*.py"
+_ROUNDS = "an option; several values make rounds: mu=0.8,0.9 or mu=0.8:1.0:5"
+_FOLDER = "folder of the tables and the page (default: tournament_SCENARIO)"
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add = parser.add_argument
-    each: dict[str, Any] = {"action": "append", "nargs": "+", "default": []}
-    laws = "the laws of a role: files, a folder, or a pattern such as pursuers/*.py"
-    add("scenario", metavar="SCENARIO", help="a file with a contest, or the name of an example")
-    add("--role", **each, metavar="ROLE=FILES", help=laws)
-    add("--players", **each, metavar="FILES", help="laws of all roles")
-    add("--seeds", type=int, default=10, metavar="N", help="matches of each pairing (default: 10)")
-    add("--first-seed", type=int, default=0, metavar="K", help="the seeds are K to K + N - 1")
-    add("--stop-time", type=float, metavar="S", help="seconds to simulate")
-    rounds = "an option; several values make rounds: mu=0.8,0.9 or mu=0.8:1.0:5"
-    add("--set", action="append", default=[], metavar="KEY=VALUES", help=rounds)
-    add("--tick-limit", type=float, metavar="S", help="seconds that a law may take for a step")
-    add("--match-limit", type=float, metavar="S", help="seconds that a law may take for a match")
-    add("--memory", type=float, metavar="MB", help="memory that a law may use")
-    add("--reads", **each, metavar="FILES", help="files and folders that laws may read")
-    folder = "folder of the tables and the page (default: tournament_SCENARIO)"
-    add("--out", type=Path, metavar="FOLDER", help=folder)
-    add("--no-replays", action="store_true", help="a small page, for very many matches")
-    add("--rules", type=Path, metavar="OUT.html", help="write the game's rules as a page")
-    add("--match", type=int, metavar="N", help="play only this match, again")
-    add("--view", action="store_true", help="with --match: show it in a window")
-    add("--record", type=Path, metavar="OUT", help="with --match: save all its data")
-    add_workers(parser)
-    add_preferences(parser)
+ARGUMENTS = {
+    "scenario": option("SCENARIO", "a file with a contest, or the name of an example"),
+    "--role": option("ROLE=FILES", _LAWS, **EACH),
+    "--players": option("FILES", "laws of all roles", **EACH),
+    "--seeds": option("N", "matches of each pairing (default: 10)", int, default=10),
+    "--first-seed": option("K", "the seeds are K to K + N - 1", int, default=0),
+    **shared("stop-time"),
+    "--set": option("KEY=VALUES", _ROUNDS, **MANY),
+    "--tick-limit": option("S", "seconds that a law may take for a step", float),
+    "--match-limit": option("S", "seconds that a law may take for a match", float),
+    "--memory": option("MB", "memory that a law may use", float),
+    "--reads": option("FILES", "files and folders that laws may read", **EACH),
+    "--out": option("FOLDER", _FOLDER, Path),
+    "--no-replays": option(None, "a small page, for very many matches"),
+    "--rules": option("OUT.html", "write the game's rules as a page", Path),
+    "--match": option("N", "play only this match, again", int),
+    "--view": option(None, "with --match: show it in a window"),
+    "--record": option("OUT", "with --match: save all its data", Path),
+    **shared("workers cluster dark text"),
+}
 
 
 def execute(arguments: argparse.Namespace) -> None:
