@@ -104,12 +104,12 @@ class _Host:
 
     def __init__(self, channel: socket.socket) -> None:
         """Take the connection to the match."""
-        self._channel = channel
+        self._channel, self._questions = channel, channel.makefile("rb")
         self._most = 0
 
     def serve(self) -> None:
         """Load the law, then answer each control step, until the match is over."""
-        briefing: Briefing = pickle.loads(self._next())
+        briefing: Briefing = self._next()
         self._most = int(briefing.limits.output * MB)
         self._shut_in(briefing)
         mirror = MirrorWorld(briefing)
@@ -121,7 +121,7 @@ class _Host:
         laws = [Law(law, view) for law, view in zip(loaded, mirror.mine, strict=True)]
         self._answer({})
         while True:
-            mirror.show(pickle.loads(self._next()))
+            mirror.show(self._next())
             commands = self._commands(laws)
             if commands is None:
                 return
@@ -182,19 +182,10 @@ class _Host:
     def _answer(self, told: Mapping[str, Any]) -> None:
         self._channel.sendall(json.dumps(told).encode() + b"\n")
 
-    def _next(self) -> bytes:
-        """Return the next message. Raises EOFError when the match is over."""
-        (length,) = HEAD.unpack(self._read(HEAD.size))
-        return self._read(length)
-
-    def _read(self, length: int) -> bytes:
-        found = b""
-        while len(found) < length:
-            piece = self._channel.recv(length - len(found))
-            if not piece:
-                raise EOFError
-            found += piece
-        return found
+    def _next(self) -> Any:
+        """Return the next message. Raises struct.error when the match is over."""
+        (length,) = HEAD.unpack(self._questions.read(HEAD.size))
+        return pickle.loads(self._questions.read(length))
 
 
 def _readable(briefing: Briefing) -> list[Path]:

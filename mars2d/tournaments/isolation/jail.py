@@ -187,18 +187,18 @@ def _filter() -> Iterator[bytes]:
     """Yield the instructions of the filter of system calls."""
     machine = platform.machine()
     column = [*ARCHITECTURES].index(machine)
-    yield _load(4)
-    yield _jump(EQUAL, ARCHITECTURES[machine], 1, 0)
-    yield _answer(KILL_PROCESS)
-    yield _load(0)
-    yield _jump(AT_LEAST, X32, 0, 1)
-    yield _answer(REFUSE)
+    yield _step(LOAD, 4)
+    yield _step(EQUAL, ARCHITECTURES[machine], 1, 0)
+    yield _step(ANSWER, KILL_PROCESS)
+    yield _step(LOAD, 0)
+    yield _step(AT_LEAST, X32, 0, 1)
+    yield _step(ANSWER, REFUSE)
     for line in REFUSED.strip().splitlines():
         for entry in line.split(", ") if not line.startswith("#") else ():
             number = entry.split()[1 + column]
             if number != "-":
-                yield from (_jump(EQUAL, int(number), 0, 1), _answer(REFUSE))
-    yield from (_jump(EQUAL, CLONE3, 0, 1), _answer(UNKNOWN))
+                yield from (_step(EQUAL, int(number), 0, 1), _step(ANSWER, REFUSE))
+    yield from (_step(EQUAL, CLONE3, 0, 1), _step(ANSWER, UNKNOWN))
     mine = (0, os.getpid())
     for call, argument, mask, values, listed, others in (
         (CLONE, 0, CLONE_THREAD, (CLONE_THREAD,), ALLOW, REFUSE),
@@ -210,28 +210,23 @@ def _filter() -> Iterator[bytes]:
         (IOCTL, 1, -1, OWNING, REFUSE, ALLOW),
         (MMAP, 3, SHARED_WITHOUT_FILE, (SHARED_WITHOUT_FILE,), REFUSE, ALLOW),
     ):
-        tests = [_load(16 + 8 * argument), struct.pack("<HBBI", AND, 0, 0, mask & 0xFFFFFFFF)]
+        tests = [_step(LOAD, 16 + 8 * argument), _step(AND, mask)]
         for value in values:
-            tests += [_jump(EQUAL, value, 0, 1), _answer(listed)]
-        tests.append(_answer(others))
-        yield from (_jump(EQUAL, call[column], 0, len(tests)), *tests)
+            tests += [_step(EQUAL, value, 0, 1), _step(ANSWER, listed)]
+        tests.append(_step(ANSWER, others))
+        yield from (_step(EQUAL, call[column], 0, len(tests)), *tests)
     # A limit may be looked at, but no new one set: the pointer, both halves of it, must be null.
-    yield _jump(EQUAL, PRLIMIT64[column], 0, 6)
-    yield from (_load(32), struct.pack("<HBBI", TO_X, 0, 0, 0), _load(36))
-    yield struct.pack("<HBBI", OR_X, 0, 0, 0)
-    yield from (_jump(EQUAL, 0, 1, 0), _answer(REFUSE))
-    yield _answer(ALLOW)
+    yield _step(EQUAL, PRLIMIT64[column], 0, 6)
+    yield from (_step(LOAD, 32), _step(TO_X, 0), _step(LOAD, 36))
+    yield _step(OR_X, 0)
+    yield from (_step(EQUAL, 0, 1, 0), _step(ANSWER, REFUSE))
+    yield _step(ANSWER, ALLOW)
 
 
-def _load(offset: int) -> bytes:
-    """Return the instruction that takes 4 bytes of the call's data: number, system, arguments."""
-    return struct.pack("<HBBI", LOAD, 0, 0, offset)
+def _step(instruction: int, value: int, yes: int = 0, no: int = 0) -> bytes:
+    """Return an instruction of a filter.
 
-
-def _jump(test: int, value: int, yes: int, no: int) -> bytes:
-    """Return the instruction that skips as many others as are said, by whether a test holds."""
-    return struct.pack("<HBBI", test, yes, no, value & 0xFFFFFFFF)
-
-
-def _answer(answer: int) -> bytes:
-    return struct.pack("<HBBI", ANSWER, 0, 0, answer)
+    value: for LOAD, where in the call's data (number, system, arguments) 4 bytes are taken; of a
+    test, an operation or an answer, its number. yes, no: how many instructions a test skips.
+    """
+    return struct.pack("<HBBI", instruction, yes, no, value & 0xFFFFFFFF)

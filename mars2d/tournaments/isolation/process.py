@@ -79,7 +79,8 @@ class LawProcess:
             except OSError as error:
                 raise InputError(f"can't start a process for a law: {error}") from error
             resources.callback(self._end)
-            self._clock = resources.enter_context(_Clock(self._process.pid))
+            self._clock = _Clock(self._process.pid)
+            resources.callback(self._clock.close)
             self._resources = resources.pop_all()
 
     def load(self) -> None:
@@ -149,7 +150,9 @@ class LawProcess:
         try:
             yield
         except TimeoutError:
-            self._signal("SIGABRT")  # upon which it prints where it is
+            with suppress(OSError):  # it has ended
+                if self._process.exitcode is None and sys.platform != "win32":
+                    os.kill(self._process.pid or 0, signal.SIGABRT)  # it then prints where it is
             self._process.join(GRACE)
             if allowed < min(self._limits.tick, self._limits.start):
                 total = f"its commands took more than {self._limits.match:g} s in all"
@@ -216,11 +219,6 @@ class LawProcess:
         with suppress(ValueError):  # it does not end
             self._process.close()
 
-    def _signal(self, name: str) -> None:
-        with suppress(OSError):
-            if self._process.exitcode is None and sys.platform != "win32":
-                os.kill(self._process.pid or 0, getattr(signal, name))
-
 
 def _started(channel: socket.socket, output: str) -> multiprocessing.process.BaseProcess:
     """Start a law's process: one thread, and sets in the same order in each run.
@@ -265,10 +263,8 @@ class _Clock:
                 self._files.append(os.open(f"{folder}/schedstat", os.O_RDONLY))
         self.start(0.0)
 
-    def __enter__(self) -> _Clock:
-        return self
-
-    def __exit__(self, *_: object) -> None:
+    def close(self) -> None:
+        """Read no more of what the system says."""
         for file in self._files:
             os.close(file)
 
