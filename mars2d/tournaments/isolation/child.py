@@ -14,7 +14,7 @@ import socket
 import struct
 import sys
 import traceback
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from importlib.machinery import (
     EXTENSION_SUFFIXES,
     ExtensionFileLoader,
@@ -116,15 +116,22 @@ class _Host:
         try:
             loaded = [law_in(briefing.file, "control", loader=Sent) for _ in mirror.mine]
         except BaseException as error:
-            self._blame("start", error, briefing.file.name)
+            self._blame("start", error)
             return
         laws = [Law(law, view) for law, view in zip(loaded, mirror.mine, strict=True)]
         self._answer({})
         while True:
             mirror.show(self._next())
-            commands = self._commands(laws)
-            if commands is None:
-                return
+            commands = []
+            for law in laws:
+                kind = "error"
+                try:
+                    command: Any = law.command()
+                    kind = "command"
+                    commands.append([*map(float, robot_command(command, law.refuse))])
+                except BaseException as error:
+                    self._blame(kind, error)
+                    return
             self._answer({"commands": commands, "letters": mirror.letters()})
 
     def _shut_in(self, briefing: Briefing) -> None:
@@ -150,23 +157,9 @@ class _Host:
         if jail.is_protected():
             jail.close_in(_readable(briefing), [briefing.file.parent])
 
-    def _commands(self, laws: Sequence[Law]) -> list[Any] | None:
-        """Return the commands of all robots; None after reporting a fault."""
-        asked = []
-        for law in laws:
-            kind = "error"
-            try:
-                command: Any = law.command()
-                kind = "command"
-                asked.append([*map(float, robot_command(command, law.refuse))])
-            except BaseException as error:
-                self._blame(kind, error, None)
-                return None
-        return asked
-
-    def _blame(self, kind: str, error: BaseException, file: str | None) -> None:
+    def _blame(self, kind: str, error: BaseException) -> None:
         """Report an exception from loading or calling the law."""
-        place = users_line(stack_of(error)) or file
+        place = users_line(stack_of(error))
         text = f"raised {described(error)}"
         if isinstance(error, Mars2dError):
             place, text = error.where or place, str(error.args[0])
