@@ -7,10 +7,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from mars2d.study.run import sweep
 
-__all__ = ["ONE_THREAD", "sweep"]
+__all__ = ["WORKERS", "sweep"]
 
-ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-"""The environment of a process whose linear algebra (numpy) is to use one thread."""
+WORKERS = {
+    "PYTHONSAFEPATH": "1",
+    **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
+}
+"""The environment of processes that run many: one thread each for numpy's linear algebra, and no
+module from the current folder in the place of Python's own."""
 
 
 def __getattr__(name: str) -> Any:

@@ -19,7 +19,7 @@ from concurrent.futures import (
     ProcessPoolExecutor,
     ThreadPoolExecutor,
 )
-from contextlib import nullcontext, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any, NamedTuple, TypeVar
@@ -28,7 +28,7 @@ import cloudpickle
 
 from mars2d.core.errors import InputError, shown
 from mars2d.core.hints import described
-from mars2d.study import ONE_THREAD
+from mars2d.study import WORKERS
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -203,7 +203,8 @@ class Processes(ProcessPoolExecutor):
     """
 
     def __init__(self, count: int) -> None:
-        super().__init__(count, multiprocessing.get_context("spawn"), _begin)
+        with _as_workers_need_it():
+            super().__init__(count, multiprocessing.get_context("spawn"), _begin)
 
     def __enter__(self) -> Processes:
         """Return the pool when its first process has begun. Raises InputError if it can't."""
@@ -226,22 +227,29 @@ class Processes(ProcessPoolExecutor):
         self.shutdown(cancel_futures=True)
 
     def submit(self, function: Callable[..., R], /, *arguments: Any) -> Future[R]:  # type: ignore[override]
-        """Submit a call, for which a process may be started: one that inherits what is set here.
-
-        By default, numpy's linear algebra uses all cores in each worker, which makes them compete:
-        at 100 unknowns it is several times slower. Ctrl-C meanwhile is not lost, but late.
-        """
-        masks = hasattr(signal, "pthread_sigmask")
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]) if masks else ()
-        ours = {name: value for name, value in ONE_THREAD.items() if name not in os.environ}
-        os.environ.update(ours)
-        try:
+        """Submit a call, for which a process may be started."""
+        with _as_workers_need_it():
             return super().submit(function, *arguments)
-        finally:
-            for name in ours:
-                del os.environ[name]
-            if masks:
-                signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _as_workers_need_it() -> Iterator[None]:
+    """Set the environment that processes inherit which are started meanwhile.
+
+    By default, numpy's linear algebra uses all cores in each worker, which makes them compete: at
+    100 unknowns it is several times slower. Ctrl-C meanwhile is not lost, but late.
+    """
+    masks = hasattr(signal, "pthread_sigmask")
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]) if masks else ()
+    ours = {name: value for name, value in WORKERS.items() if name not in os.environ}
+    os.environ.update(ours)
+    try:
+        yield
+    finally:
+        for name in ours:
+            del os.environ[name]
+        if masks:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 # -- in a worker -----------------------------------------------------------------------------------

@@ -23,12 +23,12 @@ LINES = {
     "rl": 776,
     "scenario": 5_269,
     "sensors": 2_045,
-    "study": 3_219,
+    "study": 3_231,
     "testing": 998,
     "tournaments": 4_130,
     "window": 15_503,
     "world": 3_795,
-    "tests": 53_032,
+    "tests": 53_047,
 }
 """Lines at most, by room of the package, and of all tests."""
 

@@ -81,7 +81,9 @@ def test_what_compiles_is_installed_first_where_it_is_missing(tools):
 
 
 def test_doctor_names_all_libraries_and_the_line_for_extras_that_are_missing(monkeypatch):
-    project = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text("utf-8"))["project"]
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))[
+        "project"
+    ]
     extras = {*project["optional-dependencies"]} - {"all", "dev", "docs", "test"}
     findings = {finding.name: finding for finding in examine()}
     assert extras <= {*findings}

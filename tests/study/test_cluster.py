@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import re
 import signal
@@ -13,7 +12,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 import mars2d
-from mars2d.cli.arguments import add_workers, workers_of
+from mars2d.cli.arguments import workers_of
+from mars2d.cli.command_line import parser_of
 from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.core.extras import pip_line
 from mars2d.scenario.examples import examples
@@ -146,9 +146,7 @@ def test_without_dask_the_line_is_printed_that_installs_it(monkeypatch):
 
 
 def chosen(*words):
-    parser = argparse.ArgumentParser()
-    add_workers(parser)
-    return workers_of(parser.parse_args(words))
+    return workers_of(parser_of("sweep").parse_args(["walk.py", *words]))
 
 
 def test_the_command_line_chooses_who_does_the_runs(local):

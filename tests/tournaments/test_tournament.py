@@ -470,3 +470,18 @@ def test_what_can_not_be_played_is_said_in_one_line(command, words, message):
     code, _, said = command(*words)
     assert (code, said.count("\n")) == (2, 1)
     assert said.startswith(f"mars2d: {message}")
+
+
+@pytest.mark.slow
+def test_a_law_that_is_called_as_a_module_of_python_runs_in_no_process_but_its_own(tmp_path):
+    told = "open('told', 'w').write('it ran')\nraise ImportError\n"
+    for name in ("numpy.py", "selectors.py", "cloudpickle.py"):
+        (tmp_path / name).write_text(told)
+    (tmp_path / "quick.py").write_text("def control(robot):\n    return 1.0, 0.0\n")
+    command = [
+        sys.executable, "-P", "-m", "mars2d", "tournament", "corner_game", "--role",
+        "pursuer=quick.py", "evader=evaders", "--seeds", "1", "--stop-time", "1", "--no-replays",
+    ]  # fmt: skip
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert not (tmp_path / "told").exists()

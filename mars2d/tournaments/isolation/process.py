@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.usercode import users_line
-from mars2d.study import ONE_THREAD
+from mars2d.study import WORKERS
 from mars2d.tournaments.isolation.child import CUT_OFF, HEAD, serve
 from mars2d.tournaments.isolation.limits import MB
 from mars2d.tournaments.isolation.observation import Briefing, look
@@ -227,7 +227,7 @@ def _started(channel: socket.socket, output: str) -> multiprocessing.process.Bas
     that has imported everything. Processes of Dask are daemons, which may have no children
     otherwise.
     """
-    ours = {**ONE_THREAD, "PYTHONHASHSEED": "0"}
+    ours = {**WORKERS, "PYTHONHASHSEED": "0"}
     context: Any = multiprocessing.get_context("forkserver" if sys.platform == "linux" else "spawn")
     with _starting:
         before, main = dict(os.environ), sys.modules["__main__"]

@@ -134,7 +134,7 @@ OTHERS: list[tuple[str, str, Content, tuple[str, ...]]] = [
     ("a table from a newer version", "run.csv", _replaced("run.csv", b'"format"": 4',
      b'"format"": 9'),
      ("newer",)),
-    ("a record with a word for a seed", "run.npz", _npz(header=_header(seed="one")), ("damaged",)),
+    ("a record with a word for a seed", "run.npz", _npz(header=_header(seed="one")), ("seed",)),
     ("a record with a header of a list", "run.npz", _npz(header=np.frombuffer(b"[]", np.uint8)),
      ("damaged",)),
     ("a record with poses of objects", "run.npz", _npz(pose=lambda _: np.array([None])),
