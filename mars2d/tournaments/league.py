@@ -32,6 +32,9 @@ UNPROTECTED = (
 WIN, DRAW = 1.0, 0.5
 """The points for a match; a loss gives none."""
 
+COUNTS = ("played", "won", "drawn", "lost", "forfeits")
+"""The numbers of matches in a standing, as all tables name and order them."""
+
 
 @dataclass(frozen=True)
 class Standing:
@@ -237,13 +240,13 @@ class Tournament:
 
     def standing_rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each law: its place in its table, and its results."""
-        counts = ("played", "won", "drawn", "lost", "forfeits", "points")
         return tuple(
             {
                 "role": standing.role,
                 "place": standing.place,
                 "law": standing.law,
-                **{name: getattr(standing, name) for name in counts},
+                **{name: getattr(standing, name) for name in COUNTS},
+                "points": standing.points,
                 "share": standing.share.mean,
                 "share_low": standing.share.low,
                 "share_high": standing.share.high,

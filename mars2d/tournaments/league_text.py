@@ -8,6 +8,7 @@ from math import isnan
 
 from mars2d.core.errors import counted
 from mars2d.tournaments.league import (
+    COUNTS,
     UNPROTECTED,
     Standing,
     Tournament,
@@ -48,8 +49,6 @@ def aligned(rows: Sequence[Sequence[str]], left: int) -> list[str]:
 
 ALWAYS_SHOWN = 5
 """The number of first columns that are always shown; others without any values are left out."""
-
-COUNTS = ("played", "won", "drawn", "lost", "forfeits")
 
 COLUMNS = ("points", "share (95 %)", *COUNTS, "caught after")
 

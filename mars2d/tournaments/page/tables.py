@@ -8,7 +8,7 @@ from math import isfinite
 
 from mars2d.core.errors import counted
 from mars2d.output.raster.theme import DARK, LIGHT, mixed
-from mars2d.tournaments.league import WIN, Standing, Tournament, matches_of, points_of
+from mars2d.tournaments.league import COUNTS, WIN, Standing, Tournament, matches_of, points_of
 from mars2d.tournaments.match import Played
 from mars2d.tournaments.page.rules import dots
 from mars2d.tournaments.page.words import (
@@ -25,9 +25,10 @@ from mars2d.tournaments.rules import Rules
 
 SORTED_BY = ' aria-sort="ascending"'
 STANDING_COLUMNS = (
-    "Place", "Law", "Points", "Share of points", "Played", "Won", "Drawn", "Lost", "Forfeits",
+    *("Place", "Law", "Points", "Share of points"),
+    *map(str.capitalize, COUNTS),
     "Mean capture time",
-)  # fmt: skip
+)
 
 
 def standing_tables(tournament: Tournament) -> str:
@@ -66,10 +67,7 @@ def _standing_row(standing: Standing) -> str:
         f'<th scope="row">{named(standing.law)}</th>',
         f'<td class="points">{standing.points:g}</td>',
         f'<td data-value="{mean:.9g}" class="share">{_share(standing)}</td>',
-        f"<td>{standing.played}</td>",
-        f"<td>{standing.won}</td>",
-        f"<td>{standing.drawn}</td>",
-        f"<td>{standing.lost}</td>",
+        *(f"<td>{getattr(standing, name)}</td>" for name in COUNTS[:-1]),
         _forfeits(standing.forfeits),
         time_cell(standing.capture_time, 1),
     ]
