@@ -32,6 +32,9 @@ UNPROTECTED = (
 WIN, DRAW = 1.0, 0.5
 """The points for a match; a loss gives none."""
 
+COUNTS = ("played", "won", "drawn", "lost", "forfeits")
+"""The numbers of matches in a standing, as all tables name and order them."""
+
 
 @dataclass(frozen=True)
 class Standing:
@@ -136,7 +139,7 @@ def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
     return {
         "group": group,
         "matches": len(matches),
-        "points": sum(_points(each, role) for role, each in matches),
+        "points": sum(points_of(each, role) for role, each in matches),
         "forfeits": len(reasons),
         "reasons": "; ".join(
             f"{matches_of(count)}: {kind}: {firsts[kind]}" for kind, count in kinds.items()
@@ -144,7 +147,8 @@ def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
     }
 
 
-def _points(played: Played, role: str) -> float:
+def points_of(played: Played, role: str) -> float:
+    """Return the points that the law of a role took in a match."""
     return WIN * (played.winner == role) + DRAW * is_draw(played)
 
 
@@ -165,7 +169,7 @@ def head_to_head(played: Iterable[Played], roles: Sequence[str]) -> Mapping[tupl
     for each in played:
         if not each.error:
             first, second = (each.match.laws[role] for role in roles)
-            won = WIN * (each.winner == roles[0]) + DRAW * is_draw(each)
+            won = points_of(each, roles[0])
             points[first, second] = points.get((first, second), 0.0) + won
     return points
 
@@ -236,13 +240,13 @@ class Tournament:
 
     def standing_rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each law: its place in its table, and its results."""
-        counts = ("played", "won", "drawn", "lost", "forfeits", "points")
         return tuple(
             {
                 "role": standing.role,
                 "place": standing.place,
                 "law": standing.law,
-                **{name: getattr(standing, name) for name in counts},
+                **{name: getattr(standing, name) for name in COUNTS},
+                "points": standing.points,
                 "share": standing.share.mean,
                 "share_low": standing.share.low,
                 "share_high": standing.share.high,

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 from math import isnan
 
 from mars2d.core.errors import counted
 from mars2d.tournaments.league import (
+    COUNTS,
     UNPROTECTED,
     Standing,
     Tournament,
@@ -47,9 +48,9 @@ def aligned(rows: Sequence[Sequence[str]], left: int) -> list[str]:
 # -- the league ------------------------------------------------------------------------------------
 
 ALWAYS_SHOWN = 5
-"""The number of first columns that are always shown: place, law, points, share, played."""
+"""The number of first columns that are always shown; others without any values are left out."""
 
-COLUMNS = ("points", "share (95 %)", "played", "won", "drawn", "lost", "forfeits", "caught after")
+COLUMNS = ("points", "share (95 %)", *COUNTS, "caught after")
 
 
 def _tables(tournament: Tournament) -> str:
@@ -60,15 +61,10 @@ def _tables(tournament: Tournament) -> str:
         shown = [
             k
             for k in range(len(rows[0]))
-            if k < ALWAYS_SHOWN or any(_says(row[k]) for row in rows[1:])
+            if k < ALWAYS_SHOWN or any(row[k] not in ("", "0", "-") for row in rows[1:])
         ]
         tables.append("\n".join(aligned([[row[k] for k in shown] for row in rows], left=2)))
     return "\n\n".join(tables)
-
-
-def _says(text: str) -> bool:
-    """Return whether a cell has a value; columns without any are left out."""
-    return text not in ("", "0", "-")
 
 
 def _row(standing: Standing) -> tuple[str, ...]:
@@ -79,11 +75,7 @@ def _row(standing: Standing) -> tuple[str, ...]:
         standing.law,
         f"{standing.points:g}",
         shares,
-        str(standing.played),
-        str(standing.won),
-        str(standing.drawn),
-        str(standing.lost),
-        str(standing.forfeits),
+        *(str(getattr(standing, name)) for name in COUNTS),
         "-" if time is None else f"{time:.1f} s",
     )
 
@@ -177,12 +169,8 @@ def _notes(tournament: Tournament) -> str:
     seeds = counted(len(same[0]), "seed")
     if len(same) == len(several):
         return f"The {seeds} gave the same match in each pairing: nothing in it is random."
-    which = [_pairing(found[0].match.laws) for found in same[:3]]
+    which = [" against ".join(found[0].match.laws.values()) for found in same[:3]]
     more = f" and {counted(len(same) - 3, 'other')}" if len(same) > 3 else ""
     return (
         f"The {seeds} gave the same match, since nothing in it is random: {', '.join(which)}{more}."
     )
-
-
-def _pairing(laws: Mapping[str, str]) -> str:
-    return " against ".join(laws.values())

@@ -171,15 +171,13 @@ def _left(verdicts: Mapping[str, Verdict], roles: tuple[str, ...]) -> str | None
 
 def _forfeits(match: Match, verdicts: Mapping[str, Verdict], winner: str | None) -> str:
     """Say which laws have forfeited a match, and why."""
-    faults = [
-        f"{match.laws[role]} forfeits as {role}{_when(verdict)}: {verdict.kind}: {verdict.text}"
-        for role, verdict in verdicts.items()
-    ]
+    faults = []
+    for role, verdict in verdicts.items():
+        when = "" if verdict.kind == "late" else f" after {verdict.time:g} s"
+        faults.append(
+            f"{match.laws[role]} forfeits as {role}{when}: {verdict.kind}: {verdict.text}"
+        )
     return "; ".join([*faults, f"{winner} wins" if winner else "nobody wins"])
-
-
-def _when(verdict: Verdict) -> str:
-    return "" if verdict.kind == "late" else f" after {verdict.time:g} s"
 
 
 def _replay(record: Record) -> str:

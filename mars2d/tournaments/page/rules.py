@@ -84,31 +84,26 @@ def rules_part(rules: Rules) -> str:
         f"mars2d play {rules.game}",
         f"mars2d check my_law.py --for {rules.game} --role {first}",
     ]
+    start = base64.b64encode(rules.start.encode()).decode()
     commands = "\n".join(f"<pre>{escaped(line)}</pre>" for line in lines)
     return (
         f'<div class="story">{_story(rules.story)}</div>\n'
-        f'<figure class="start">{_start(rules)}</figure>\n'
+        '<figure class="start"><img alt="The start of the game" '
+        f'src="data:image/svg+xml;base64,{start}"></figure>\n'
         f'<div class="roles">\n{roles}\n</div>\n<dl class="rules">\n{listed}\n</dl>\n'
         f'<p class="note">To play it by hand, and to try a law in it:</p>\n{commands}'
     )
 
 
-def _start(rules: Rules) -> str:
-    """Return the picture of the start, which brings its own line of text."""
-    data = base64.b64encode(rules.start.encode()).decode()
-    return f'<img alt="The start of the game" src="data:image/svg+xml;base64,{data}">'
-
-
 def _role(rules: Rules, number: int) -> str:
     role: Role = rules.roles[number]
-    robots = ", ".join(role.robots)
     aim = (
         f"<p><strong>{escaped(role.aim[:1].upper() + role.aim[1:])}.</strong></p>"
         if role.aim
         else ""
     )
     rows = {
-        "Robots": robots,
+        "Robots": ", ".join(role.robots),
         "Drive": role.drive,
         "A law returns": role.command,
         "It sees": role.sees,

@@ -8,7 +8,7 @@ from math import isfinite
 
 from mars2d.core.errors import counted
 from mars2d.output.raster.theme import DARK, LIGHT, mixed
-from mars2d.tournaments.league import DRAW, WIN, Standing, Tournament, is_draw
+from mars2d.tournaments.league import COUNTS, WIN, Standing, Tournament, matches_of, points_of
 from mars2d.tournaments.match import Played
 from mars2d.tournaments.page.rules import dots
 from mars2d.tournaments.page.words import (
@@ -25,9 +25,10 @@ from mars2d.tournaments.rules import Rules
 
 SORTED_BY = ' aria-sort="ascending"'
 STANDING_COLUMNS = (
-    "Place", "Law", "Points", "Share of points", "Played", "Won", "Drawn", "Lost", "Forfeits",
+    *("Place", "Law", "Points", "Share of points"),
+    *map(str.capitalize, COUNTS),
     "Mean capture time",
-)  # fmt: skip
+)
 
 
 def standing_tables(tournament: Tournament) -> str:
@@ -66,10 +67,7 @@ def _standing_row(standing: Standing) -> str:
         f'<th scope="row">{named(standing.law)}</th>',
         f'<td class="points">{standing.points:g}</td>',
         f'<td data-value="{mean:.9g}" class="share">{_share(standing)}</td>',
-        f"<td>{standing.played}</td>",
-        f"<td>{standing.won}</td>",
-        f"<td>{standing.drawn}</td>",
-        f"<td>{standing.lost}</td>",
+        *(f"<td>{getattr(standing, name)}</td>" for name in COUNTS[:-1]),
         _forfeits(standing.forfeits),
         time_cell(standing.capture_time, 1),
     ]
@@ -172,14 +170,10 @@ def _match_points(tournament: Tournament, *, swapped: bool) -> dict[tuple[str, s
         if played.error:
             continue
         one, other = (played.match.laws[role] for role in (first, second))
-        found.setdefault((one, other), []).append(_points(played, first))
+        found.setdefault((one, other), []).append(points_of(played, first))
         if swapped:
-            found.setdefault((other, one), []).append(_points(played, second))
+            found.setdefault((other, one), []).append(points_of(played, second))
     return found
-
-
-def _points(played: Played, role: str) -> float:
-    return WIN * (played.winner == role) + DRAW * is_draw(played)
 
 
 def _cut(law: str) -> str:
@@ -191,8 +185,8 @@ def _share_cell(row: str, column: str, points: list[float] | None, laws: tuple[s
     if not points:
         return f'<td class="none">{DASH}</td>'
     share = sum(points) / len(points) / WIN
-    title = f"{row} against {column}: {100 * share:.0f} % of the points in {len(points)}"
-    title += " match" if len(points) == 1 else " matches"
+    title = f"{row} against {column}: {100 * share:.0f} % of the points in "
+    title += matches_of(len(points))
     return (
         f'<td><button class="s{round(share * COLOR_STEPS)}" data-law="{laws.index(row)}" '
         f'data-rival="{laws.index(column)}" title="{escaped(title)}" '
@@ -276,7 +270,8 @@ def _cells(played: Played, rules: Rules | None, roles: Sequence[str]) -> str:
         cells.append(f'<td{won} data-role="{escaped(role)}">{dots(rules, role)}{law}</td>')
     cells.append(f"<td>{_winner(played)}</td>")
     cells.append(time_cell(played.capture_time, 2))
-    cells.append(f'<td class="ending">{_ending(played)}</td>')
+    badge = '<b class="forfeit">forfeit</b> ' if played.verdicts else ""
+    cells.append(f'<td class="ending">{badge}{escaped(played.message)}</td>')
     return "".join(cells)
 
 
@@ -295,11 +290,6 @@ def _winner(played: Played) -> str:
     if played.error:
         return "no result"
     return "nobody" if played.verdicts else "draw"
-
-
-def _ending(played: Played) -> str:
-    badge = '<b class="forfeit">forfeit</b> ' if played.verdicts else ""
-    return badge + escaped(played.message)
 
 
 def _excerpt(printed: str) -> str:
