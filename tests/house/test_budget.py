@@ -25,7 +25,7 @@ LINES = {
     "sensors": 2_045,
     "study": 3_231,
     "testing": 998,
-    "tournaments": 4_105,
+    "tournaments": 4_080,
     "window": 15_503,
     "world": 3_795,
     "tests": 53_047,
