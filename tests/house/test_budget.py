@@ -28,7 +28,7 @@ LINES = {
     "tournaments": 4_080,
     "window": 15_503,
     "world": 3_795,
-    "tests": 53_047,
+    "tests": 53_048,
 }
 """Lines at most, by room of the package, and of all tests."""
 

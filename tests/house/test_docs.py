@@ -325,7 +325,8 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
     assert films(page) == [f"{name}.gif"]
     commands = [block.text for block in blocks(page) if block.language == "console"]
     assert any(f"mars2d run {name} " in command for command in commands)
-    assert f"(../../{solution(name).relative_to(examples_folder().parent)})" in page.read_text(encoding="utf-8")
+    answer = solution(name).relative_to(examples_folder().parent)
+    assert f"(../../{answer})" in page.read_text(encoding="utf-8")
     assert open_experiment(solution(name)).source.checks is not None
 
 
