@@ -20,7 +20,7 @@ PURPOSES = {
     "cluster": "sweeps and tournaments on Dask clusters",
     "completion": "the Tab key in bash, zsh, tcsh, fish and PowerShell",
     "data": "tables of pandas, arrays of xarray",
-    "live": "Foxglove shows a run that goes on",
+    "live": "a run that Foxglove shows as it goes on",
     "log": "logs, .mcap",
     "maps": "maps of DXF, SVG, and grids of ROS",
     "rl": "environments for learners, laws that were learned",
