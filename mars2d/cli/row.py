@@ -9,13 +9,12 @@ from mars2d.cli.arguments import preferences_of
 from mars2d.cli.outputs import conclude, run_and_save
 from mars2d.cli.runs import opens_window, run_headless, show, source_of
 from mars2d.core.errors import InputError, shown
-from mars2d.core.terminal import tell, warn
+from mars2d.core.terminal import aligned, tell, warn
 from mars2d.output.formats import log_to
 from mars2d.scenario.experiment import open_experiment
 from mars2d.study.job import code_of
 from mars2d.study.measures import measure_named, measured
 from mars2d.study.table import Result, Table
-from mars2d.tournaments.league_text import aligned
 from mars2d.world.record import Record
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import groupby
 from math import isnan
 
 from mars2d.core.errors import counted
+from mars2d.core.terminal import aligned
 from mars2d.tournaments.league import (
     COUNTS,
     UNPROTECTED,
@@ -31,18 +32,6 @@ def league_text(tournament: Tournament) -> str:
     told = [part(tournament) for part in parts]
     told.append(f"Isolation: {UNPROTECTED}" if tournament.unprotected else "")
     return "\n\n".join(filter(None, told))
-
-
-def aligned(rows: Sequence[Sequence[str]], left: int) -> list[str]:
-    """Return rows as lines; the first `left` columns are flush left, the others flush right."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  ".join(
-            cell.ljust(width) if k < left else cell.rjust(width)
-            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]
 
 
 # -- the league ------------------------------------------------------------------------------------

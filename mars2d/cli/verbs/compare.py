@@ -17,12 +17,11 @@ from mars2d.cli.outputs import DURATION, FPS, OUTPUTS, check_outputs, film_speed
 from mars2d.cli.runs import has_display, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
-from mars2d.core.terminal import tell
+from mars2d.core.terminal import aligned, tell
 from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.tournaments.league_text import aligned
 from mars2d.world.record import Record
 
 if TYPE_CHECKING:
