@@ -66,7 +66,7 @@ class Folder:
     """
 
     def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
-        self._path, self._schedule, self._replays = path, schedule, replays
+        self._path, self._schedule = path, schedule
         self._prints = _prints(schedule, limits)
         if path.exists() and not path.is_dir():
             raise InputError(f"{path}: this is a file; expected a folder")
@@ -74,8 +74,8 @@ class Folder:
             raise InputError(f"{path}: there is no folder {path.parent}")
         with writing(path):
             path.mkdir(exist_ok=True)
-        _known(path, schedule, self._prints)  # raises for a folder that holds anything else
-        self.before: tuple[Played, ...] = ()
+        found = _known(path, schedule, self._prints)
+        self.before = tuple(p for p in found if p.replay or not (replays and p.steps))
 
     def keep(self, played: Played) -> None:
         """Write a match that is done, with its options as text: its hash identifies it."""
@@ -93,8 +93,6 @@ class Folder:
                 self._write(_head(self._schedule))
             elif not data.endswith(b"\n"):
                 self._file.write(b"\n")  # after a line that was not written to its end
-            found = _known(self._path, self._schedule, self._prints)
-            self.before = tuple(p for p in found if p.replay or not (self._replays and p.steps))
         except BaseException:
             self._file.close()
             raise
