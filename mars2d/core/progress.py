@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import Any, TextIO
+from typing import Any
 
 
 class Progress:
     """A bar on one line of a terminal with progress, rate and time left; silent elsewhere."""
 
-    def __init__(
-        self, total: int, unit: str = "steps", stream: TextIO | None = None, after: float = 0.5
-    ) -> None:
-        """Take the total number of steps; `stream` is stderr by default.
+    def __init__(self, total: int, unit: str = "steps", after: float = 0.5) -> None:
+        """Take the total number of steps.
 
         after: the time before the bar is shown, seconds; a short run needs none.
         """
         self._total = max(total, 1)
         self._unit = unit
-        self._stream = sys.stderr if stream is None else stream
+        self._stream = sys.stderr
         self._on = self._stream.isatty()
         self._start = time.monotonic()
         self._next = self._start + after

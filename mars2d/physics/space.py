@@ -126,7 +126,8 @@ class Space:
 
     def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
         """Yield the nearest point of each surface at most `limit` away; see Surroundings."""
-        for info in self._seen.point_query(point, WITHIN * limit, _own(ignore)):
+        own = pymunk.ShapeFilter(group=ignore + 1)
+        for info in self._seen.point_query(point, WITHIN * limit, own):
             yield info.point.x, info.point.y
 
 
@@ -137,15 +138,11 @@ def _walls(space: pymunk.Space, outline: Outline) -> list[pymunk.Shape]:
     return [pymunk.Segment(body, a, b, 0.0) for a, b in edges_of(outline)]
 
 
-def _own(robot: int) -> pymunk.ShapeFilter:
-    return pymunk.ShapeFilter(group=robot + 1)
-
-
 def _scattered(shapes: list[pymunk.Shape]) -> list[pymunk.Shape]:
     """Return shapes in a fixed order in which neighbours lie far apart.
 
     The engine sorts shapes into a tree as they come. If neighbours follow one another, the tree is
-    lopsided, and rays through it are up to twice as slow.
+    lopsided, and queries of it are up to twice as slow.
     """
     order = sorted(range(len(shapes)), key=lambda k: k * GOLDEN % 1.0)
     return [shapes[k] for k in order]

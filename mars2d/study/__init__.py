@@ -1,4 +1,4 @@
-"""Many runs: sweeps over settings and seeds, and tournaments between laws."""
+"""Many runs: sweeps over settings and seeds."""
 
 from __future__ import annotations
 

@@ -66,15 +66,18 @@ def execute(arguments: argparse.Namespace) -> None:
         require_pygame("a window")
         raise InputError("--view: there is no display; save the match with --record OUT.npz")
     limits, roles, settings = _limits(arguments), _roles(arguments.role), parse_all(arguments.set)
-    seeds = {"seeds": arguments.seeds, "first_seed": arguments.first_seed}
-    more: dict[str, Any] = {**seeds, "settings": settings, "stop_time": arguments.stop_time}
+    more: dict[str, Any] = {
+        "first_seed": arguments.first_seed,
+        "settings": settings,
+        "stop_time": arguments.stop_time,
+    }
     if arguments.rules is not None:
         save_rules(arguments.rules, arguments.scenario, limits, **more)
         tell(f"rules: {arguments.rules}")
         if not (roles or arguments.players):
             return
     players = [file for files in arguments.players for file in files]
-    planned = schedule(arguments.scenario, roles, players, **more)
+    planned = schedule(arguments.scenario, roles, players, seeds=arguments.seeds, **more)
     path = arguments.out or Path(f"tournament_{experiment_name(Path(planned.experiment))}")
     if arguments.match is None:
         _play_all(arguments, planned, path, limits)

@@ -31,7 +31,6 @@ def save_rules(
     settings: Mapping[str, Any],
     stop_time: float | None,
     first_seed: int,
-    seeds: int,  # noqa: ARG001 - rules are the same for each
 ) -> None:
     """Write the page of a game's rules, in its first round. Raises InputError if that fails."""
     options = next(iter(Plan(settings_of(settings), (first_seed,)).points()))
