@@ -16,7 +16,7 @@ LINES = {
     "cli": 2_634,
     "core": 2_917,
     "geometry": 1_549,
-    "output": 14_446,
+    "output": 14_462,
     "physics": 8_305,
     "record": 1_615,
     "reports": 1_066,

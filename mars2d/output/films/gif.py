@@ -51,12 +51,10 @@ class Gif:
         pixels: Pixels = pygame.surfarray.pixels2d(picture).T.copy()
         if self._shown is None:
             self._begin(pixels)
-            changed = np.ones(pixels.shape, dtype=bool)
+            changed = np.arange(pixels.size)
         else:
-            changed = pixels != self._shown
-        rows, columns = (np.flatnonzero(changed.any(axis=axis)).tolist() for axis in (1, 0))
-        if rows:
-            self._change(pixels, slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1))
+            changed = np.flatnonzero(pixels != self._shown)
+        self._change(pixels, changed)
         self._shown = pixels
         self._count += 1
 
@@ -68,24 +66,29 @@ class Gif:
     def _begin(self, pixels: Pixels) -> None:
         """Write the size, the palette, and that the film repeats."""
         colors = _palette(pixels)
-        self._nearest = _nearest(colors)
+        self._palette = _Palette(colors)
         self._entries = np.full(pixels.shape, CLEAR, dtype=np.uint8)
         height, width = pixels.shape
         sides = width.to_bytes(2, "little") + height.to_bytes(2, "little")
         self._file.write(b"GIF89a" + sides + b"\xf7\x00\x00" + colors.tobytes().ljust(768, b"\0"))
         self._file.write(b"!\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00")
 
-    def _change(self, pixels: Pixels, rows: slice, columns: slice) -> None:
-        """Show a part of a picture, with `CLEAR` where nothing changes.
+    def _change(self, pixels: Pixels, changed: NDArray[np.intp]) -> None:
+        """Show the part of a picture in which pixels have changed, and elsewhere `CLEAR`.
 
-        Long runs of one value compress to almost nothing.
+        changed: their places, row by row. Long runs of one value compress to almost nothing.
         """
-        entries, known = self._nearest[_codes(pixels[rows, columns])], self._entries[rows, columns]
-        changed = entries != known
-        if changed.any():
+        entries, known = self._palette.entries(pixels.ravel()[changed]), self._entries.reshape(-1)
+        differs = entries != known[changed]
+        changed, entries = changed[differs], entries[differs]
+        if len(changed):
             self._write_pending()
-            self._pending = np.where(changed, entries, np.uint8(CLEAR)), (columns.start, rows.start)
-            known[changed] = entries[changed]
+            known[changed] = entries
+            rows, columns = np.divmod(changed, pixels.shape[1])
+            top, left = int(rows[0]), int(columns.min())
+            part = np.full((rows[-1] - top + 1, columns.max() - left + 1), CLEAR, dtype=np.uint8)
+            part[rows - top, columns - left] = entries
+            self._pending = part, (left, top)
 
     def _write_pending(self) -> None:
         """Write the part that was seen until now."""
@@ -127,16 +130,29 @@ def _palette(pixels: Pixels) -> Entries:
     return wanted[np.sort(first)][:CLEAR].astype(np.uint8)
 
 
-def _nearest(colors: Entries) -> Entries:
-    """Return the entry of the palette for each colour of 6 bits a channel; its own are exact."""
-    from scipy.spatial import cKDTree
+class _Palette:
+    """The entries of a palette (k, 3) for colours of 6 bits a channel; its own are exact.
 
-    cells = np.arange(1 << 18)
-    middles = 4 * np.column_stack([cells >> 12, cells >> 6 & 63, cells & 63]) + 1.5
-    nearest: Entries = np.array(cKDTree(colors).query(middles)[1], dtype=np.uint8)
-    red, green, blue = colors[::-1].astype(int).T  # of two of one cell, the first counts
-    nearest[_codes(red << 16 | green << 8 | blue)] = np.arange(len(colors))[::-1]
-    return nearest
+    The nearest is searched once for each colour that is seen: for all of them it takes 0.2 s.
+    """
+
+    def __init__(self, colors: Entries) -> None:
+        from scipy.spatial import cKDTree
+
+        self._tree, self._known = cKDTree(colors), np.full(1 << 18, CLEAR, dtype=np.uint8)
+        red, green, blue = colors[::-1].astype(int).T  # of two of one cell, the first counts
+        self._known[_codes(red << 16 | green << 8 | blue)] = np.arange(len(colors))[::-1]
+
+    def entries(self, pixels: Pixels) -> Entries:
+        """Return the entry of each pixel."""
+        codes = _codes(pixels)
+        entries: Entries = self._known[codes]
+        if (entries == CLEAR).any():
+            cells = np.unique(codes[entries == CLEAR])
+            middles = 4 * np.column_stack([cells >> 12, cells >> 6 & 63, cells & 63]) + 1.5
+            self._known[cells] = self._tree.query(middles)[1]
+            entries = self._known[codes]
+        return entries
 
 
 def _codes(pixels: NDArray[Any]) -> NDArray[Any]:
