@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import pygame
 
-from mars2d.core.errors import LawError, counted
+from mars2d.core.errors import LawError
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 from mars2d.record.frame import Frame
-from mars2d.scenario.prediction import Prediction, number
+from mars2d.scenario.prediction import SIGNS, Prediction, cells, number, summary
 from mars2d.window.widgets.dock import Panel
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -182,11 +182,15 @@ class Predictions(Panel):
         )  # fmt: skip
         surface.blit(name, (left, top - round(ui)))
         low, p = top + round(17 * ui), prediction
+        if p.reason:
+            words = fonts.shorten(p.reason, 12 * ui, width - left)
+            surface.blit(fonts.render(words, 12 * ui, theme.muted), (left, low))
+            return
         measured = p.measured if math.isfinite(p.measured) else None
-        tolerance = f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}"
         each = self._column(width) - 8 * ui
-        cells = [self._fitted(value, p.tolerance, each) for value in (p.predicted, measured)]
-        for k, (cell, right) in enumerate(zip((*cells, tolerance), columns, strict=True)):
+        shown = [self._fitted(value, p.tolerance, each) for value in (p.predicted, measured)]
+        shown[0] = SIGNS[p.bound] + shown[0]
+        for k, (cell, right) in enumerate(zip((*shown, cells(p)[-1]), columns, strict=True)):
             ink = color if k == 1 and self.reading.finished else theme.text
             image = fonts.render(cell, NUMBER * ui, ink, bold=k == 1)
             surface.blit(image, image.get_rect(topright=(right, low)))
@@ -205,6 +209,8 @@ class Predictions(Panel):
 
     def _verdict(self, prediction: Prediction, theme: Theme) -> tuple[str, str]:
         """Return how a prediction stands, in words, and their colour."""
+        if prediction.reason:
+            return prediction.verdict, theme.muted
         if prediction.ok:
             return ("ok" if self.reading.finished else "ok so far"), theme.running.ink
         if self.reading.finished:
@@ -226,7 +232,6 @@ class Predictions(Panel):
         elif reading.error is not None:
             text = f"{'Failed' if reading.finished else 'Not yet'}: {reading.error}"
         else:
-            held = sum(each.ok for each in reading.predictions)
             when = "at the end" if reading.finished else f"at {reading.time:.4g} s"
-            text = f"{held} of {counted(len(reading.predictions), 'prediction')} ok {when}"
+            text = f"{summary(reading.predictions)} {when}"
         return self.painter.fonts.wrap(text, 12 * ui, width, MAX_WORDS)
