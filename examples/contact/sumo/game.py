@@ -10,8 +10,6 @@ Measured: the impulse of the first clash, in its control step.
 
 from math import pi
 
-import numpy as np
-
 from mars2d import Animation, Prediction, Robot, Scenario, Unicycle, load_law
 from mars2d.addons import Ring
 
