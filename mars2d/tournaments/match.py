@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from mars2d.addons.contest import Outcome
 from mars2d.core.errors import LawError
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.roles import contest_of
+from mars2d.scenario.roles import contest_of, roles_of
 from mars2d.tournaments.isolation.jail import is_protected
 from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits, Verdict
 from mars2d.world.loop import simulate
@@ -124,8 +124,8 @@ def replayed(match: Match, limits: Limits, replays: bool = False) -> tuple[Playe
 
     experiment = open_experiment(match.experiment, match.options, seed=match.seed)
     contest = contest_of(experiment.scenario, match.experiment)
-    roles = tuple(role for role, _ in contest.roles)
-    teams = dict(zip(roles, contest.teams(experiment.scenario), strict=True))
+    teams = roles_of(experiment.scenario)
+    roles = tuple(teams)
     laws = {role: (Path(file), teams[role]) for role, file in match.files.items()}
     with Guard(experiment.scenario, laws, match.seed, limits, match.code) as guard:
         record = _record(experiment, guard)
