@@ -42,7 +42,7 @@ def _pairings(tournament: Tournament) -> str:
     """Return the points that laws took from each other, if there is more than one pairing."""
     points = tournament.head_to_head()
     columns = [*next(iter(points.values()), ())]
-    if len(points) * len(columns) < 2:
+    if sum(bool(taken) for rivals in points.values() for taken in rivals.values()) < 2:
         return ""
     first, second = tournament.schedule.roles
     title = f"Points of each {first} against each {second}:"
