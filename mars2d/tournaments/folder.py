@@ -13,7 +13,7 @@ from typing import Any
 from mars2d.core.errors import InputError
 from mars2d.core.files import growing, writing
 from mars2d.physics.settings import versions
-from mars2d.tournaments.isolation.limits import Limits, Verdict
+from mars2d.tournaments.isolation.limits import Verdict
 from mars2d.tournaments.match import Match, Played
 from mars2d.tournaments.schedule import Schedule
 
@@ -24,7 +24,7 @@ FORMAT = 3
 """The version of the file's format; a folder with another version is refused."""
 
 
-def _prints(schedule: Schedule, limits: Limits) -> dict[int, str]:
+def _prints(schedule: Schedule) -> dict[int, str]:
     """Return a hash for each match, by number, of everything that determines its result.
 
     That is the experiment, laws, options, seed, limits and versions, but not the match's number.
@@ -35,7 +35,9 @@ def _prints(schedule: Schedule, limits: Limits) -> dict[int, str]:
         for role, file in match.files.items()
     }
     others = sorted(schedule.files - {*map(Path, code)})
-    common = _hash([f"{versions()} {limits}".encode(), *(path.read_bytes() for path in others)])
+    common = _hash(
+        [f"{versions()} {schedule.limits}".encode(), *(path.read_bytes() for path in others)]
+    )
     return {
         match.number: _hash(
             [
@@ -65,9 +67,9 @@ class Folder:
     InputError for a folder that holds anything else, or can't be written.
     """
 
-    def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
+    def __init__(self, path: Path, schedule: Schedule, replays: bool) -> None:
         self._path, self._schedule = path, schedule
-        self._prints = _prints(schedule, limits)
+        self._prints = _prints(schedule)
         if path.exists() and not path.is_dir():
             raise InputError(f"{path}: this is a file; expected a folder")
         if not path.absolute().parent.is_dir():
@@ -108,9 +110,9 @@ class Folder:
             self._file.flush()
 
 
-def played_before(path: Path, schedule: Schedule, limits: Limits) -> tuple[Played, ...]:
+def played_before(path: Path, schedule: Schedule) -> tuple[Played, ...]:
     """Return the matches of a schedule that a folder holds; the folder need not exist."""
-    return _known(path, schedule, _prints(schedule, limits)) if path.is_dir() else ()
+    return _known(path, schedule, _prints(schedule)) if path.is_dir() else ()
 
 
 def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[Played, ...]:

@@ -4,24 +4,19 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mars2d.addons.contest import Outcome
-from mars2d.core.errors import LawError
-from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.roles import contest_of
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.roles import contest_of, roles_of
+from mars2d.tournaments.isolation import run_isolated
 from mars2d.tournaments.isolation.jail import is_protected
 from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits, Verdict
-from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 from mars2d.world.verify import rerun
-
-if TYPE_CHECKING:
-    from mars2d.tournaments.isolation import Guard
-
 
 TIME_OUTS = 2
 """In how many matches a law may run out of time, before it forfeits the rest."""
@@ -120,19 +115,15 @@ def replayed(match: Match, limits: Limits, replays: bool = False) -> tuple[Playe
 
     The match is run again from its recorded commands: if that leads elsewhere, it has no result.
     """
-    from mars2d.tournaments.isolation import Guard
-
     experiment = open_experiment(match.experiment, match.options, seed=match.seed)
     contest = contest_of(experiment.scenario, match.experiment)
-    roles = tuple(role for role, _ in contest.roles)
-    teams = dict(zip(roles, contest.teams(experiment.scenario), strict=True))
+    teams = roles_of(experiment.scenario)
+    roles = tuple(teams)
     laws = {role: (Path(file), teams[role]) for role, file in match.files.items()}
-    with Guard(experiment.scenario, laws, match.seed, limits, match.code) as guard:
-        record = _record(experiment, guard)
+    record, verdicts, output = run_isolated(experiment, laws, limits, match.code)
     if len(record) and (departure := rerun(record)):
         error = f"run again from its recorded commands, it departs at {departure}"
         return Played.without_result(match, error), record
-    verdicts = dict(guard.verdicts)
     outcome = contest.outcome(record) if len(record) else Outcome((), {}, None)
     caught = bool(outcome.captures) and not verdicts and not isnan(outcome.capture_time)
     winner = _left(verdicts, roles) if verdicts else outcome.winner
@@ -143,24 +134,13 @@ def replayed(match: Match, limits: Limits, replays: bool = False) -> tuple[Playe
         capture_time=outcome.capture_time if caught else None,
         message=_forfeits(match, verdicts, winner) if verdicts else record.over_message,
         verdicts=verdicts,
-        output={role: text for role, text in guard.output.items() if text},
+        output=output,
         digest=record.digest,
         steps=max(len(record) - 1, 0),
         replay=_replay(record) if replays else "",
         protected=is_protected(),
     )
     return played, record
-
-
-def _record(experiment: Experiment, guard: Guard) -> Record:
-    """Return the record of a match, even if the failure of a guarded law ended it."""
-    try:
-        return simulate(replace(experiment, scenario=guard.scenario)).record
-    except LawError as error:
-        if not guard.verdicts or error.record is None:
-            raise
-        record: Record = error.record
-        return record
 
 
 def _left(verdicts: Mapping[str, Verdict], roles: tuple[str, ...]) -> str | None:

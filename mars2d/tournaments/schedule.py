@@ -7,16 +7,17 @@ import itertools
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.scenario.examples import examples, experiment_name
-from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.policy import SUFFIX as POLICY
-from mars2d.scenario.roles import contest_of
+from mars2d.scenario.roles import contest_of, roles_of
 from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
+from mars2d.tournaments.isolation.limits import LIMITS, Limits
 from mars2d.tournaments.isolation.source import law_code
 from mars2d.tournaments.match import Match
 from mars2d.tournaments.rules import Rules
@@ -38,17 +39,22 @@ class Schedule:
     """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
 
     title, experiment: those of the scenario. roles: those of its contest, in order. settings: the
-    options in which rounds differ. files: those that were read for the experiment itself. rules: of
-    the game, in the first round.
+    options in which rounds differ. limits: of each law. files: those that were read for the
+    experiment itself. rules: of the game, in the first round.
     """
 
     title: str
     experiment: str
     roles: tuple[str, ...]
     settings: tuple[str, ...]
-    matches: tuple[Match, ...]
-    files: frozenset[Path] = frozenset()
-    rules: Rules | None = None
+    limits: Limits
+    matches: tuple[Match, ...] = field(repr=False)
+    files: frozenset[Path] = field(repr=False)
+    rules: Rules = field(repr=False)
+
+    def round_of(self, match: Match) -> str:
+        """Return the name of a match's round: the settings in which rounds differ."""
+        return ", ".join(f"{name} = {match.options.get(name)}" for name in self.settings)
 
 
 def schedule(
@@ -60,6 +66,7 @@ def schedule(
     first_seed: int = 0,
     settings: Mapping[str, Any] | None = None,
     stop_time: float | None = None,
+    limits: Limits = LIMITS,
 ) -> Schedule:
     """Return the schedule in which each law of a role plays each of the other, with all seeds.
 
@@ -75,17 +82,14 @@ def schedule(
     rounds = [{**point, **always} for point in plan.points()]
     opened = open_experiment(experiment, rounds[0], seed=plan.seeds[0])
     contest = contest_of(opened.scenario, str(experiment))
-    parts = contest.roles
-    names = tuple(role for role, _ in parts)
+    names = tuple(roles_of(opened.scenario))
     for options in (probe | always for probe in plan.probes()):  # before any match, not after many
         scenario = open_experiment(experiment, options, seed=plan.seeds[0]).scenario
-        other = contest_of(scenario, str(experiment))
-        other.teams(scenario)
-        if tuple(role for role, _ in other.roles) != names:
+        contest_of(scenario, str(experiment))
+        if tuple(roles_of(scenario)) != names:
             raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
     _check_names(plan.settings, names)
-    beside = None if opened.source.path is None else opened.source.path.parent
-    taking_part = entrants(names, roles or {}, players or (), beside)
+    taking_part = entrants(names, roles or {}, players or (), _beside(opened))
     pairings = [
         {role: str(law) for role, law in zip(names, laws, strict=True)}
         for laws in itertools.product(*taking_part.values())
@@ -118,10 +122,25 @@ def schedule(
         experiment=named,
         roles=names,
         settings=tuple(plan.settings),
+        limits=limits,
         matches=matches,
         files=frozenset(opened.source.written),
-        rules=Rules.of(opened, contest),
+        rules=Rules.of(opened, contest, limits),
     )
+
+
+def game_rules(
+    experiment: str, limits: Limits, settings: Mapping[str, Any], stop_time: float | None, seed: int
+) -> Rules:
+    """Return the rules of a game in its first round, with which nobody need play."""
+    options = next(iter(Plan(settings_of(settings), (seed,)).points()))
+    always = {} if stop_time is None else {"stop_time": stop_time}
+    opened = open_experiment(experiment, {**options, **always}, seed=seed)
+    return Rules.of(opened, contest_of(opened.scenario, experiment), limits)
+
+
+def _beside(opened: Experiment) -> Path | None:
+    return None if opened.source.path is None else opened.source.path.parent
 
 
 def trial_matches(
@@ -132,11 +151,11 @@ def trial_matches(
     Raises InputError for a role or a file that is not there, and for a law of another role.
     """
     opened = open_experiment(experiment, options)
-    names = tuple(name for name, _ in contest_of(opened.scenario, experiment).roles)
+    contest_of(opened.scenario, experiment)
+    names = tuple(roles_of(opened.scenario))
     if role not in names:
         raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
-    beside = None if opened.source.path is None else opened.source.path.parent
-    files = law_files(laws, beside)
+    files = law_files(laws, _beside(opened))
     check_meant(role, files, names)
     each = itertools.product(files, range(TRIALS))
     return tuple(

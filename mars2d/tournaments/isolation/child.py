@@ -11,7 +11,6 @@ import os
 import pickle
 import random
 import socket
-import struct
 import sys
 import traceback
 from collections.abc import Mapping
@@ -36,10 +35,6 @@ from mars2d.tournaments.isolation.limits import MB, Limits
 from mars2d.tournaments.isolation.mirror_world import MirrorWorld
 from mars2d.tournaments.isolation.observation import Briefing
 from mars2d.world.laws import Law, robot_command
-
-HEAD = struct.Struct("<I")
-"""What comes before each message to a law, which is pickled: its length in bytes. Messages from it
-are lines of JSON, which runs no code."""
 
 CUT_OFF = 70
 """The exit code of a process whose law has closed the connection to the match."""
@@ -100,7 +95,10 @@ def _redirect(output: str) -> None:
 
 
 class _Host:
-    """Runs the law of one role for its robots."""
+    """Runs the law of one role for its robots.
+
+    Messages to it are pickled, those from it are lines of JSON, which runs no code.
+    """
 
     def __init__(self, channel: socket.socket) -> None:
         """Take the connection to the match."""
@@ -108,8 +106,8 @@ class _Host:
         self._most = 0
 
     def serve(self) -> None:
-        """Load the law, then answer each control step, until the match is over."""
-        briefing: Briefing = self._next()
+        """Load the law, then answer each control step, until the match is over (EOFError)."""
+        briefing: Briefing = pickle.load(self._questions)
         self._most = int(briefing.limits.output * MB)
         self._shut_in(briefing)
         mirror = MirrorWorld(briefing)
@@ -121,7 +119,7 @@ class _Host:
         laws = [Law(law, view) for law, view in zip(loaded, mirror.mine, strict=True)]
         self._answer({})
         while True:
-            mirror.show(self._next())
+            mirror.show(pickle.load(self._questions))
             commands = []
             for law in laws:
                 kind = "error"
@@ -132,7 +130,7 @@ class _Host:
                 except BaseException as error:
                     self._blame(kind, error)
                     return
-            self._answer({"commands": commands, "letters": mirror.letters()})
+            self._answer({"commands": commands, "letters": mirror.mailbox.sent})
 
     def _shut_in(self, briefing: Briefing) -> None:
         """Prepare this process for the law, and take from it what it does not need."""
@@ -174,11 +172,6 @@ class _Host:
 
     def _answer(self, told: Mapping[str, Any]) -> None:
         self._channel.sendall(json.dumps(told).encode() + b"\n")
-
-    def _next(self) -> Any:
-        """Return the next message. Raises struct.error when the match is over."""
-        (length,) = HEAD.unpack(self._questions.read(HEAD.size))
-        return pickle.loads(self._questions.read(length))
 
 
 def _readable(briefing: Briefing) -> list[Path]:

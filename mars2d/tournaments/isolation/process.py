@@ -18,12 +18,12 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.usercode import users_line
 from mars2d.study import WORKERS
-from mars2d.tournaments.isolation.child import CUT_OFF, HEAD, serve
+from mars2d.tournaments.isolation.child import CUT_OFF, serve
 from mars2d.tournaments.isolation.limits import MB
 from mars2d.tournaments.isolation.observation import Briefing, look
 from mars2d.world.laws import LARGEST
@@ -52,7 +52,7 @@ _starting = threading.Lock()
 
 
 class LawProcess:
-    """A law in a process of its own.
+    """A law in a process of its own, which ends with the block.
 
     fault: why it has failed, the kind of a verdict and a line of text, or None. printed: the
     beginning of its output, once it has ended.
@@ -90,7 +90,8 @@ class LawProcess:
 
     def ask(self, world: Simulation) -> None:
         """Ask it for the commands of a control step."""
-        seen, robots = look(world, self._briefing), self._briefing.robots
+        robots = self._briefing.robots
+        seen = look(world, robots)
         with self._judged(min(self._limits.tick, self._limits.match - self._used), "no command"):
             answer = self._ask(seen)
             self._used += self._clock.used
@@ -118,8 +119,7 @@ class LawProcess:
 
     def _ask(self, question: object) -> Any:
         """Send a message and return the answer; see `_judged` for what it raises."""
-        body = pickle.dumps(question, 5)
-        rest = memoryview(HEAD.pack(len(body)) + body)
+        rest = memoryview(pickle.dumps(question, 5))
         while rest:
             rest = rest[self._in_time(self._channel.send, rest) :]
         told = b""
@@ -205,8 +205,10 @@ class LawProcess:
     def _all_printed(self) -> str:
         return self._output.read_bytes().decode(errors="replace")
 
-    def end(self) -> None:
-        """End the process, and all that it has started."""
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
         self._resources.close()
 
     def _end(self) -> None:
