@@ -154,7 +154,7 @@ def _run_headless(
         film = partial(save_film, footage.frames(last), footage.count(last), speed, arguments)
     seconds = world.simulation.engine_seconds
     if seconds >= LONG and reason_without():
-        from mars2d.reports.remedy import remedy
+        from mars2d.reports.doctor import remedy
 
         slow = f"the engine took {seconds:.0f} s, since {reason_without()}"
         warn(f"{slow}. Compiled it is many times quicker: {remedy()}")

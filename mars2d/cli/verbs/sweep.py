@@ -59,7 +59,11 @@ def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment over settings and seeds into a table, or one of its rows again."""
     given = arguments.experiment or ""
     if arguments.row is not None:
-        refuse(arguments, f"{OF_RUNS} compare unit style", "does not go with --row N, which runs one row as it was")
+        refuse(
+            arguments,
+            f"{OF_RUNS} compare unit style",
+            "does not go with --row N: that runs as it was",
+        )
         show_row(arguments, _table_here(arguments))
         return
     if arguments.figure is None:
