@@ -12,13 +12,11 @@ from functools import partial
 from pathlib import Path
 
 from mars2d.cli import remarks
-from mars2d.cli.arguments import MANY, option, options_of, preferences_of, shared
+from mars2d.cli.arguments import MANY, Output, option, options_of, preferences_of, refuse, shared
 from mars2d.cli.outputs import (
     FPS,
-    OUTPUTS,
     Make,
     check_film,
-    check_outputs,
     conclude,
     film_speed,
     outcome,
@@ -50,7 +48,7 @@ _DRIVEN = "a robot to drive by hand: its name or index, or a role; may be given 
 ARGUMENTS = {
     **shared("experiment headless seed speed stop-time set figure at video size from to"),
     **shared("html theory dark text json"),
-    "--record": option("OUT", _SAVED, Path),
+    "--record": option("OUT", _SAVED, Path, action=Output),
     "--foxglove": option("PORT", _SERVED, int, nargs="?", const=FOXGLOVE),
     "--human": option("WHO", _DRIVEN, **MANY),
 }
@@ -58,9 +56,8 @@ ARGUMENTS = {
 
 def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment, in a window if there is a display, and save the requested files."""
-    check_outputs(arguments, OUTPUTS)
-    if arguments.at is not None and arguments.figure is None:
-        raise InputError("--at needs --figure OUT")
+    if arguments.figure is None:
+        refuse(arguments, "at", "needs --figure OUT")
     experiment = open_experiment(arguments.experiment, options_of(arguments), seed=arguments.seed)
     humans = _check(arguments, experiment)
     for remark in remarks.before(experiment):
@@ -157,7 +154,7 @@ def _run_headless(
         film = partial(save_film, footage.frames(last), footage.count(last), speed, arguments)
     seconds = world.simulation.engine_seconds
     if seconds >= LONG and reason_without():
-        from mars2d.reports.remedy import remedy
+        from mars2d.reports.doctor import remedy
 
         slow = f"the engine took {seconds:.0f} s, since {reason_without()}"
         warn(f"{slow}. Compiled it is many times quicker: {remedy()}")

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import shlex
 import tomllib
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
@@ -96,7 +95,7 @@ class Picture:
     """One picture and its numbers.
 
     stem: the name of its files. alt: the text for people who can't see it. size: of the .png,
-    pixels. command, outcome, digest: of a run. columns: the numbers in a chart.
+    pixels. command, outcome, digest: of a run. curves: those of a chart, as data for JSON.
     """
 
     stem: str
@@ -108,21 +107,13 @@ class Picture:
     command: str = ""
     outcome: str = ""
     digest: str = ""
-    columns: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    curves: Sequence[dict[str, Any]] = ()
 
     def as_dict(self) -> dict[str, Any]:
-        """Return command and numbers as data for JSON; numbers that are not finite are None."""
-        return {
-            "picture": self.stem,
-            "command": self.command,
-            "outcome": self.outcome,
-            "digest": self.digest,
-            "checks": [p.as_dict() | {"unit": p.unit} for p in self.predictions],
-            "columns": {
-                name: [float(v) if math.isfinite(v) else None for v in values]
-                for name, values in self.columns.items()
-            },
-        }
+        """Return command and numbers as data for JSON."""
+        said = {name: getattr(self, name) for name in ("command", "outcome", "digest", "curves")}
+        checks = [p.as_dict() | {"unit": p.unit} for p in self.predictions]
+        return {"picture": self.stem, **said, "checks": checks}
 
 
 @dataclass(frozen=True)
