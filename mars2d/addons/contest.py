@@ -62,6 +62,7 @@ def _roles(name: str, value: object) -> tuple[Role, ...]:
     return tuple((role, robots_of(f"{name}[{role!r}]", robots)) for role, robots in pairs)
 
 
+@accepts({"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 1})
 def robots_of(name: str, value: object) -> tuple[str | int, ...]:
     """Check a list of robots, by their names or indices."""
     expected = "a list of robots, by their names or indices, such as ['red', 'blue']"

@@ -40,16 +40,6 @@ def _capture(name: str, value: object) -> str | float:
     return distance
 
 
-@accepts(checks.OUTLINE | {"minItems": 3})
-def _goal(name: str, value: object) -> Outline | None:
-    return None if value is None else checks.outline(name, value, least=3)
-
-
-@accepts({"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 1})
-def _hunted(name: str, value: object) -> tuple[str | int, ...] | None:
-    return None if value is None else robots_of(name, value)
-
-
 class Game(Elimination):
     """A game of pursuit: robots of the first role hunt those of the second.
 
@@ -75,11 +65,11 @@ class Game(Elimination):
         doc="'contact', 'sight', or the distance of a hunter's pose from an evader's at a capture",
     )  # fmt: skip
     goal: Outline | None = entry(
-        default=None, check=_goal, unit="m",
+        default=None, check=checks.optional(checks.outline, 3), unit="m",
         doc="the polygon that the evaders must reach; None: they must stay free",
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
-        default=None, check=_hunted,
+        default=None, check=checks.optional(robots_of),
         doc="the robots to catch, if not those of the second role, which then help them",
     )  # fmt: skip
     wanted: int | None = integer(
