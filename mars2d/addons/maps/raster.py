@@ -214,39 +214,20 @@ def _cells(name: str, occupied: Mask) -> list[shapely.Polygon]:
     rows, columns = occupied.shape
     inside = np.zeros((rows + 2, columns + 2), dtype=bool)
     inside[1:-1, 1:-1] = occupied[::-1]  # the lower row first
-    across = inside[1:, 1:-1] != inside[:-1, 1:-1]  # edges along x: (rows + 1, columns)
-    along = (inside[1:-1, 1:] != inside[1:-1, :-1]).T  # edges along y: (columns + 1, rows)
-    corner = _ends(across) & _ends(along).T
-    count = int(corner.sum())
-    if count > MAX_CORNERS:
+    below, above = inside[:-1], inside[1:]
+    bends = (below[:, :-1] != below[:, 1:]) | (above[:, :-1] != above[:, 1:])
+    bends &= (below[:, :-1] != above[:, :-1]) | (below[:, 1:] != above[:, 1:])
+    if (count := int(bends.sum())) > MAX_CORNERS:
         raise InputError(
             f"{name}: the occupied cells have {count} corners, expected at most {MAX_CORNERS}: "
             f"is it a map? {COARSER}"
         )
-    y, x1, x2 = _runs(across, corner)
-    x, y1, y2 = _runs(along, corner.T)
-    ends = np.vstack([np.column_stack([x1, y, x2, y]), np.column_stack([x, y1, x, y2])])
-    lines = shapely.linestrings(ends.reshape(-1, 2, 2).astype(float))
-    faces = shapely.get_parts(shapely.polygonize(lines))
+    y, x = np.nonzero(below != above)
+    row, column = np.nonzero(inside[:, :-1] != inside[:, 1:])
+    across, along = np.stack([x - 1, y, x, y]), np.stack([column, row - 1, column, row])
+    ends = np.hstack([across, along]).T.reshape(-1, 2, 2).astype(float)
+    faces = shapely.get_parts(shapely.polygonize(shapely.linestrings(ends)))
     middle = np.floor(shapely.get_coordinates(shapely.point_on_surface(faces))).astype(int)
     column, row = middle.reshape(-1, 2).T
-    chosen: list[shapely.Polygon] = faces[inside[row + 1, column + 1]].tolist()
+    chosen: list[shapely.Polygon] = shapely.simplify(faces[inside[row + 1, column + 1]], 0).tolist()
     return chosen
-
-
-def _ends(edges: Mask) -> Mask:
-    """Return the points of each line that an edge touches, as a mask (lines, edges + 1)."""
-    points = np.zeros((edges.shape[0], edges.shape[1] + 1), dtype=bool)
-    points[:, :-1] |= edges
-    points[:, 1:] |= edges
-    return points
-
-
-def _runs(edges: Mask, corner: Mask) -> tuple[NDArray[np.int64], ...]:
-    """Return where edges (lines, k) run straight on between corners: line, first and last point."""
-    none = np.zeros((edges.shape[0], 1), dtype=bool)
-    before = np.hstack([none, edges[:, :-1]])
-    after = np.hstack([edges[:, 1:], none])
-    line, first = np.nonzero(edges & (~before | corner[:, :-1]))
-    _, last = np.nonzero(edges & (~after | corner[:, 1:]))
-    return line, first, last + 1
