@@ -114,7 +114,7 @@ CASES = [
         geojson("LineString", COMB),
         "expected at most 20000: choose a tolerance above 0.02 m",
     ),
-    (".wkt", "POLYGON ((0 0, 1 0, 1 1", "its last geometry is not closed by )"),
+    (".wkt", "LINESTRING (0 0, 1 0", "can't be read as WKT: ParseException: Expected"),
     (".wkt", "WALL (0 0, 1 1)", "can't be read as WKT"),
     (".wkt", "POINT (1 2)\nMULTIPOINT ((1 2))", "2 Point"),
     (".yaml", "image: [grid.pgm", "can't be read as YAML"),
