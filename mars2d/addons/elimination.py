@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +47,9 @@ class Elimination(Contest):
     all else follows, in a running world and of a record.
     """
 
+    holds_last: ClassVar[bool] = True
+    """Whether who leaves in the last control step stands still in it."""
+
     @abstractmethod
     def exits(self, teams: Teams, span: Span) -> list[Exit]:
         """Return which robots of two teams leave in a span of a run, each once."""
@@ -75,11 +78,11 @@ class Elimination(Contest):
         span = Span(world.scenario, np.array([world.time]), world.pose[None], world.contacts)
         now = self.exits((one, other), span)
         self._exits += tuple(now)
-        for leaving in now:
-            world.hold(leaving.robot)
         self._time_is_over = world.iteration >= world.scenario.last_iteration
         if why := self.ending(world):
             world.stop(why)
+        for leaving in now if self.holds_last or not why else ():
+            world.hold(leaving.robot)
 
     @property
     def results(self) -> dict[int, float]:

@@ -40,6 +40,8 @@ class Ring(Elimination):
         default=(0.0, 0.0), check=checks.point, unit="m", doc="the middle of the ring, (x, y)"
     )
 
+    holds_last: ClassVar[bool] = False
+
     # -- how it stands -----------------------------------------------------------------------------
 
     def exits(self, teams: Teams, span: Span) -> list[Exit]:

@@ -78,15 +78,8 @@ class Waypoints(Addon):
 
     def of(self, frame: FrameLike) -> tuple[int, ...]:
         """Return the number of waypoints of each route that are reached at a frame."""
-        before = self.passed(frame.path[:, :2].swapaxes(1, 2))
-        return self._further(before, frame.pose[:2].T)
-
-    def _further(self, before: Sequence[int], positions: NDArray[np.float64]) -> tuple[int, ...]:
-        """Return how many are reached once the robots have come to positions (n, 2)."""
-        return tuple(
-            done + self._along(route[done:], positions[None, i])
-            for i, (route, done) in enumerate(zip(self.routes, before, strict=True))
-        )
+        pose = np.concatenate([frame.path, frame.pose[None]])
+        return self.passed(pose[:, :2].swapaxes(1, 2))
 
     @property
     def reached(self) -> tuple[int, ...]:
@@ -139,7 +132,11 @@ class Waypoints(Addon):
 
     def on_step(self, world: WorldLike) -> None:
         """Note the waypoints that have been reached."""
-        self._reached = self._further(self._reached, world.position.T)
+        positions = world.position.T[None]
+        self._reached = tuple(
+            done + self._along(route[done:], positions[:, i])
+            for i, (route, done) in enumerate(zip(self.routes, self._reached, strict=True))
+        )
 
     def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Draw each route as a dotted line with its points; reached ones are paler."""
