@@ -13,16 +13,13 @@ from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
-from mars2d.core.interfaces import FrameLike, ScenarioLike
-from mars2d.core.scene import Scene
+from mars2d.core.interfaces import ScenarioLike
 
 Role = tuple[str, tuple[str | int, ...]]
 Teams = tuple[tuple[int, ...], tuple[int, ...]]
 """The indices of the robots of the first role, in a pursuit the hunters, and of the second."""
 
 ROLES = "two roles, hunters first if any, such as {'pursuer': ['red'], 'evader': ['blue']}"
-MARK = "#222222"
-"""The colour of the mark on a robot that is out of the game."""
 
 
 class Capture(NamedTuple):
@@ -65,6 +62,7 @@ def _roles(name: str, value: object) -> tuple[Role, ...]:
     return tuple((role, robots_of(f"{name}[{role!r}]", robots)) for role, robots in pairs)
 
 
+@accepts({"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 1})
 def robots_of(name: str, value: object) -> tuple[str | int, ...]:
     """Check a list of robots, by their names or indices."""
     expected = "a list of robots, by their names or indices, such as ['red', 'blue']"
@@ -145,19 +143,3 @@ def listed(scenario: ScenarioLike, team: tuple[int, ...]) -> str:
     if len(names) > 3:
         return f"all {len(names)}"
     return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
-
-
-def mark(
-    scene: Scene, frame: FrameLike, robot: int, label: str, above: bool, *, cross: bool = True
-) -> None:
-    """Ring a robot, by its index, that is out of the game; write a label above or below it.
-
-    cross: whether it has lost, and is crossed out.
-    """
-    arm = 1.25 * frame.scenario.robots[robot].radius
-    x, y = frame.pose[:2, robot].tolist()
-    scene.circle((x, y), arm, stroke=MARK, width=1.2)
-    if cross:
-        scene.cross((x, y), arm, stroke=MARK, width=1.2)
-    place, lines = (y + arm, f"{label}\n") if above else (y - arm, f"\n{label}")
-    scene.text((x, place), lines, color=MARK, size=10.0, halo="#ffffff")

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property, lru_cache
 
 from mars2d.addons.base import Addon
 from mars2d.core.description import number, text
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
-from mars2d.core.plane import Outline, Point
+from mars2d.core.plane import Point
 from mars2d.core.scene import THEORY, Scene, faded
 from mars2d.geometry.potential_field import Goals, Potential
 
@@ -55,8 +54,8 @@ class PotentialField(Addon):
     def of(self, scenario: ScenarioLike) -> Potential:
         """Return the potential of a scenario, for robots as large as its largest."""
         radius = max(robot.radius for robot in scenario.robots)
-        names = ("attraction", "far", "repulsion", "reach")
-        return _potential(scenario.obstacles, radius, *(getattr(self, name) for name in names))
+        gains = {name: getattr(self, name) for name in ("attraction", "far", "repulsion", "reach")}
+        return _potential(scenario.obstacles, radius=radius, **gains)
 
     def plan(self, scenario: ScenarioLike) -> tuple[tuple[int, Point], ...]:
         """Return for each route the number of its points that the field leads to, and its end.
@@ -120,24 +119,8 @@ class PotentialField(Addon):
         return self.of(scenario).arrows(goals.goal(robot, frame), scenario.bounds, self.spacing)
 
 
-@lru_cache(maxsize=8)
-def _potential(
-    obstacles: Sequence[Outline],
-    radius: float,
-    attraction: float,
-    far: float,
-    repulsion: float,
-    reach: float,
-) -> Potential:
-    """Return a potential; the same one for the same scenario, since it caches its arrows."""
-    return Potential(
-        obstacles,
-        radius=radius,
-        attraction=attraction,
-        far=far,
-        repulsion=repulsion,
-        reach=reach,
-    )
+_potential = lru_cache(maxsize=8)(Potential)
+"""The same potential for the same scenario, since it caches its arrows."""
 
 
 def _goals(scenario: ScenarioLike) -> Goals:

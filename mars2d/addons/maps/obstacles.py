@@ -118,15 +118,13 @@ def _merged(lines: list[shapely.LineString], tolerance: float) -> list[shapely.L
     if not lines:
         return []
     points, line = shapely.get_coordinates(lines, return_index=True)
-    places = np.round(points / GRID).astype(np.int64)
-    ends = np.hstack([places[:-1], places[1:]])[line[1:] == line[:-1]]
-    back = ends[:, [2, 3, 0, 1]]
-    x1, y1, x2, y2 = ends.T
-    edges = np.unique(np.where(((x1 > x2) | ((x1 == x2) & (y1 > y2)))[:, None], back, ends), axis=0)
-    edges = edges[(edges[:, :2] != edges[:, 2:]).any(axis=1)]
+    places = np.round(points / GRID) @ (1, 1j)
+    ends = np.column_stack([places[:-1], places[1:]])[line[1:] == line[:-1]]
+    edges = np.unique(np.sort(ends), axis=0)
+    edges = edges[edges[:, 0] != edges[:, 1]]
     if not len(edges):
         return []
-    parts = shapely.linestrings(edges.reshape(-1, 2, 2) * GRID)
+    parts = shapely.linestrings(np.stack([edges.real, edges.imag], axis=-1) * GRID)
     merged = shapely.line_merge(shapely.multilinestrings(parts))
     found = shapely.get_parts(merged)
     simple = [shapely.LineString(simple_line(np.array(line.coords), tolerance)) for line in found]

@@ -72,7 +72,10 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
             raise InputError(f"{name}: expected an SVG drawing; its root is <{tag}>")
         layers = {g.get("id", ""): g.get(LABEL, g.get("id", "")) for g in _groups(root)}
         (size, box), given = _sizes(root), dict(root.attrib)
-        normal, skipped, pixels = normalised(root, size, box)
+        aspect = root.get("preserveAspectRatio", "")
+        scales = [side / length for side, length in zip(size, box, strict=True)]
+        pixels = scales[0] if aspect == "none" else (max if "slice" in aspect else min)(scales)
+        normal, skipped = normalised(root, size, box)
         unit = unit or _unit(given, pixels)
         reader = _Reader(name, normal, layers, within, skipped)
         scale = unit.metres / pixels
