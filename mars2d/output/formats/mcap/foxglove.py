@@ -157,7 +157,7 @@ class Topics:
             yield self._scene_channel, self._scene(scenario, ns)
         seconds, nanos = divmod(ns, 10**9)
         self._poses.timestamp.seconds, self._poses.timestamp.nanos = seconds, nanos
-        poses = np.hstack([row.pose.reshape(3, -1), row.prop_pose.reshape(3, -1)]).T.tolist()
+        poses = np.hstack([row.columns["pose"], row.columns["prop_pose"]]).T.tolist()
         for (pose, link), (x, y, theta) in zip(self._places, poses, strict=True):
             pose.position.x = link.translation.x = x
             pose.position.y = link.translation.y = y
@@ -174,7 +174,9 @@ class Topics:
             if measured >= 0 and measured % period == 0:
                 seconds, nanos = divmod(nanoseconds(measured * self._dt), 10**9)
                 scan.timestamp.seconds, scan.timestamp.nanos = seconds, nanos
-                scan.ranges = row.readings[key][place].astype("<f8", copy=False).tobytes()
+                scan.ranges = (
+                    row.columns[f"sensor:{key}"][place].astype("<f8", copy=False).tobytes()
+                )
                 yield channel, scan.SerializeToString()
 
     def _contacts(self, contacts: NDArray[np.void], seconds: int, nanos: int) -> bytes:
