@@ -103,16 +103,24 @@ def _fields_of(dtype: np.dtype[Any]) -> dict[str, str]:
 
 FIELDS = {
     "Row": {
-        "crc": "fixed32", "row": "uint64", **dict.fromkeys(COLUMNS, "double[]"),
-        "readings": "Readings[]", "contacts": "Contacts", "messages": "Messages", "contents": "string[]",
+        "crc": "fixed32",
+        "row": "uint64",
+        **dict.fromkeys(COLUMNS, "double[]"),
+        "readings": "Readings[]",
+        "contacts": "Contacts",
+        "messages": "Messages",
+        "contents": "string[]",
         "changes": "string[]",
     },
     "Readings": {
-        "sensor": "string", "shape": "fixed32[]", "numbers": "double[]", "flags": "bool[]",
+        "sensor": "string",
+        "shape": "fixed32[]",
+        "numbers": "double[]",
+        "flags": "bool[]",
     },
     "Contacts": _fields_of(CONTACT),
     "Messages": _fields_of(MESSAGE),
-}  # fmt: skip
+}
 """The fields of all messages, numbered from 1 on; [] marks arrays, which are flat."""
 
 CRC = struct.Struct("<BI")
