@@ -31,9 +31,6 @@ COLUMNS = (
 )  # fmt: skip
 """The columns of every record, with a row for each control step."""
 
-FORMER = COLUMNS[:6]
-"""The columns of records from before velocities and work were recorded."""
-
 
 def _not_given() -> Float:
     return np.empty(0)
@@ -155,11 +152,6 @@ class Rows:
         return np.concatenate([self.velocity, self.prop_velocity], axis=-1)
 
     @property
-    def kept(self) -> tuple[str, ...]:
-        """Those of `COLUMNS` that were recorded: `FORMER` where the work is unknown."""
-        return FORMER if np.isnan(self.work[:1]).any() else COLUMNS
-
-    @property
     def collisions(self) -> int:
         """How many times two bodies came to touch that did not touch before."""
         return count_meetings(blocks(self.contacts))
@@ -171,7 +163,7 @@ class Rows:
         ``message:FIELD``. The texts of messages are in ``contents`` (UTF-8, one after the other)
         and ``content_sizes`` (the bytes of each).
         """
-        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in self.kept}
+        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in COLUMNS}
         columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
         # Field by field, since a structured array has undefined bytes between its fields.
         columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from math import atan2, cos, sin
+from math import atan2, cos, hypot, sin
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +14,7 @@ from mars2d.core.scene import Circle, Line, Polygon, Scene, rgb
 from mars2d.output.formats.mcap.row import Row, with_arrays_as_bytes
 from mars2d.output.layers.bodies import draw_prop, draw_robot, prop_edge
 from mars2d.output.layers.ground import obstacles, workspace
+from mars2d.record.contact import mean_forces
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -72,7 +73,7 @@ class Topics:
     ``/poses``: the poses of all robots and props, in the world. ``/tf``: the same as frames.
     ``/scene``: the ground and the looks of the bodies, each in its frame. ``/ROBOT/SENSOR``: laser
     scans, when they arrive, in the robot's frame. ``/contacts``: an arrow for each contact of the
-    control step that begins then, along the normal force on the second body, 1 m long for 100 N.
+    control step that begins then, along the mean force on the second body, 1 m long for 100 N.
     """
 
     def __init__(
@@ -157,7 +158,7 @@ class Topics:
             yield self._scene_channel, self._scene(scenario, ns)
         seconds, nanos = divmod(ns, 10**9)
         self._poses.timestamp.seconds, self._poses.timestamp.nanos = seconds, nanos
-        poses = np.hstack([row.pose.reshape(3, -1), row.prop_pose.reshape(3, -1)]).T.tolist()
+        poses = np.hstack([row.columns["pose"], row.columns["prop_pose"]]).T.tolist()
         for (pose, link), (x, y, theta) in zip(self._places, poses, strict=True):
             pose.position.x = link.translation.x = x
             pose.position.y = link.translation.y = y
@@ -174,7 +175,9 @@ class Topics:
             if measured >= 0 and measured % period == 0:
                 seconds, nanos = divmod(nanoseconds(measured * self._dt), 10**9)
                 scan.timestamp.seconds, scan.timestamp.nanos = seconds, nanos
-                scan.ranges = row.readings[key][place].astype("<f8", copy=False).tobytes()
+                scan.ranges = (
+                    row.columns[f"sensor:{key}"][place].astype("<f8", copy=False).tobytes()
+                )
                 yield channel, scan.SerializeToString()
 
     def _contacts(self, contacts: NDArray[np.void], seconds: int, nanos: int) -> bytes:
@@ -184,12 +187,12 @@ class Topics:
         update = SceneUpdate()
         entity = update.entities.add(id="contacts", frame_id=self._world)
         entity.timestamp.seconds, entity.timestamp.nanos = seconds, nanos
-        for contact in contacts:
-            arrow, way = entity.arrows.add(), atan2(contact["normal"][1], contact["normal"][0])
-            x, y = contact["point"].tolist()
+        forces = mean_forces(contacts, self._dt)
+        for (x, y), (across, up) in zip(contacts["point"].tolist(), forces.tolist(), strict=True):
+            arrow, way = entity.arrows.add(), atan2(up, across)
             _put(arrow.pose.position, x, y, ARROW_HEIGHT)
             arrow.pose.orientation.z, arrow.pose.orientation.w = sin(way / 2), cos(way / 2)
-            arrow.shaft_length = METRES_PER_NEWTON * contact["normal_impulse"] / self._dt
+            arrow.shaft_length = METRES_PER_NEWTON * hypot(across, up)
             arrow.shaft_diameter, arrow.head_length, arrow.head_diameter = ARROW
             _color(arrow.color, ARROW_COLOR)
         return bytes(update.SerializeToString())
