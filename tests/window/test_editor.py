@@ -12,7 +12,6 @@ from mars2d.cli.command_line import main
 from mars2d.scenario import load_scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window import editor_window
-from mars2d.window.editor import keys
 from tests.cases import each_case
 from tests.processes import mars
 from tests.window.drawing import near, team
@@ -627,17 +626,3 @@ def test_it_looks_as_it_did(open_editor):
     hands.drag((-3, 1), (-3, 0), (-3, -1.6))
     hands.until(lambda s: s["fault"])
     compare("editor_fault", hands.still())
-
-
-# -- keys -----------------------------------------------------------------------------------------
-
-
-def test_every_key_of_the_table_does_something_and_no_two_are_the_same():
-    every = [key for _, group in keys.GROUPS[:4] for key in group]
-    names = [name for key in every for name in key.names]
-    assert len(names) == len(set(names))
-    for key in every:
-        for name in key.names:
-            assert keys.action_of(name, "", live=False) is key
-    assert keys.action_of("return", "", live=True).action == "now"
-    assert keys.action_of("return", "", live=False) is None

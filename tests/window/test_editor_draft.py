@@ -15,7 +15,7 @@ from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor import Editor, keys
+from mars2d.window.editor import Editor
 from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk, History
 from mars2d.window.editor.document import Document
@@ -25,6 +25,7 @@ from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.verdict import judge
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.actions import action_of
 from mars2d.window.widgets.text_field import TextField
 from tests.cases import each_case
 from tests.window.strokes import pressed
@@ -214,7 +215,7 @@ def test_a_prompt_shows_what_is_wrong_and_stays():
         taken.append(text)
         Document(None).named(text)
 
-    answer = Answer("return", "Enter", "save", take)
+    answer = Answer("Enter", "save", take)
     prompt = Prompt("Save as", answer, field=TextField("a", opened_by_key=True))
     prompt.handle(pygame.Event(pygame.TEXTINPUT, text="="))  # of the key that opened it
     for event in (*pressed("b"), *pressed("backspace"), *pressed("backspace"), *pressed("return")):
@@ -263,20 +264,39 @@ def test_a_draft_of_an_example_is_that_scenario_again_and_can_be_emptied(name):
     assert "no robot" in editor.judge.verdict.text
 
 
-def test_the_keys_in_the_document_are_those_of_the_editor():
+def test_the_keys_in_the_document_and_the_help_are_those_that_work():
     text = (Path(__file__).parents[2] / "docs" / "editor.md").read_text(encoding="utf-8")
-    rows = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]
-    wanted = [[" ".join(key.labels), key.help] for _, group in keys.GROUPS for key in group]
-    assert rows[rows.index(["Key", "What it does"]) :][: 1 + len(wanted)] == [
-        ["Key", "What it does"], *wanted,
-    ]  # fmt: skip
+    told = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]
+    listed = []
+    for live in (False, True):
+        editor = Editor(Scenario(), Looks(), live=live)
+        actions = [action for group in editor.groups.values() for action in group]
+        listed += [[" ".join(action.labels), action.help] for action in actions]
+        labels = [label for action in actions for label in (*action.labels, *action.also)]
+        assert len(labels) == len(set(labels))
+    rows = told[told.index(["Key", "What it does"]) + 1 :]
+    unique = [list(row) for row in dict.fromkeys(map(tuple, listed))]
+    assert sorted(rows[: len(unique)]) == sorted(unique)
 
 
-def test_the_page_of_help_lists_all_keys_that_work():
-    for live, action in ((True, "now"), (False, "run")):
-        listed = {key.action for _, group in keys.groups(live=live) for key in group}
-        assert action in listed
-        for _, group in keys.groups(live=live):
-            for key in group:
-                for name in key.names:
-                    assert keys.action_of(name, "", live=live) is key
+@each_case(
+    "key, typed, mod, name, live",
+    [
+        ("v", "v", 0, "select", False),
+        ("v", "V", pygame.KMOD_SHIFT, "select", False),
+        ("0", "=", pygame.KMOD_SHIFT, "pose", False),  # on a German keyboard
+        ("left", "", pygame.KMOD_SHIFT, "nudge", False),
+        ("backspace", "\b", 0, "delete", False),
+        ("z", "\x1a", pygame.KMOD_CTRL | pygame.KMOD_SHIFT, "redo", False),
+        ("return", "\r", 0, None, False),
+        ("return", "\r", 0, "now", True),
+        ("enter", "\r", pygame.KMOD_SHIFT, "start", True),
+        ("f5", "", 0, None, True),
+    ],
+)
+def test_keys_do_what_the_table_says(key, typed, mod, name, live):
+    editor = Editor(Scenario(), Looks(), live=live)
+    code = pygame.key.key_code(key)
+    event = pygame.Event(pygame.KEYDOWN, key=code, unicode=typed, mod=mod)
+    found = action_of(event, [action for group in editor.groups.values() for action in group])
+    assert (found and found.name) == name

@@ -259,7 +259,7 @@ class Properties:
 
         field = TextField(text)
         field.select_all()
-        enter = Answer("return", "Enter", "apply", answer)
+        enter = Answer("Enter", "apply", answer)
         self._dialogs.prompt = Prompt(label, enter, field=field, doc=doc)
 
     def _prompted(self) -> None:
