@@ -44,6 +44,29 @@ def test_boxes_and_balls_are_put_by_click_and_sized_by_drag(open_editor):
     hands.until(lambda s: s["fault"] == "")
 
 
+def test_all_props_are_drawn(open_editor):
+    hands = open_editor(team((4, 4)))
+    hands.tool("l", "bar")
+    hands.drag((-3, 2), (-2, 2.5), (-3, 4))
+    hands.until(lambda s: near(s["props"][-1][1:5], (-3, 3, pi / 2, 2)))
+    hands.tool("t", "gate")
+    hands.drag((-1, 0), (0, 0), (1, 0))
+    hands.until(lambda s: near(s["props"][-1][1:5], (0, 0, 0, 2)))
+    hands.tool("u", "puck")
+    hands.drag((2, 2), (2.5, 2), (3, 2))
+    hands.until(lambda s: s["props"][-1] == ["Puck", 2, 2, 0, 2])
+    hands.tool("s", "solid")
+    for corner in ((-3, -3), (0, -3), (-3, 0)):
+        hands.click(*corner)
+    hands.press("Return")
+    hands.until(lambda s: near(s["props"][-1][1:], (-2, -2, 0)))
+    hands.until(lambda s: s["fault"] == "" and s["selection"] == [["prop", 3, 0]])
+    for corner in ((0, -3), (1, -2), (1, -3), (0, -2)):
+        hands.click(*corner)
+    hands.press("Return")
+    hands.until(lambda s: "crosses or touches itself" in s["notice"] and len(s["props"]) == 4)
+
+
 @pytest.mark.parametrize("end", ["Return", "Escape", "button"])
 def test_a_wall_is_a_chain_of_clicks(open_editor, end):
     hands = open_editor(team((4, 4)))

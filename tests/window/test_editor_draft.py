@@ -7,12 +7,15 @@ import pygame
 import pytest
 
 from mars2d.addons import Beacon, Map, Voronoi, Waypoints
-from mars2d.bodies.joints import Rope
+from mars2d.bodies.joints import Hinge, Rope
 from mars2d.bodies.props import Ball, Box
+from mars2d.core.errors import InputError
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
+from mars2d.scenario.controllers import FollowRobot
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor
@@ -52,7 +55,7 @@ def furnished():
 
 def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
     scenario = furnished()
-    draft, _ = Draft.of(scenario).with_outline(((-1, -1), (0, -1), (0, 0)))
+    draft = Draft.of(scenario).added("outline", ((-1, -1), (0, -1), (0, 0)))
     changed = draft.scenario()
     assert [addon.key for addon in changed.addons] == [addon.key for addon in scenario.addons]
     chart = changed.addons[1]
@@ -77,12 +80,67 @@ def test_with_a_robot_go_its_route_and_its_joints():
 
 
 def test_new_things_get_names_that_are_free():
-    draft = Draft.of(furnished())
-    draft, robot = draft.with_robot(Robot())
-    draft, box = draft.with_new_prop(Box())
-    draft, beacon = draft.with_beacon(Beacon((0, 0)))
-    names = [draft.name(item) for item in (robot, box, beacon)]
-    assert names == ["robot1", "box1", "beacon1"]
+    before = Draft.of(furnished())
+    draft = before.added("robot", Robot()).added("prop", Box()).added("beacon", Beacon((0, 0)))
+    names = [draft.name(item) for item in draft.new_since(before)]
+    assert names == ["box1", "robot1", "beacon0"]
+
+
+def tied(*joints):
+    """Return the draft of two boxes, one at (0, 0), the other at (2, 0), and of a robot."""
+    boxes = [Box(pose=(0, 0, 0)), Box(pose=(2, 0, pi / 2))]
+    return Draft.of(Scenario(robots=[Robot(pose=(-3, 3, 0))], props=boxes, joints=joints))
+
+
+def test_a_rope_goes_with_its_body_and_does_not_come_back_with_the_name():
+    draft = tied(Rope(a="box0", b="box1")).without([Item("prop", 0)]).added("prop", Box())
+    assert (draft.props[1].name, draft.joints) == ("box0", ())
+
+
+def test_copies_are_tied_as_their_models_are():
+    draft = tied(Rope(a="box0", b="box1"), Rope(a="box1", anchor_b=(2, 3)))
+    both = draft.copied([Item("prop", 0), Item("prop", 1)], Motion(by=(0.0, -3.0)))
+    assert [(j.a, j.b, j.anchor_b) for j in both.joints[2:]] == [
+        ("box2", "box3", (0, 0)),
+        ("box3", None, (2, 0)),
+    ]
+    assert judge(both).text == ""
+    one = draft.copied([Item("prop", 0)], Motion(by=(0.0, -3.0)))
+    assert len(one.joints) == 2
+
+
+def test_the_pin_of_a_hinge_stays_one_point_when_a_body_moves():
+    hinges = Hinge(a="box0", b="box1", anchor_a=(1, 0), anchor_b=(0, 1)), Hinge(a="box0")
+    draft = tied(*hinges).moved([Item("prop", 1)], Motion(pi / 2, (2.0, 0.0), (0.0, 0.5)))
+    assert draft.joints[0].anchor_b == (0, 1)
+    assert draft.joints[0].anchor_a == pytest.approx((2, -0.5))
+    assert judge(draft).text == ""
+    both = draft.moved([Item("prop", 0), Item("prop", 1)], Motion(by=(0.0, 1.0)))
+    assert both.joints[1].anchor_b == (0, 1)
+    assert judge(both).text == ""
+
+
+def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
+    robots = [Robot(name="red"), Robot(name="blue")]
+    draft = Draft.of(Scenario(robots=robots, random_starts=[RandomStarts()]))
+    red, blue = Item("robot", 0), Item("robot", 1)
+    x, y, _ = draft.pose(red)
+    moved = draft.moved([red], Motion(by=(3 - x, 3 - y)))
+    assert (draft.starts_at_random(red), moved.starts_at_random(red)) == (True, False)
+    assert moved.scenario().started(seed=9).robots[0].pose[:2] == (3, 3)
+    assert moved.scenario().started(seed=9).robots[1].pose != moved.robots[1].pose
+    assert moved.without([blue]).scenario().random_starts == ()
+
+
+def test_a_new_name_holds_wherever_the_body_is_mentioned():
+    follow = Robot(pose=(-3, 0, 0), controller=FollowRobot(leader="robot0"))
+    draft = Draft.of(furnished()).added("robot", follow)
+    draft = draft.renamed(Item("robot", 0), "Ada").renamed(Item("robot", 1), "Bo")
+    assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot1"]
+    assert draft.robots[2].controller.leader == "Ada"
+    assert draft.joints[0].a == "Bo"
+    with pytest.raises(InputError, match="'Bo' is the name of another body"):
+        draft.renamed(Item("robot", 0), "Bo")
 
 
 def test_things_turn_about_a_point_and_come_back():
@@ -123,8 +181,9 @@ def test_a_robot_that_can_not_stand_where_it_is(by, words, other):
 
 
 def test_a_waypoint_outside_the_workspace():
-    draft, item = Draft.of(furnished()).with_waypoint(0, (7.0, 0.0))
-    assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", {item})
+    draft = Draft.of(furnished()).added("waypoint", (7.0, 0.0), 0)
+    outside = {Item("waypoint", 0, 0)}
+    assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", outside)
 
 
 @each_case(
@@ -136,10 +195,9 @@ def test_a_waypoint_outside_the_workspace():
     ],
 )
 def test_outlines_that_are_none(outline, words):
-    draft, item = Draft.of(furnished()).with_outline(outline)
-    text, culprits = fault(draft)
+    text, culprits = fault(Draft.of(furnished()).added("outline", outline))
     assert text.startswith(words)
-    assert culprits == {item}
+    assert culprits == {Item("outline", 1)}
 
 
 # -- history, sketch, targets, prompts -------------------------------------------------------------

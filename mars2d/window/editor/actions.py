@@ -6,9 +6,16 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
+from mars2d.bodies.props import Ball, Bar, Box, Gate, Puck
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall, Workspace
-from mars2d.window.editor.placing import PlaceBall, PlaceBeacon, PlaceBox, PlaceRobot, PlaceWaypoint
+from mars2d.window.editor.outlining import (
+    DrawPolygon,
+    DrawRectangle,
+    DrawSolid,
+    DrawWall,
+    Workspace,
+)
+from mars2d.window.editor.placing import PlaceBeacon, PlaceProp, PlaceRobot, PlaceWaypoint
 from mars2d.window.editor.select import Select
 from mars2d.window.editor.tool import Tool
 from mars2d.window.widgets.actions import Action
@@ -21,6 +28,10 @@ ICONS = {
     "robot": "M4 12a8 8 0 1 0 16 0a8 8 0 1 0-16 0M12 12l5-5",
     "box": "M5 5h14v14H5Z",
     "ball": "M5 12a7 7 0 1 0 14 0a7 7 0 1 0-14 0M9.5 9.5h.1",
+    "bar": "M3 17 17 3l4 4L7 21Z",
+    "gate": "M2.5 12a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0M7.5 12H21M18 5a9 9 0 0 1 0 14",
+    "puck": "M4 10a8 4 0 1 0 16 0a8 4 0 1 0-16 0M4 10v4a8 4 0 0 0 16 0v-4",
+    "solid": "M6 20 3 9l8-5 2 6 8 1-5 9Z",
     "wall": "M3 19l5-11 7 4 6-8M8 8h.1M15 12h.1",
     "polygon": "M4 16l9 4 8-9-8-2-4-6Z",
     "rectangle": "M3 7h18v10H3ZM3 12l5-5M3 17 13 7M8 17 18 7M13 17l8-8",
@@ -35,8 +46,12 @@ ICONS = {
 TOOLS: tuple[tuple[str, str, Callable[[Desk], Tool], str], ...] = (
     ("select", "V", Select, "select and move"),
     ("robot", "R", PlaceRobot, "robot; drag to turn it"),
-    ("box", "B", PlaceBox, "box; drag for its size"),
-    ("ball", "O", PlaceBall, "ball; drag for its size"),
+    ("box", "B", partial(PlaceProp, kind=Box), "box; drag for its size"),
+    ("bar", "L", partial(PlaceProp, kind=Bar), "bar; drag from end to end"),
+    ("gate", "T", partial(PlaceProp, kind=Gate), "gate, a bar on a hinge; drag from the hinge"),
+    ("ball", "O", partial(PlaceProp, kind=Ball), "ball; drag for its size"),
+    ("puck", "U", partial(PlaceProp, kind=Puck), "puck; drag for its size"),
+    ("solid", "S", DrawSolid, "prop of any shape; Enter or its first corner closes it"),
     ("wall", "W", DrawWall, "wall, corner by corner; Enter or right click ends it"),
     ("polygon", "P", DrawPolygon, "polygon; click the first corner, or Enter, to close it"),
     ("rectangle", "K", DrawRectangle, "rectangular obstacle"),
