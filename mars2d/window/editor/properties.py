@@ -152,7 +152,7 @@ class Properties:
     def _rows_of_body(self, bodies: tuple[Item, ...]) -> list[Row]:
         if not bodies:
             return []
-        parts = [self._desk.draft.member(item) for item in bodies]
+        parts = [self._desk.draft.value(item) for item in bodies]
         rows = []
         for name in BODY:
             fields = [part.__dataclass_fields__.get(name) for part in parts]
@@ -185,7 +185,7 @@ class Properties:
             return []
         rows = [Row("Joints", "add one", partial(self._offer_new_joints, bodies))]
         if len(bodies) == 1:
-            name = self._desk.draft.member(bodies[0]).name
+            name = self._desk.draft.value(bodies[0]).name
             for joint in self._desk.draft.joints_of(bodies[0]):
                 other = joint.b if joint.a == name else joint.a
                 words = f"{type(joint).__name__} to {other or 'the floor'}"
@@ -259,7 +259,7 @@ class Properties:
 
         field = TextField(text)
         field.select_all()
-        enter = Answer("return", "Enter", "apply", answer)
+        enter = Answer("Enter", "apply", answer)
         self._dialogs.prompt = Prompt(label, enter, field=field, doc=doc)
 
     def _prompted(self) -> None:
@@ -375,8 +375,8 @@ class Properties:
             Entry(words, partial(self._set_bodies, bodies, "color", color), colors=[color])
             for words, color in zip(COLORS, PALETTE, strict=True)
         ]
-        field = self._desk.draft.member(bodies[0]).__dataclass_fields__["color"]
-        parts = [self._desk.draft.member(item) for item in bodies]
+        field = self._desk.draft.value(bodies[0]).__dataclass_fields__["color"]
+        parts = [self._desk.draft.value(item) for item in bodies]
         other = partial(self._ask, field, parts, partial(self._set_bodies, bodies), pixel)
         entries.append(Entry("another …", other))
         entries.append(Entry(AUTOMATIC, partial(self._set_bodies, bodies, "color", None)))
@@ -437,7 +437,7 @@ class Properties:
             self._desk.put(draft.with_joint(joint.replace(**{name: value}), instead=joint))
 
         def remove() -> None:
-            self._desk.put(self._desk.draft.without_joint(joint))
+            self._desk.put(self._desk.draft.with_joint(None, instead=joint))
 
         entries = [Entry("Remove it", remove), Entry("Fields")]
         entries += self._entries([joint], change, pixel)

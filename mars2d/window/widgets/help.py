@@ -11,10 +11,11 @@ import pygame
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.keys import Key
 
-Groups = Iterable[tuple[str, Sequence[Key]]]
-Named = tuple[tuple[str, tuple[Key, ...]], ...]
+Groups = Iterable[tuple[str, Sequence[Key | Action]]]
+Named = tuple[tuple[str, tuple[Key | Action, ...]], ...]
 
 UNREADABLE = 0.2
 """The scale below which text is not drawn, pixels a point."""

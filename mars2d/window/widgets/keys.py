@@ -36,18 +36,3 @@ def chord(code: int, modifiers: int) -> str:
     if modifiers & pygame.KMOD_SHIFT:
         parts.append("shift")
     return "+".join([*parts, pygame.key.name(code)])
-
-
-def label_of(event: pygame.Event) -> str:
-    """Return the label of a pressed key as menus write it, such as ``L``, ``Shift N``, ``Ctrl Q``.
-
-    A digit is what it types, wherever it lies on the keyboard.
-    """
-    name = pygame.key.name(event.key)
-    if event.unicode.isdecimal():
-        return str(event.unicode)
-    short = {"escape": "Esc", "delete": "Del"}.get(name, name.capitalize())
-    held = [
-        word for word, mask in (("Ctrl", CONTROL), ("Shift", pygame.KMOD_SHIFT)) if event.mod & mask
-    ]
-    return " ".join([*held, short])
