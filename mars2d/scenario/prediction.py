@@ -55,7 +55,7 @@ class Prediction(Description):
         default="", kw_only=False, doc="the unit of all three numbers; empty for counts and ratios"
     )
     bound: str = choice(
-        of=tuple(SIGNS), default="equal", doc="what the measured number is, beside the predicted one"
+        of=tuple(SIGNS), default="equal", doc="how the measured number stands to the predicted one"
     )
     reason: str = text(
         default="", doc="why the theory does not apply to the run; then the numbers do not count"
@@ -127,8 +127,10 @@ def table(predictions: Sequence[Prediction]) -> str:
     if not predictions:
         return ""
     rows = [("predicted", "measured", "tolerance", "", "")]
-    for p in predictions:
-        rows.append(("", "", "", "", p.verdict) if p.reason else (*cells(p), p.unit, p.verdict))
+    rows += [
+        ("", "", "", "", p.verdict) if p.reason else (*cells(p), p.unit, p.verdict)
+        for p in predictions
+    ]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     room = max(WIDTH - sum(widths) - 2 * len(widths), 8)
     names = [[""], *(textwrap.wrap(p.name, room) for p in predictions)]

@@ -142,7 +142,7 @@ class Robot(Description):
 
     @property
     def push(self) -> float:
-        """The most that it can push with at rest: its drive's force, or what its wheels hold [N]."""
+        """The most it can push with at rest: its drive's force, or what its wheels hold [N]."""
         grip = self.drive.grip
         return min(self.drive.max_force, inf if grip is None else grip * self.mass * GRAVITY)
 

@@ -79,7 +79,7 @@ def _prediction(p: Prediction) -> tuple[str, str]:
     values = (predicted, _number(p.measured, p.tolerance), tolerance)
     holds = _cell("✓ ok", "ok") if p.ok else _cell("✗ NOT OK", "bad")
     if p.reason:
-        values, holds = ("–", "–", "–"), _cell(f"not predicted: {p.reason}")
+        values, holds = ("-", "-", "-"), _cell(f"not predicted: {p.reason}")
     return escape(p.name), "".join(_cell(each, "number") for each in values) + holds
 
 
