@@ -34,9 +34,9 @@ HEAD = """\
 This page compares textbook predictions with the simulator's measurements. The first table has
 single facts of the physics, and the second the checks of the examples. The page is written by
 `docs/make_theory.py`, which runs everything again. So do the tests, which fail if a number leaves
-its tolerance. Tolerances are absolute, in the unit given. One of more than a
-tenth of the predicted number is marked as rough: a rule of thumb, or the scatter of a few samples. If 0 is predicted, the measured value is
-a rounding error, which differs between processors.
+its tolerance. Tolerances are absolute, in the unit given. One of more than a tenth of the predicted
+number is marked as rough: a rule of thumb, or the scatter of a few samples. If 0 is predicted, the
+measured value is a rounding error, which differs between processors.
 """
 
 
