@@ -10,12 +10,12 @@ import re
 import signal
 import socket
 import sys
-import tempfile
 import threading
 import time
 import traceback
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
+from itertools import chain
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Self, TypeVar
@@ -58,62 +58,71 @@ class LawProcess:
     beginning of its output, once it has ended.
     """
 
-    def __init__(self, briefing: Briefing) -> None:
-        """Start the process. Raises InputError if that fails."""
+    def __init__(self, briefing: Briefing, output: Path) -> None:
+        """Start the process; output: a new file for what it prints.
+
+        Raises InputError if that fails.
+        """
         self._briefing, self._limits = briefing, briefing.limits
         self._most = int(self._limits.output * MB)
-        self._commands: dict[int, tuple[float, float]] = {}
-        self._letters: list[Any] = []
-        self._used = 0.0  # seconds of its clock for the match
+        self._spent = 0.0  # seconds of its clock for the match
+        self._output = output
         self.fault: tuple[str, str] | None = None
         self.printed = ""
-        with ExitStack() as resources:
-            try:
-                folder = resources.enter_context(tempfile.TemporaryDirectory(prefix="mars2d-"))
-                self._output = Path(folder) / "output"
-                self._output.touch()
-                self._channel, theirs = socket.socketpair()
-                resources.enter_context(self._channel)
-                with theirs:
-                    self._process = _started(theirs, str(self._output))
-            except OSError as error:
-                raise InputError(f"can't start a process for a law: {error}") from error
-            resources.callback(self._end)
-            self._clock = _Clock(self._process.pid)
-            resources.callback(self._clock.close)
-            self._resources = resources.pop_all()
+        try:
+            output.touch()
+            self._channel, theirs = socket.socketpair()
+            with theirs:
+                self._process = _started(theirs, str(output))
+        except OSError as error:
+            raise InputError(f"can't start a process for a law: {error}") from error
+        self._clock = _Clock(self._process.pid)
 
     def load(self) -> None:
         """Let it load its file."""
         with self._judged(self._limits.start, "not loaded"):
             self._ask(self._briefing)
 
-    def ask(self, world: Simulation) -> None:
-        """Ask it for the commands of a control step."""
+    def command(self, world: Simulation) -> dict[int, tuple[float, float]]:
+        """Return its robots' commands of a control step, and send their messages; {} if it fails.
+
+        The law's process checks both. So if they are invalid, the law has written to the match
+        itself, which is a fault.
+        """
         robots = self._briefing.robots
         seen = look(world, robots)
-        with self._judged(min(self._limits.tick, self._limits.match - self._used), "no command"):
+        commands: dict[int, tuple[float, float]] = {}
+        with self._judged(min(self._limits.tick, self._limits.match - self._spent), "no command"):
             answer = self._ask(seen)
-            self._used += self._clock.used
+            self._spent += self._clock.used
             if self.fault is None:
-                pairs = [(first, second) for first, second in answer["commands"]]
+                commands = {i: (v, w) for i, (v, w) in zip(robots, answer["commands"], strict=True)}
                 # Such a test is false for NaN, too.
-                if not all(type(x) is float and abs(x) <= LARGEST for pair in pairs for x in pair):
-                    raise ValueError(pairs)
-                self._commands = dict(zip(robots, pairs, strict=True))
-                self._letters = answer["letters"]
+                if not all(
+                    type(x) is float and abs(x) <= LARGEST for x in chain(*commands.values())
+                ):
+                    raise ValueError(commands)
+                for sender, text, receivers in answer["letters"]:
+                    if sender not in robots:
+                        raise ValueError(sender)
+                    world.channel.send(sender, json.loads(text), receivers)
+        return commands
 
-    def command(self, world: Simulation, robot: int) -> tuple[float, float]:
-        """Return the command of one of its robots, after sending that robot's messages.
+    def __enter__(self) -> Self:
+        return self
 
-        Invalid messages are a fault: the law's process checks messages, so the law must have
-        written to the match itself.
-        """
-        with self._judged():
-            for sender, text, receivers in self._letters:
-                if sender == robot:
-                    world.channel.send(robot, json.loads(text), receivers)
-        return self._commands[robot]
+    def __exit__(self, *_: object) -> None:
+        """End the process, and all that it has started."""
+        with suppress(OSError):
+            if hasattr(os, "killpg"):
+                os.killpg(self._process.pid or 0, signal.SIGKILL)
+        self._process.kill()
+        self._process.join(10 * GRACE)
+        self.printed = self._all_printed().partition(CRASH)[0][:KEPT_OUTPUT]
+        self._clock.close()
+        self._channel.close()
+        with suppress(ValueError):  # it does not end
+            self._process.close()
 
     # -- questions and answers -----------------------------------------------------------------
 
@@ -144,7 +153,7 @@ class LawProcess:
         raise TimeoutError
 
     @contextmanager
-    def _judged(self, allowed: float = 0.0, late: str = "") -> Iterator[None]:
+    def _judged(self, allowed: float, late: str) -> Iterator[None]:
         """Note the fault of a law that does not answer as it should within some seconds."""
         self._clock.start(allowed)
         try:
@@ -200,26 +209,8 @@ class LawProcess:
             place = where or self._briefing.file.name
             self.fault = kind, one_line(f"{place}: {' '.join(text.split())}")
 
-    # -- output and end ------------------------------------------------------------------------
-
     def _all_printed(self) -> str:
         return self._output.read_bytes().decode(errors="replace")
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._resources.close()
-
-    def _end(self) -> None:
-        with suppress(OSError):
-            if hasattr(os, "killpg"):
-                os.killpg(self._process.pid or 0, signal.SIGKILL)
-        self._process.kill()
-        self._process.join(10 * GRACE)
-        self.printed = self._all_printed().partition(CRASH)[0][:KEPT_OUTPUT]
-        with suppress(ValueError):  # it does not end
-            self._process.close()
 
 
 def _started(channel: socket.socket, output: str) -> multiprocessing.process.BaseProcess:
