@@ -45,6 +45,13 @@ PATIENCE = 3
 FAULTS = ("start", "memory", "error", "command", "output")
 """The kinds of faults that a law's process reports itself."""
 
+SIGNALS = {
+    "SIGSEGV": ", a segmentation fault",
+    "SIGKILL": ", perhaps for lack of memory",
+    "SIGXCPU": ": it took too much processor time",
+}
+"""What signals that end a process mean."""
+
 CRASH = "Fatal Python error"
 """How the traceback begins that Python prints when a signal ends it."""
 
@@ -119,7 +126,6 @@ class LawProcess:
         self._process.kill()
         self._process.join(10 * GRACE)
         self.printed = self._all_printed().partition(CRASH)[0][:KEPT_OUTPUT]
-        self._clock.close()
         self._channel.close()
         with suppress(ValueError):  # it does not end
             self._process.close()
@@ -141,8 +147,8 @@ class LawProcess:
                 raise ValueError("its answer is too long")
         answer = json.loads(told)
         if "kind" in answer:
-            where, text = answer["where"], str(answer["text"])
-            self._fail(FAULTS[FAULTS.index(answer["kind"])], where and str(where)[:200], text)
+            kind, where = FAULTS[FAULTS.index(answer["kind"])], answer["where"]
+            self._fail(kind, str(answer["text"]), where and str(where)[:200])
         return answer
 
     def _in_time(self, transfer: Callable[[Any], T], what: object) -> T:
@@ -164,16 +170,15 @@ class LawProcess:
                     os.kill(self._process.pid or 0, signal.SIGABRT)  # it then prints where it is
             self._process.join(GRACE)
             if allowed < min(self._limits.tick, self._limits.start):
-                total = f"its commands took more than {self._limits.match:g} s in all"
-                self._fail("clock", self._crash_line(), total)
+                self._fail("clock", f"its commands took more than {self._limits.match:g} s in all")
             else:
-                self._fail("slow", self._crash_line(), f"{late} after {allowed:g} s")
+                self._fail("slow", f"{late} after {allowed:g} s")
         except ConnectionError:
             self._gone()
         except (Mars2dError, ValueError, TypeError, KeyError, RecursionError):
-            self._fail("exit", None, "what it says to the match is no answer")
+            self._fail("exit", "what it says to the match is no answer")
         if self._output.stat().st_size >= self._most:
-            self._fail("output", None, f"printed more than {self._most} bytes")
+            self._fail("output", f"printed more than {self._most} bytes")
 
     # -- faults --------------------------------------------------------------------------------
 
@@ -181,16 +186,14 @@ class LawProcess:
         """Note why the process has ended or closed its connection."""
         self._process.join(GRACE)
         code = self._process.exitcode
-        if code is None or code == CUT_OFF:
-            self._fail("exit", None, "its process has closed the connection to the match")
-        elif code >= 0:
-            self._fail("exit", None, f"its process has ended itself, with code {code}")
-        elif (name := signal.Signals(-code).name) == "SIGXCPU":
-            self._fail("clock", self._crash_line(), "its process took too much processor time")
-        else:
-            words = {"SIGSEGV": ", a segmentation fault", "SIGKILL": ", perhaps for lack of memory"}
-            text = f"its process was ended by the signal {name}{words.get(name, '')}"
-            self._fail("exit", self._crash_line(), text)
+        kind, why = "exit", "has closed the connection to the match"
+        if code is not None and code != CUT_OFF:
+            why = f"has ended itself, with code {code}"
+        if code is not None and code < 0:
+            name = signal.Signals(-code).name
+            kind = "clock" if name == "SIGXCPU" else kind
+            why = f"was ended by the signal {name}{SIGNALS.get(name, '')}"
+        self._fail(kind, f"its process {why}")
 
     def _crash_line(self) -> str | None:
         """Return the user's line in the traceback that Python prints on a crash."""
@@ -201,12 +204,12 @@ class LawProcess:
         )
         return users_line(stack)
 
-    def _fail(self, kind: str, where: str | None, text: str) -> None:
-        """Note the first fault."""
+    def _fail(self, kind: str, text: str, where: str = "") -> None:
+        """Note the first fault; where: the user's line, by default that of a crash."""
         if self.fault is None:
             if kind == "memory":
                 text += f"; it may take {self._limits.memory:g} MB"
-            place = where or self._briefing.file.name
+            place = where or self._crash_line() or self._briefing.file.name
             self.fault = kind, one_line(f"{place}: {' '.join(text.split())}")
 
     def _all_printed(self) -> str:
@@ -250,16 +253,7 @@ class _Clock:
 
     def __init__(self, process: int | None) -> None:
         """Take the law's process."""
-        self._files = []
-        with suppress(OSError):  # not on Linux
-            for folder in (f"/proc/{process}", "/proc/thread-self"):
-                self._files.append(os.open(f"{folder}/schedstat", os.O_RDONLY))
-        self.start(0.0)
-
-    def close(self) -> None:
-        """Read no more of what the system says."""
-        for file in self._files:
-            os.close(file)
+        self._files = [Path(f"/proc/{each}/schedstat") for each in (process, "thread-self")]
 
     def start(self, allowed: float) -> None:
         """Begin to count, up to the time that is allowed, seconds."""
@@ -281,6 +275,6 @@ class _Clock:
 
     def _waits(self) -> float:
         try:
-            return sum(1e-9 * int(os.pread(file, 99, 0).split()[1]) for file in self._files)
-        except OSError:  # it has ended
+            return sum(1e-9 * int(file.read_bytes().split()[1]) for file in self._files)
+        except OSError:  # not on Linux, or it has ended
             return 0.0
