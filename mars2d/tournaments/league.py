@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from html import escape
@@ -104,22 +104,13 @@ def _standing(law: str, role: str, roles: Sequence[str], played: Sequence[Played
         if each.capture_time is not None and (role or own == roles[0])
     ]
     won, drawn = points.count(WIN), points.count(DRAW)
+    lost = len(points) - won - drawn
+    forfeits = sum(own in each.verdicts for own, each in counted)
+    counts = (len(points), won, drawn, lost, forfeits)
     share = proportion(sum(points), len(points))
-    return Standing(
-        role=role,
-        place=0,
-        law=law,
-        played=len(points),
-        won=won,
-        drawn=drawn,
-        lost=len(points) - won - drawn,
-        forfeits=sum(own in each.verdicts for own, each in counted),
-        points=sum(points),
-        share=share.mean,
-        share_low=share.low,
-        share_high=share.high,
-        capture_time=fmean(times) if times else None,
-    )
+    of_all = (share.mean, share.low, share.high)
+    time = fmean(times) if times else None
+    return Standing(role, 0, law, *counts, sum(points), *of_all, time)
 
 
 def points_of(played: Played, role: str) -> float:
@@ -256,11 +247,14 @@ class Tournament:
         return target
 
     def _repr_html_(self) -> str:
-        """Return the league as a table, for a notebook."""
-        lines = [line for _, table in league_tables(self) for line in table]
-        cells = ("".join(f"<td>{escape(text)}</td>" for text in line) for line in lines)
-        body = "".join(f"<tr>{row}</tr>" for row in cells)
-        return f"<table><caption>{escape(self.schedule.title)}</caption>{body}</table>"
+        """Return the league as tables, for a notebook."""
+        found = ""
+        for standings, rows in league_tables(self):
+            lines = [[*rows[0]], *(row.values() for row in rows)]
+            cells = ("".join(f"<td>{escape(text)}</td>" for text in line) for line in lines)
+            body = "".join(f"<tr>{row}</tr>" for row in cells)
+            found += f"<table><caption>{escape(standings[0].role)}</caption>{body}</table>"
+        return found
 
 
 def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
@@ -292,18 +286,13 @@ ALWAYS_SHOWN = ("place", "law", "points", "share (95 %)", "played")
 """The columns that are always shown; others are left out if they have no values."""
 
 
-def league_tables(tournament: Tournament) -> list[tuple[str, list[tuple[str, ...]]]]:
-    """Return each league table as text: its role, and its lines, of which the first is the header.
-
-    The lines are those of the standings with that role, in order.
-    """
-    tables = []
-    for role, standings in groupby(tournament.standings, key=lambda standing: standing.role):
+def league_tables(tournament: Tournament) -> Iterator[tuple[list[Standing], list[dict[str, str]]]]:
+    """Yield each league table: its standings, and their rows as text, by the columns' headings."""
+    for _, group in groupby(tournament.standings, key=lambda standing: standing.role):
+        standings = [*group]
         rows = [_texts(standing) for standing in standings]
-        columns = [(name, *(row[name] for row in rows)) for name in rows[0]]
-        shown = [c for c in columns if c[0] in ALWAYS_SHOWN or not {*c[1:]} <= {"0", "-"}]
-        tables.append((role, [*zip(*shown, strict=True)]))
-    return tables
+        shown = {k for row in rows for k in row if k in ALWAYS_SHOWN or row[k] not in ("0", "-")}
+        yield standings, [{k: text for k, text in row.items() if k in shown} for row in rows]
 
 
 def _texts(standing: Standing) -> dict[str, str]:

@@ -25,8 +25,9 @@ MAX_FAULT_LENGTH = 160
 def league_text(tournament: Tournament) -> str:
     """Return the league tables, the table of who beat whom, and notes on faults."""
     told = []
-    for role, (header, *rows) in league_tables(tournament):
-        told.append("\n".join(aligned([("", role or "law", *header[2:]), *rows], left=2)))
+    for standings, rows in league_tables(tournament):
+        header = ["", standings[0].role or "law", *[*rows[0]][2:]]
+        told.append("\n".join(aligned([header, *([*row.values()] for row in rows)], left=2)))
     told += [part(tournament) for part in (_pairings, _rounds, _faults, _same_matches)]
     told.append(f"Isolation: {UNPROTECTED}" if tournament.unprotected else "")
     return "\n\n".join(filter(None, told))
@@ -109,11 +110,6 @@ def _same_matches(tournament: Tournament) -> str:
     same = [found for found in several if len({played.digest for played in found}) == 1]
     if not same:
         return ""
+    which = "each pairing" if len(same) == len(several) else f"{len(same)} pairings"
     seeds = counted(len(same[0]), "seed")
-    if len(same) == len(several):
-        return f"The {seeds} gave the same match in each pairing: nothing in it is random."
-    which = [" against ".join(found[0].match.laws.values()) for found in same[:3]]
-    more = f" and {counted(len(same) - 3, 'other')}" if len(same) > 3 else ""
-    return (
-        f"The {seeds} gave the same match, since nothing in it is random: {', '.join(which)}{more}."
-    )
+    return f"The {seeds} gave the same match in {which}: nothing in it is random."

@@ -13,7 +13,7 @@ from mars2d.core.errors import counted
 from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
-from mars2d.scenario.roles import roles_of
+from mars2d.scenario.roles import contest_of, roles_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.tournaments.isolation.limits import Limits
 
@@ -86,9 +86,10 @@ class Rules:
     start: str
 
     @classmethod
-    def of(cls, experiment: Experiment, contest: Contest, limits: Limits) -> Rules:
+    def of(cls, experiment: Experiment, limits: Limits) -> Rules:
         """Return the rules of an experiment with a contest; limits: of each law."""
         scenario, path = experiment.scenario, experiment.source.path
+        contest = contest_of(scenario, experiment.source.name)
         game = experiment.source.name or scenario.title
         if path is not None and path in examples().values():
             game = experiment_name(path)

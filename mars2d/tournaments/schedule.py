@@ -6,11 +6,13 @@ import glob
 import itertools
 import os
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
@@ -74,19 +76,13 @@ def schedule(
     InputError for anything that can't be played.
     """
     if not isinstance(experiment, (str, Path)):
-        raise InputError(
-            f"experiment = {shown(experiment)}: expected a file, or the name of an example"
-        )
+        raise wrong("experiment", experiment, "a file, or the name of an example")
     plan = Plan(settings_of(settings), seeds_of(seeds, first_seed))
     always = {} if stop_time is None else {"stop_time": stop_time}
     rounds = [{**point, **always} for point in plan.points()]
-    opened = open_experiment(experiment, rounds[0], seed=plan.seeds[0])
-    contest = contest_of(opened.scenario, str(experiment))
-    names = tuple(roles_of(opened.scenario))
-    for options in (probe | always for probe in plan.probes()):  # before any match, not after many
-        scenario = open_experiment(experiment, options, seed=plan.seeds[0]).scenario
-        contest_of(scenario, str(experiment))
-        if tuple(roles_of(scenario)) != names:
+    opened, names = _opened(experiment, rounds[0], plan.seeds[0])
+    for probe in plan.probes():  # before any match, not after many
+        if _opened(experiment, probe | always, plan.seeds[0])[1] != names:
             raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
     _check_names(plan.settings, names)
     taking_part = entrants(names, roles or {}, players or (), _beside(opened))
@@ -125,22 +121,17 @@ def schedule(
         limits=limits,
         matches=matches,
         files=frozenset(opened.source.written),
-        rules=Rules.of(opened, contest, limits),
+        rules=Rules.of(opened, limits),
     )
 
 
 def game_rules(
     experiment: str, limits: Limits, settings: Mapping[str, Any], stop_time: float | None, seed: int
 ) -> Rules:
-    """Return the rules of a game in its first round, with which nobody need play."""
-    options = next(iter(Plan(settings_of(settings), (seed,)).points()))
+    """Return the rules of a game in its first round, for which nobody need play."""
+    first = next(Plan(settings_of(settings), (seed,)).points())
     always = {} if stop_time is None else {"stop_time": stop_time}
-    opened = open_experiment(experiment, {**options, **always}, seed=seed)
-    return Rules.of(opened, contest_of(opened.scenario, experiment), limits)
-
-
-def _beside(opened: Experiment) -> Path | None:
-    return None if opened.source.path is None else opened.source.path.parent
+    return Rules.of(_opened(experiment, {**first, **always}, seed)[0], limits)
 
 
 def trial_matches(
@@ -150,9 +141,7 @@ def trial_matches(
 
     Raises InputError for a role or a file that is not there, and for a law of another role.
     """
-    opened = open_experiment(experiment, options)
-    contest_of(opened.scenario, experiment)
-    names = tuple(roles_of(opened.scenario))
+    opened, names = _opened(experiment, options)
     if role not in names:
         raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
     files = law_files(laws, _beside(opened))
@@ -162,6 +151,20 @@ def trial_matches(
         Match(number, experiment, options, seed, {role: file.stem}, {role: str(file)})
         for number, (file, seed) in enumerate(each, 1)
     )
+
+
+def _opened(
+    experiment: str | Path, options: Mapping[str, Any], seed: int | None = None
+) -> tuple[Experiment, tuple[str, ...]]:
+    """Return an experiment with a contest, and its roles."""
+    opened = open_experiment(experiment, options, seed=seed)
+    contest_of(opened.scenario, str(experiment))
+    return opened, tuple(roles_of(opened.scenario))
+
+
+def _beside(opened: Experiment) -> Path | None:
+    """Return the folder of an experiment's file."""
+    return None if opened.source.path is None else opened.source.path.parent
 
 
 def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
@@ -204,53 +207,29 @@ def law_files(named: Files, beside: Path | None = None) -> tuple[Path, ...]:
     parts = [part.strip() for each in given for part in str(each).split(",") if part.strip()]
     if given and not parts:
         raise InputError(f"{named!r}: {EXPECTED}")
-    return tuple(dict.fromkeys(file for part in parts for file in _files(part, beside)))
-
-
-def _files(part: str, beside: Path | None) -> list[Path]:
     folders = [Path.cwd()] if beside is None else [Path.cwd(), beside]
+    return tuple(dict.fromkeys(file for part in parts for file in _files(part, folders)))
+
+
+def _files(part: str, folders: Sequence[Path]) -> list[Path]:
+    """Return the files that one name stands for; their paths have no `..`."""
     for folder in folders:
         path = folder / part
-        if path.is_dir():
-            inside = _laws(path.iterdir())
-            if not inside:
-                raise InputError(f"{part}: no law in this folder; {EXPECTED}")
-            return inside
+        if path.is_file() and path.suffix in SUFFIXES:
+            return [Path(os.path.normpath(path))]
         if path.is_file():
-            if path.suffix not in SUFFIXES:
-                raise InputError(f"{part}: expected the file of a law, which ends in .py or .onnx")
-            return [_plain(path)]
-        found = _laws(map(Path, glob.glob(str(path))))  # noqa: PTH207 - of absolute patterns, too
-        if found:
-            return found
-    raise InputError(f"{part}: no such file; {EXPECTED}{_near(part, folders)}")
-
-
-def _laws(paths: Iterable[Path]) -> list[Path]:
-    """Return those files that can be laws, sorted."""
-    return sorted(
-        _plain(path)
-        for path in paths
-        if path.suffix in SUFFIXES and path.is_file() and not path.name.startswith("_")
-    )
-
-
-def _plain(path: Path) -> Path:
-    """Return an absolute path without `..`, which is the same however the file was named."""
-    return Path(os.path.normpath(path.absolute()))
-
-
-def _near(part: str, folders: Sequence[Path]) -> str:
-    """Return the nearest existing name, as the end of a message."""
+            raise InputError(f"{part}: expected the file of a law, which ends in .py or .onnx")
+        inside = path.iterdir() if path.is_dir() else glob.glob(str(path))  # noqa: PTH207 - absolute
+        found = [Path(os.path.normpath(each)) for each in inside]
+        laws = [each for each in found if each.suffix in SUFFIXES and each.name[0] != "_"]
+        if laws:
+            return sorted(filter(Path.is_file, laws))
+        if path.is_dir():
+            raise InputError(f"{part}: no law in this folder; {EXPECTED}")
     parent = Path(part).parent
-    names = {
-        str(parent / path.name)
-        for folder in folders
-        if (folder / parent).is_dir()
-        for path in (folder / parent).iterdir()
-        if path.suffix in SUFFIXES or path.is_dir()
-    }
-    return likely(part, names)
+    others = [path for folder in folders for path in (folder / parent).glob("*")]
+    names = [str(parent / path.name) for path in others if path.is_dir() or path.suffix in SUFFIXES]
+    raise InputError(f"{part}: no such file; {EXPECTED}{likely(part, names)}")
 
 
 def entrants(
@@ -290,13 +269,12 @@ def names_of(files: Iterable[str | Path]) -> dict[str, str]:
     >>> names_of(["a/hunt.py", "b/hunt.py", "b/flee.py"])
     {'a/hunt.py': 'a/hunt', 'b/hunt.py': 'b/hunt', 'b/flee.py': 'flee'}
     """
-    paths = {str(file): Path(file).with_suffix("").parts for file in files}
     names = {}
-    for file, parts in paths.items():
-        others = [other for key, other in paths.items() if key != file]
-        depth = next(
-            (k for k in range(1, len(parts)) if all(o[-k:] != parts[-k:] for o in others)),
-            len(parts),
-        )
-        names[file] = repr("/".join(parts[-depth:]))[1:-1]
-    return names
+    for file in dict.fromkeys(map(Path, files)):
+        parts = file.with_suffix("").parts
+        names[str(file)] = ["/".join(parts[-k:]) for k in range(1, len(parts) + 1)]
+    counts = Counter(itertools.chain(*names.values()))
+    return {
+        file: repr(next((name for name in ends if counts[name] == 1), file))[1:-1]
+        for file, ends in names.items()
+    }

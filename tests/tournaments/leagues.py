@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from mars2d import Robot, Scenario
 from mars2d.addons import Game
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import contest_of
 from mars2d.tournaments.isolation.limits import LIMITS
 from mars2d.tournaments.league import Tournament
 from mars2d.tournaments.match import Played
@@ -17,8 +16,7 @@ ROLES = ("pursuer", "evader")
 
 def rules_of(game, **options) -> Rules:
     """The rules of an experiment."""
-    opened = open_experiment(game, options)
-    return Rules.of(opened, contest_of(opened.scenario, str(game)), LIMITS)
+    return Rules.of(open_experiment(game, options), LIMITS)
 
 
 def tournament_of(

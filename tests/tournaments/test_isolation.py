@@ -350,7 +350,7 @@ def test_wrong_robots_and_limits_are_errors(tmp_path) -> None:
     file = law(tmp_path, GOOD)
     with pytest.raises(InputError, match=r"laws\['a'\]: there is no robot 2; they are 0 to 1"):
         played(pair(), {"a": (file, [2])})
-    with pytest.raises(InputError, match=r"laws: robot1 has those of a and b"):
+    with pytest.raises(InputError, match=r"laws: robot1 has two"):
         played(pair(), {"a": (file, [1]), "b": (file, [1])})
     with pytest.raises(InputError, match=r"Limits.tick = 0: expected a number > 0"):
         Limits(tick=0)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from mars2d.cli.arguments import preferences_of, shared
 from mars2d.cli.outputs import check_film, conclude, produced, save_film_of
 from mars2d.cli.runs import require_display
+from mars2d.window import show
 from mars2d.world.record import load
 
 NO_DISPLAY = (
@@ -33,7 +34,5 @@ def execute(arguments: argparse.Namespace) -> None:
     conclude(*produced(arguments, makers))
     if arguments.video is None and arguments.html is None:
         require_display(NO_DISPLAY)
-        from mars2d.window.show import show_record
-
         speed = animation.playback_speed if arguments.speed is None else arguments.speed
-        show_record(record, speed, preferences_of(arguments))
+        show.show_record(record, speed, preferences_of(arguments))

@@ -23,7 +23,7 @@ from mars2d.cli.outputs import (
     run_and_save,
     save_film,
 )
-from mars2d.cli.runs import opens_window, require_display, run_headless, show
+from mars2d.cli.runs import opens_window, require_display, run_headless, speed_by_hand
 from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
@@ -31,6 +31,7 @@ from mars2d.physics.islands import reason_without
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.prediction import table
 from mars2d.scenario.roles import robots_named
+from mars2d.window import show
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
 from mars2d.world.world import Watcher
@@ -70,9 +71,15 @@ def execute(arguments: argparse.Namespace) -> None:
             def run() -> tuple[Record, Make | None]:
                 if not opens_window(not arguments.headless):
                     return _run_headless(arguments, experiment, watchers)
-                log, kept = formats.log_to(arguments.record), arguments.record is not None
-                look, speed = preferences_of(arguments), arguments.speed
-                return show(experiment, speed, look, humans, log, watchers, kept=kept), None
+                speed, own = arguments.speed, experiment.scenario.animation.playback_speed
+                if speed is None:
+                    speed = speed_by_hand(experiment.scenario, humans) if humans else own
+                look, log = preferences_of(arguments), formats.log_to(arguments.record)
+                asks = arguments.record is None
+                seen = show.show_experiment(
+                    experiment, speed, watchers, look, humans=humans, log=log, asks=asks
+                )
+                return seen, None
 
             record, made, troubles = run_and_save(arguments, run)
     except Interrupted:

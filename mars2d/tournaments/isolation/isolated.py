@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 from mars2d.core.errors import InputError, LawError
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.scenario import Scenario
 from mars2d.tournaments.isolation.limits import LIMITS, Limits, Verdict
 from mars2d.tournaments.isolation.observation import brief
 from mars2d.tournaments.isolation.process import LawProcess
 from mars2d.tournaments.isolation.source import law_code
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record
-from mars2d.world.simulation import Simulation
 from mars2d.world.views import RobotView
 
 Laws = Mapping[str, tuple[str | Path, Sequence[int]]]
@@ -50,69 +49,50 @@ def run_isolated(
     robots and for robots with two laws, and LawError where other code of the experiment fails.
     """
     scenario, seed = experiment.scenario, experiment.seed or 0
-    drivers = _drivers(scenario, laws)
+    driven = [
+        scenario.index_of(f"laws[{role!r}]", robot)
+        for role, (_, robots) in laws.items()
+        for robot in robots
+    ]
+    if twice := [scenario.robots[i].name for i in driven if driven.count(i) > 1]:
+        raise InputError(f"laws: {twice[0]} has two")
     files = {role: Path(file).absolute() for role, (file, _) in laws.items()}
     code = code or {role: law_code(file) for role, file in files.items()}
     processes: dict[str, LawProcess] = {}
     verdicts: dict[str, Verdict] = {}
+    commands: dict[int, tuple[float, float]] = {}
     asked = -1
 
-    def judge(time: float) -> None:
-        """Note the verdicts on laws that have failed, and raise them as a LawError."""
-        for role, process in processes.items():
-            if process.fault is not None:
-                verdicts[role] = Verdict(*process.fault, time)
-        if verdicts:
-            raise LawError("; ".join(f"{role}: {found.text}" for role, found in verdicts.items()))
-
-    def ask_all(world: Simulation) -> None:
-        """Ask one law after the other for its commands, once a control step."""
+    def control(view: RobotView) -> tuple[float, float]:
+        """Return the command of a robot; once a control step, ask one law after the other."""
         nonlocal asked
+        world = view._world
         if asked != world.iteration:
             asked = world.iteration
-            for process in processes.values():
+            for role, process in processes.items():
                 if process.fault is None:
-                    process.ask(world)
-            judge(world.time)
-
-    def asking(robot: int) -> Callable[[RobotView], tuple[float, float]]:
-        def control(view: RobotView) -> tuple[float, float]:
-            world = view._world
-            ask_all(world)
-            command = processes[drivers[robot]].command(world, robot)
-            judge(world.time)
-            return command
-
-        return control
+                    commands.update(process.command(world))
+                if process.fault is not None:
+                    verdicts[role] = Verdict(*process.fault, world.time)
+        if verdicts:
+            raise LawError("; ".join(f"{role}: {found.text}" for role, found in verdicts.items()))
+        return commands[view.index]
 
     with ExitStack() as running:
+        folder = running.enter_context(TemporaryDirectory(prefix="mars2d-"))
         for role, (_, robots) in laws.items():
             briefing = brief(scenario, role, files, code, robots, seed, limits)
-            processes[role] = running.enter_context(LawProcess(briefing))
+            output = Path(folder) / str(len(processes))
+            processes[role] = running.enter_context(LawProcess(briefing, output))
             processes[role].load()
-        guarded = [
-            robot.replace(controller=asking(i)) if i in drivers else robot
-            for i, robot in enumerate(scenario.robots)
+        own = [
+            control if i in driven else each.controller for i, each in enumerate(scenario.robots)
         ]
-        isolated = replace(experiment, scenario=scenario.replace(robots=guarded))
         try:
-            record = simulate(isolated).record
+            record = simulate(replace(experiment, scenario=scenario.with_laws(own))).record
         except LawError as error:
             if not verdicts or error.record is None:
                 raise
             record = error.record
-    output = {role: process.printed for role, process in processes.items() if process.printed}
-    return Isolated(record, verdicts, output)
-
-
-def _drivers(scenario: Scenario, laws: Laws) -> dict[int, str]:
-    """Return the role that drives each robot; InputError for two roles or an unknown robot."""
-    drivers: dict[int, str] = {}
-    for role, (_, robots) in laws.items():
-        for robot in robots:
-            index = scenario.index_of(f"laws[{role!r}]", robot)
-            if index in drivers:
-                name = scenario.robots[index].name
-                raise InputError(f"laws: {name} has those of {drivers[index]} and {role}")
-            drivers[index] = role
-    return drivers
+    printed = {role: process.printed for role, process in processes.items() if process.printed}
+    return Isolated(record, verdicts, printed)

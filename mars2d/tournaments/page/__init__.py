@@ -16,7 +16,6 @@ from mars2d.tournaments.page.tables import (
     grades,
     match_table,
     matrix,
-    shades,
     standing_tables,
 )
 from mars2d.tournaments.page.words import clean, escaped, read, terms
@@ -76,7 +75,7 @@ def save_rules(rules: Rules, path: Path) -> None:
 def _page(title: str, body: str, script: str = "", inside: str = "") -> str:
     """Return a page. script: what it runs besides. inside: the first script of its replays."""
     script = f"(() => {{\n{read('page.js')}{script}}})();"
-    style = colors() + shades() + read("page.css")
+    style = colors() + read("page.css")
     words = {
         "policy": policy([script, inside + page_script()], [style, page_style()]),
         "title": escaped(title),

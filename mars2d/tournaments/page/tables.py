@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from mars2d.core.errors import counted
 from mars2d.tournaments.league import Standing, Tournament, league_tables, matches_of
 from mars2d.tournaments.match import Played
-from mars2d.tournaments.page.words import clean, dots, escaped, named
+from mars2d.tournaments.page.words import dots, escaped, named
 
 NONE = "-"
 """Shown in place of missing values."""
@@ -58,25 +57,23 @@ def table(
 def standing_tables(tournament: Tournament) -> str:
     """Return a league table for each role, or one for all laws."""
     kinds = {"law": HEAD, "points": f"{NUMBER} points", "share (95 %)": "share"}
-    standings = iter(tournament.standings)
     tables = []
-    for role, (header, *lines) in league_tables(tournament):
+    for standings, rows in league_tables(tournament):
+        for standing, cells in zip(standings, rows, strict=True):
+            cells["law"] = named(standing.law)
+            cells["share (95 %)"] = f"{_bar(standing)} {cells['share (95 %)']}"
+            if standing.forfeits:
+                cells["forfeits"] = _forfeits(standing.forfeits)
+        role, columns = standings[0].role, {name: kinds.get(name, NUMBER) for name in rows[0]}
         label = f"As {escaped(role)}" if role else "All laws"
-        colors = tournament.schedule.rules.roles[role].colors if role else ()
-        rows = []
-        for line in lines:
-            cells = dict(zip(header, line, strict=True))
-            cells["law"] = named(cells["law"])
-            cells["share (95 %)"] = f"{_bar(next(standings))} {cells['share (95 %)']}"
-            cells |= {name: _alarming(cells[name]) for name in {"forfeits"} & {*header}}
-            rows.append([*cells.values()])
-        columns = {name: kinds.get(name, NUMBER) for name in header}
-        tables.append(table("league", label, columns, rows, dots(colors) + label))
+        title = dots(tournament.schedule.rules.roles[role].colors) + label if role else label
+        lines = [[*row.values()] for row in rows]
+        tables.append(table("league", label, columns, lines, title))
     return "\n".join(tables)
 
 
-def _alarming(count: str) -> str:
-    return count if count == "0" else f'<b class="bad">{count}</b>'
+def _forfeits(count: int) -> str:
+    return f'<b class="bad">{count}</b>' if count else "0"
 
 
 def _bar(standing: Standing) -> str:
@@ -105,7 +102,7 @@ def grades(tournament: Tournament) -> str:
             named(row["group"]),
             f"{row['matches']}",
             f"{row['points']:g}",
-            _alarming(f"{row['forfeits']}"),
+            _forfeits(row["forfeits"]),
             escaped(row["reasons"]),
         )
         for row in tournament.grade_rows()
@@ -115,8 +112,8 @@ def grades(tournament: Tournament) -> str:
 
 # -- who beat whom ---------------------------------------------------------------------------------
 
-STEPS, STRENGTH = 10, 55
-"""How many steps there are from the colour of no points to that of all, and their strength, %."""
+STEPS = 10
+"""How many steps there are from the colour of no points to that of all."""
 
 
 def matrix(tournament: Tournament) -> str:
@@ -142,16 +139,6 @@ def matrix(tournament: Tournament) -> str:
     )
 
 
-def shades() -> str:
-    """Return the colours of the shares as CSS: those of laws that lost, even ones and winners."""
-    lines = []
-    for step in range(STEPS + 1):
-        share = 2 * step / STEPS - 1
-        color = f"var(--{'won' if share > 0 else 'lost'}) {STRENGTH * abs(share):.0f}%"
-        lines.append(f".s{step} {{ background: color-mix(in srgb, {color}, var(--paper)); }}\n")
-    return "".join(lines)
-
-
 def _cut(law: str) -> str:
     """Return a name that the page shortens if it is long; its title shows all of it."""
     return f'<span title="{escaped(law)}">{named(law)}</span>'
@@ -173,8 +160,8 @@ def _share_cell(law: str, rival: str, points: Sequence[float]) -> str:
 
 WATCH = '<button class="watch" aria-haspopup="dialog">{}</button>'
 
-MAX_EXCERPT = 2000
-"""How many characters of a law's output are shown from its beginning, and from its end."""
+MAX_PRINTED = 4000
+"""How many characters of a law's output are shown, from its end."""
 
 
 def match_table(tournament: Tournament) -> str:
@@ -230,15 +217,6 @@ def _ending(played: Played) -> str:
     printed = {role: played.output[role] for role in played.verdicts if role in played.output}
     return f"{badge}{escaped(played.message)}" + "".join(
         f"<template><h3>What {named(played.match.laws[role])} printed</h3>"
-        f'<pre tabindex="0">{escaped(_excerpt(text))}</pre></template>'
+        f'<pre tabindex="0">{escaped(text[-MAX_PRINTED:])}</pre></template>'
         for role, text in printed.items()
     )
-
-
-def _excerpt(printed: str) -> str:
-    """Return the beginning and the end of a long text."""
-    left = len(printed) - 2 * MAX_EXCERPT
-    if left <= 0:
-        return printed
-    between = f"\n[... {counted(left, 'character')} left out ...]\n"
-    return clean(printed[:MAX_EXCERPT]) + between + printed[-MAX_EXCERPT:]
