@@ -139,7 +139,7 @@ def test_a_capture_at_the_last_instant_counts_whose_time_is_rounded_up(later, wi
         ({"pursuer": [1.5], "evader": ["blue"]}, "names or indices"),
         ({"pursuer": [True], "evader": ["blue"]}, "names or indices"),
         ({1: ["red"], "evader": ["blue"]}, "two roles"),
-        ([("a", [0]), ("a", [1])], "two roles are called 'a'"),
+        ([("a", [0]), ("a", [1])], "two roles"),
         (7, "two roles"),
         ({"pursuer": ["rde"], "evader": ["blue"]}, "no robot 'rde'; did you mean 'red'"),
         ({"pursuer": [5], "evader": ["blue"]}, "no robot 5; they are 0 to 1"),
