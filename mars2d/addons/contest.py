@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 from abc import abstractmethod
-from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -51,26 +50,22 @@ class Outcome(NamedTuple):
 @accepts({"type": "array", "minItems": 2, "maxItems": 2})
 def _roles(name: str, value: object) -> tuple[Role, ...]:
     """Check two roles with their robots, a dict or, as in a file, pairs; keep them as pairs."""
-    pairs = list(value.items()) if isinstance(value, Mapping) else value
-    if not isinstance(pairs, (list, tuple)) or len(pairs) != 2:
+    try:
+        roles = dict(value)  # type: ignore[call-overload]
+    except (TypeError, ValueError):
+        raise wrong(name, value, ROLES) from None
+    if len(roles) != 2 or not all(isinstance(role, str) for role in roles):
         raise wrong(name, value, ROLES)
-    for pair in pairs:
-        if not isinstance(pair, (list, tuple)) or len(pair) != 2 or not isinstance(pair[0], str):
-            raise wrong(name, value, ROLES)
-    if pairs[0][0] == pairs[1][0]:
-        raise InputError(f"{name}: two roles are called {pairs[0][0]!r}")
-    return tuple((role, robots_of(f"{name}[{role!r}]", robots)) for role, robots in pairs)
+    return tuple((role, robots_of(f"{name}[{role!r}]", team)) for role, team in roles.items())
 
 
 @accepts({"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 1})
 def robots_of(name: str, value: object) -> tuple[str | int, ...]:
     """Check a list of robots, by their names or indices."""
     expected = "a list of robots, by their names or indices, such as ['red', 'blue']"
-    if not isinstance(value, (list, tuple, range)):
-        raise wrong(name, value, expected)
-    if not value:
-        raise wrong(name, value, f"{expected}; nobody has this role")
     items = checks.items_of(name, value, expected)
+    if not items:
+        raise wrong(name, value, f"{expected}; nobody has this role")
     for item in items:
         if isinstance(item, bool) or not isinstance(item, (str, int, np.integer)):
             raise wrong(name, value, expected)

@@ -14,7 +14,7 @@ from mars2d.core import checks
 from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.picture import Bounds, Pixels
+from mars2d.core.picture import Bounds
 from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectangle
 from mars2d.core.scene import Scene, rgb
 from mars2d.core.scene import color as checked_color
@@ -72,14 +72,6 @@ class Floor(Pictured):
     def _beneath(self) -> str | None:
         return self.color
 
-    @property
-    def pixels(self) -> Pixels:
-        """The image's pixels (rows, columns, 3), the upper row first; red, green, blue to 255.
-
-        Raises InputError if the file is not there, is no such image, or is too large.
-        """
-        return self.picture.pixels
-
     @cached_property
     def _colored(self) -> tuple[tuple[Bounds, NDArray[np.float64], Color], ...]:
         """The patches, from the upper one down: bounds, corners (k, 2), colour."""
@@ -101,18 +93,18 @@ class Floor(Pictured):
         if self.bounds is not None:
             xmin, xmax, ymin, ymax = self.bounds
             if xmin <= x <= xmax and ymin <= y <= ymax:
-                rows, columns, _ = self.pixels.shape
+                pixels = self.picture.pixels
+                rows, columns, _ = pixels.shape
                 row = min(int((ymax - y) / (ymax - ymin) * rows), rows - 1)
                 column = min(int((x - xmin) / (xmax - xmin) * columns), columns - 1)
-                red, green, blue = (self.pixels[row, column] / 255).tolist()
+                red, green, blue = (pixels[row, column] / 255).tolist()
                 return red, green, blue
         return None if self.color is None else rgb(self.color)
 
     def on_start(self, world: WorldLike) -> None:  # noqa: ARG002
-        """Read the image, so that its errors are raised at once, and fill the caches."""
-        self._colored  # noqa: B018
+        """Read the image, so that its errors are raised at once."""
         if self.image is not None:
-            self.pixels  # noqa: B018
+            self.picture  # noqa: B018
 
     def paint(self, scene: Scene, area: Outline) -> None:
         """Paint the floor of an area.
@@ -123,7 +115,7 @@ class Floor(Pictured):
             scene.polygon(area, fill=self.color)
         if self.bounds is not None:
             try:
-                scene.image(self.pixels, self.bounds)
+                scene.image(self.picture.pixels, self.bounds)
             except InputError:
                 scene.polygon(rectangle(*self.bounds), fill="#e6e9ed")
                 self.paint_absent(scene, self.bounds)

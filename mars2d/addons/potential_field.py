@@ -102,21 +102,16 @@ class PotentialField(Addon):
         if self.drawn is not None:
             index = scenario.index_of("PotentialField.drawn", self.drawn)
         arrow = 0.3 * self.spacing
-        for (x, y), (ux, uy) in self._arrows(frame, goals, index):
+        there = index < len(goals.routes) and goals.routes[index]
+        goal = goals.goal(index, frame) if there else None
+        field, spacing = self.of(scenario), self.spacing
+        for (x, y), (ux, uy) in field.arrows(goal, scenario.bounds, spacing) if goal else ():
             tail, tip = (x - arrow * ux, y - arrow * uy), (x + arrow * ux, y + arrow * uy)
             scene.arrow(tail, tip, fill=faded(THEORY, 0.45), width=1.0)
         for route, (reached, end) in zip(goals.routes, self.plan(scenario), strict=True):
             if reached < len(route):
                 scene.cross(end, CROSS, stroke="#ffffff", width=4.5)
                 scene.cross(end, CROSS, stroke=THEORY, width=2.5)
-
-    def _arrows(
-        self, frame: FrameLike, goals: Goals, robot: int
-    ) -> tuple[tuple[Point, Point], ...]:
-        if robot >= len(goals.routes) or not goals.routes[robot]:
-            return ()
-        scenario = frame.scenario
-        return self.of(scenario).arrows(goals.goal(robot, frame), scenario.bounds, self.spacing)
 
 
 _potential = lru_cache(maxsize=8)(Potential)

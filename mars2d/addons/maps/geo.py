@@ -60,7 +60,7 @@ def _drawing(
     """Return geometries of layers as a drawing, and count what is no area and no line."""
     import shapely
 
-    unit = unit or Unit.named("m", "supposed: the format names none")
+    unit = unit or Unit("m", 1.0, "supposed: the format names none")
     pieces: list[Piece] = []
     skipped: Counter[str] = Counter()
     for layer, geometry in found:

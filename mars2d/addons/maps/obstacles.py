@@ -137,6 +137,8 @@ def described(drawing: Drawing, found: Obstacles) -> list[tuple[str, str]]:
     """Return a description of a map and its obstacles, as pairs of a name and a text."""
     (width, height), (xmin, xmax, ymin, ymax) = drawing.size, drawing.bounds
     unit = f"{drawing.unit.name}, {drawing.unit.source}"
+    parts = [(len(found.outlines), "outline"), (len(found.walls), "wall")]
+    counts = ", ".join(counted(count, thing) for count, thing in parts if count)
     rows = [
         ("map", f"{drawing.source}, {drawing.kind}"),
         ("size", f"{width:.4g} m x {height:.4g} m"),
@@ -146,7 +148,7 @@ def described(drawing: Drawing, found: Obstacles) -> list[tuple[str, str]]:
         *drawing.notes,
         *_layers(drawing),
         ("not read", listed(drawing.skipped)),
-        ("obstacles", _counts(found)),
+        ("obstacles", counts or "none"),
         ("corners", f"{found.corners}, within {drawing.tolerance:g} m"),
     ]
     return [(name, text) for name, text in rows if text]
@@ -168,11 +170,6 @@ def _layers(drawing: Drawing) -> list[tuple[str, str]]:
     rest = sum(count for _, count, _ in both[MAX_LAYERS:])
     more = [("", f"and {len(both) - MAX_LAYERS} more, {counted(rest, 'piece')}")] if rest else []
     return [*rows, *more]
-
-
-def _counts(found: Obstacles) -> str:
-    parts = [(len(found.outlines), "outline"), (len(found.walls), "wall")]
-    return ", ".join(counted(count, thing) for count, thing in parts if count) or "none"
 
 
 def nearest_room(

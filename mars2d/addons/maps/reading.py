@@ -128,7 +128,7 @@ def _unit(value: Any) -> Unit | None:
     if isinstance(value, str):
         if value not in METRES:
             raise wrong("unit", value, expected + likely(value, METRES))
-        return Unit.named(value, "as given")
+        return Unit(value, METRES[value], "as given")
     metres = real("unit", value, expected)
     if not 1e-9 <= metres <= 1e6:
         raise wrong("unit", value, expected)

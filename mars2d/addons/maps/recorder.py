@@ -95,7 +95,8 @@ class _Frontend(UniversalFrontend):
         """Draw an entity, if its kind is read."""
         kind = entity.dxftype()
         block = entity.block() if kind == "INSERT" else None
-        if kind not in READ or _is_mesh(entity):
+        line = kind != "POLYLINE" or entity.is_2d_polyline or entity.is_3d_polyline  # or a mesh
+        if kind not in READ or not line:
             self.skipped[kind] += 1
         elif kind == "INSERT" and block is None:
             self.skipped["INSERT of a missing block"] += 1
@@ -134,12 +135,6 @@ class _Frontend(UniversalFrontend):
     def skip_entity(self, entity: Any, msg: str) -> None:
         """Count what is invisible or can't be drawn."""
         self.skipped["invisible " * (msg == "invisible") + entity.dxftype()] += 1
-
-
-def _is_mesh(entity: Any) -> bool:
-    """Return whether a POLYLINE is a mesh of faces, not a line."""
-    is_line = entity.dxftype() != "POLYLINE" or entity.is_2d_polyline or entity.is_3d_polyline
-    return not is_line
 
 
 class _Pipeline(RenderPipeline2d):

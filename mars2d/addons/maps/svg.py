@@ -130,7 +130,7 @@ def _unit(given: dict[str, str], pixels: float) -> Unit:
             more = f" for the viewBox {given['viewBox']}" if "viewBox" in given else ""
             name = names[0] if names else f"{metres:.6g} m"
             return Unit(name, METRES.get(name, metres), f"by the {side}, {text}{more}")
-    return Unit.named("m", "supposed: the width has no unit")
+    return Unit("m", 1.0, "supposed: the width has no unit")
 
 
 # -- what is drawn ----------------------------------------------------------------------------
