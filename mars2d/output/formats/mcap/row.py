@@ -89,6 +89,11 @@ def _ends(rows: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     return ends
 
 
+def nanoseconds(time: float) -> int:
+    """Return a simulated time [s] in nanoseconds, as MCAP counts."""
+    return round(float(time) * 1e9)  # rounding numbers of numpy is slow
+
+
 # -- rows as messages -------------------------------------------------------------------------
 
 KINDS = {"f": ("double", "<f8"), "i": ("sfixed32", "<i4"), "u": ("fixed32", "<u4"),
@@ -149,33 +154,27 @@ def schema() -> bytes:
     return bytes(files.SerializeToString())
 
 
-def with_arrays_as_bytes(schema: bytes, name: str) -> Any:
-    """Return the class of a message of a schema, in which each array of numbers is one of bytes.
+@cache
+def _message_class() -> Any:
+    """Return the class of a row's message, in which each array of numbers is one of bytes.
 
     Both are stored alike, so numpy's arrays are written and read as they are: none of their numbers
-    is changed, nor becomes an object of Python. schema: a FileDescriptorSet whose last file has the
-    message. A field that is set is stored even if it is empty or 0.
+    is changed, nor becomes an object of Python. A field that is set is stored even if it is 0.
     """
     from google.protobuf.descriptor_pb2 import FileDescriptorSet
     from google.protobuf.descriptor_pool import DescriptorPool
     from google.protobuf.message_factory import GetMessageClass
 
-    files = FileDescriptorSet.FromString(schema).file
-    files[-1].syntax = "proto2"
-    for message in files[-1].message_type:
+    [file] = FileDescriptorSet.FromString(schema()).file
+    file.syntax = "proto2"
+    for message in file.message_type:
         for field in message.field:
             array = field.label == field.LABEL_REPEATED
             if array and field.type not in (field.TYPE_MESSAGE, field.TYPE_STRING):
                 field.type, field.label = field.TYPE_BYTES, field.LABEL_OPTIONAL
     pool = DescriptorPool()
-    for file in files:
-        pool.Add(file)
-    return GetMessageClass(pool.FindMessageTypeByName(name))
-
-
-@cache
-def _message_class() -> Any:
-    return with_arrays_as_bytes(schema(), "mars2d.Row")
+    pool.Add(file)
+    return GetMessageClass(pool.FindMessageTypeByName("mars2d.Row"))
 
 
 def encoded(row: Row) -> bytes:
