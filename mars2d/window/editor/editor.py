@@ -53,6 +53,8 @@ HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
+STEP = 16.0
+"""The height of the line below them, with the step of the grid, points."""
 ASKED = frozenset({
     pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING, pygame.MOUSEBUTTONDOWN,
     pygame.MOUSEWHEEL,
@@ -373,7 +375,8 @@ class Editor:
         painter, theme = self.painter, self.painter.theme
         surface.fill(theme.bar, side)
         surface.fill(theme.edge, (side.right - 1, side.top, 1, side.height))
-        self._toolbar.draw(surface, side, painter, self._pointer)
+        bar = pygame.Rect(side.topleft, (side.width, side.height - round(STEP * painter.ui)))
+        self._toolbar.draw(surface, bar, painter, self._pointer)
         place = self._toolbar.places["snap"]
         step = f"{self.desk.step:g} m" if self.desk.snaps else "free"
         words = painter.fonts.render(step, 0.3 * place.width, theme.text)
