@@ -25,7 +25,6 @@ from mars2d.window.editor.chrome import (
     Header,
     Prompt,
     draw_footer,
-    draw_plate,
 )
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
@@ -46,6 +45,7 @@ from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
+from mars2d.window.widgets.slider import draw_tooltip
 from mars2d.window.widgets.text_field import TextField
 
 NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
@@ -379,8 +379,8 @@ class Editor:
         self._toolbar.draw(surface, bar, painter, self._pointer)
         place = self._toolbar.places["snap"]
         step = f"{self.desk.step:g} m" if self.desk.snaps else "free"
-        words = painter.fonts.render(step, 0.3 * place.width, theme.text)
-        surface.blit(words, words.get_rect(midtop=(place.centerx, place.bottom + 2)))
+        below = (place.centerx, place.bottom + 2)
+        painter.write(surface, step, 0.3 * place.width, theme.text, midtop=below)
 
     def is_on(self, action: str) -> bool:
         """Return whether a tool is chosen, or the grid snaps."""
@@ -411,7 +411,7 @@ class Editor:
         if remark:
             x, y = self._pointer
             gap = round(16 * self.layout.ui)
-            draw_plate(surface, self.painter, [remark], plot, topleft=(x + gap, y + gap))
+            draw_tooltip(surface, self.painter, remark, topleft=(x + gap, y + gap))
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         desk, bar = self.desk, self.layout.footer
