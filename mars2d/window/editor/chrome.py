@@ -11,7 +11,7 @@ from mars2d.core.errors import Mars2dError
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import Action, label_of
-from mars2d.window.widgets.help import cap_width, draw_cap
+from mars2d.window.widgets.help import cap_width, draw_cap, draw_veil
 from mars2d.window.widgets.text_field import TextField
 
 
@@ -154,10 +154,7 @@ class Prompt:
         pad, row = round(20 * ui), round(40 * ui)
         plate = pygame.Rect(0, 0, surface.get_width(), (3 if self.error else 2) * row)
         plate.bottom = layout.footer.bottom
-        veil = pygame.Surface((plate.width, plate.top), 0, 32)
-        veil.fill(theme.veil)
-        veil.set_alpha(150 if theme.dark else 70)
-        surface.blit(veil, (0, 0))
+        draw_veil(surface, painter, pygame.Rect(0, 0, plate.width, plate.top))
         surface.fill(theme.waiting.pale, plate)
         surface.fill(theme.waiting.ink, (plate.left, plate.top, plate.width, max(1, round(2 * ui))))
         if self.error:
