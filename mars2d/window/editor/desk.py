@@ -220,7 +220,7 @@ class Desk:
         if self.corner is not None and self.only is not None:
             corners = list(self.draft.corners(self.only) or ())
             corners[self.corner] = moved.point(corners[self.corner])
-            self.put(self.draft.with_value(self.only, corners), tag="nudge")
+            self.put(self.draft.with_value(self.only, tuple(corners)), tag="nudge")
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
 
