@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pygame
-
 from mars2d.core.deadline import Deadline
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
@@ -59,12 +57,8 @@ class Desk:
         return self.panel.look(playing=playing)
 
     def drawn(self):
-        surface = Written((1280, 720))
-        self.panel._image = None
-        rect = pygame.Rect(0, 0, *self.size)
-        part = Written(rect.size)
-        self.panel._draw(part, self.panel._words(rect.width))
-        self.panel.draw(surface, rect, self.timeline.frame)
+        part = Written(self.size)
+        self.panel.draw(part, part.get_rect(), self.timeline.frame)
         return part
 
     @property

@@ -231,7 +231,7 @@ class Inspector(Panel):
         left, gap = rect.left + round(LABEL * ui), round(8 * ui)
         column = (rect.right - left) / 3
         for k, (what, numbers) in enumerate(rows):
-            y = rect.top + round((k + 0.5) * ROW * ui)
+            y = rect.top + round(k * ROW * ui) + round(ROW * ui) // 2
             self.painter.write(surface, what, 12.5 * ui, theme.muted, midleft=(rect.left, y))
             for size in (12.5 * ui, 11.5 * ui, 10.5 * ui):
                 widths = [fonts.width(f"{name} {value}", size) for name, value in numbers]
