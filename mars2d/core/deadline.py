@@ -117,9 +117,12 @@ class Deadline:
                 continue
             self._looks += 1
             waited = self._looks * look
-            asked = due is not None and self.blocked
-            if asked or (due is None and waited > (GRACE if self._fired else self.patience)):
-                if (asked or self._fired) and self._give_up is not None:
+            if due is not None and self.blocked:  # it would not arrive
+                if self._give_up is not None:
+                    self._give_up(line)
+                continue
+            if due is None and waited > (GRACE if self._fired else self.patience):
+                if self._fired and self._give_up is not None:
                     self._give_up(line)
                 due = _late(f"did not return within {self.patience:g} s" if self._calls else "")
             if due is not None:

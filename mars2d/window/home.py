@@ -12,6 +12,7 @@ from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.rest import Rest
+from mars2d.window.widgets.actions import of_controls
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.cards import Card, Page, Shelf
 from mars2d.window.widgets.notes import Notes
@@ -38,8 +39,7 @@ class Home:
         self.painter, self.size = self.looks.painter, memory.size
         self.page, self.search = Page(), TextField()
         self.choice: tuple[str, ...] | None = None
-        switches = ["dark", "text"]
-        self._buttons = Buttons([switches], self.looks.actions, lambda _: False, keys=False)
+        self._buttons = Buttons([of_controls(("dark", "text"), self.looks.actions, keys=False)])
         self._open, self._held = True, False
         if note:
             self._notes.say(note, "error")

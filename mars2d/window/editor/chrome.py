@@ -10,29 +10,17 @@ import pygame
 from mars2d.core.errors import Mars2dError
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.actions import Action, label_of
 from mars2d.window.widgets.help import cap_width, draw_cap
-from mars2d.window.widgets.keys import chord
 from mars2d.window.widgets.text_field import TextField
 
 
-class Button(NamedTuple):
-    """A button of the header.
-
-    first: whether it is emphasized. works: whether it does anything now.
-    """
-
-    action: str
-    words: str
-    first: bool = False
-    works: bool = True
-
-
 class Header:
-    """A bar with the title, and buttons at the right."""
+    """A bar with the title, and buttons of actions at the right; those that are lit stand out."""
 
-    def __init__(self, painter: Painter) -> None:
+    def __init__(self, painter: Painter, actions: Sequence[Action]) -> None:
         """Start with nothing drawn."""
-        self._painter = painter
+        self._painter, self._actions = painter, actions
         self._places: list[tuple[str, pygame.Rect]] = []
 
     def at(self, pixel: tuple[int, int]) -> str | None:
@@ -45,7 +33,6 @@ class Header:
         bar: pygame.Rect,
         title: str,
         note: str,
-        buttons: Sequence[Button],
         pointer: tuple[int, int],
     ) -> None:
         """Draw the header; note: muted text after the title."""
@@ -54,9 +41,10 @@ class Header:
         surface.fill(theme.bar, bar)
         surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
         right, self._places = bar.right - pad, []
-        for name, words, first, works in reversed(buttons):
+        for action in reversed(self._actions):
+            first, works = action.lit, action.works
             color = theme.running.ink if first else theme.text if works else theme.key_edge
-            text = fonts.render(words, 15 * ui, color, bold=first)
+            text = fonts.render(action.title, 15 * ui, color, bold=first)
             place = pygame.Rect(0, 0, text.get_width() + round(22 * ui), round(32 * ui))
             place.midright = (right, bar.centery)
             hover = place.collidepoint(pointer)
@@ -64,7 +52,7 @@ class Header:
             edge = theme.selected if hover and works else theme.key_edge
             painter.panel(surface, place, fill, 7 * ui, edge)
             surface.blit(text, text.get_rect(center=place.center))
-            self._places.append((name, place))
+            self._places.append((action.name, place))
             right = place.left - round(8 * ui)
         quiet = fonts.render(note, 14 * ui, theme.muted)
         room = right - 2 * pad - quiet.get_width() - round(12 * ui)
@@ -107,13 +95,12 @@ def draw_footer(
 
 
 class Answer(NamedTuple):
-    """A way to answer a prompt: a key, by the name that `chord` gives it, or its button.
+    """A way to answer a prompt: a key, by its label, or its button.
 
-    label: of the key. act: takes the text that was typed; if it raises Mars2dError, the error is
-    shown and the prompt stays open.
+    act: takes the text that was typed; if it raises Mars2dError, the error is shown and the prompt
+    stays open.
     """
 
-    key: str
     label: str
     words: str
     act: Callable[[str], None]
@@ -137,7 +124,7 @@ class Prompt:
         """Open the prompt; escape: what Esc does, in words."""
         self.label, self.field, self.doc = label, field, doc
         self.error, self.open = "", True
-        self._answers = [*answers, Answer("escape", "Esc", escape, lambda _: None)]
+        self._answers = [*answers, Answer("Esc", escape, lambda _: None)]
         self.places: dict[str, pygame.Rect] = {}
 
     def handle(self, event: pygame.Event) -> None:
@@ -156,8 +143,8 @@ class Prompt:
     def _answered(self, event: pygame.Event) -> Answer | None:
         """Return the answer of a key or a button, if an event is one."""
         if event.type == pygame.KEYDOWN:
-            name = chord(event.key, event.mod).replace("enter", "return")
-            return next((each for each in self._answers if each.key == name), None)
+            pressed = label_of(event)
+            return next((each for each in self._answers if each.label == pressed), None)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             places = self.places
             hit = (a for a in self._answers if places[a.words].collidepoint(event.pos))
@@ -200,7 +187,7 @@ class Prompt:
         """Draw the answers with their keys, up to a pixel at the right; return where they begin."""
         ui, fonts, theme = painter.ui, painter.fonts, painter.theme
         self.places = {}
-        for _, label, words, _ in reversed(self._answers):
+        for label, words, _ in reversed(self._answers):
             image = fonts.render(words, 14 * ui, theme.ink)
             caps = sum(cap_width(fonts, each, ui) for each in label.split())
             place = pygame.Rect(0, 0, image.get_width() + caps + round(16 * ui), round(34 * ui))

@@ -26,6 +26,7 @@ from mars2d.window.panels.trace import Trace, What
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
+from mars2d.window.widgets.actions import of_controls
 from mars2d.window.widgets.buttons import Buttons, draw_icon
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.plot import (
@@ -105,7 +106,7 @@ class Scopes(Panel):
         self.painter, self._player, self._clock = painter, player, clock
         self.traces: list[Trace] = []
         self.span: float | None = None
-        self._buttons = Buttons([("scopes", "figure", "table")], actions, lambda _: False)
+        self._buttons = Buttons([of_controls(("scopes", "figure", "table"), actions)])
         self._plots: list[_Plot] = []
         self._image: pygame.Surface | None = None
         self._place = pygame.Rect(0, 0, 0, 0)

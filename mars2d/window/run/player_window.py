@@ -27,8 +27,8 @@ from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.source import Source
 from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.actions import label_of
 from mars2d.window.widgets.help import Help
-from mars2d.window.widgets.keys import chord
 from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
@@ -195,11 +195,11 @@ class PlayerWindow(ABC):
         for event in moved:  # for later, in their order
             if event.key != pygame.K_ESCAPE:
                 pygame.event.post(event)
-        pressed = {chord(each.key, each.mod) for each in moved if each.type == pygame.KEYDOWN}
-        if closed or not pressed.isdisjoint(keys.LEAVE.names):
+        pressed = {label_of(each) for each in moved if each.type == pygame.KEYDOWN}
+        if closed or not pressed.isdisjoint((*keys.LEAVE.labels, *keys.LEAVE.also)):
             self._open = False
             return "did not return before the window was closed"
-        broken_off = "escape" in pressed and not blocked
+        broken_off = "Esc" in pressed and not blocked
         return "did not return before Esc was pressed" if broken_off else ""
 
     # -- drawing --------------------------------------------------------------------------------
@@ -221,7 +221,7 @@ class PlayerWindow(ABC):
         elif self._take(event):
             pass
         elif event.type == pygame.KEYDOWN:
-            self._press(event.key, event.unicode, event.mod)
+            self._press(event)
         elif event.type == pygame.KEYUP:
             self._keyboard.release(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
@@ -237,11 +237,11 @@ class PlayerWindow(ABC):
     def _point(self, event: pygame.Event) -> None:
         """Handle an event of the mouse on the picture."""
 
-    def _press(self, code: int, character: str, modifiers: int) -> None:
-        key = self._keyboard.press(code, character, modifiers, manual=self.player.manual)
-        if key is not None and key.action in self._actions:
-            self._actions[key.action]()
-        self._keyboard.forget(code, character)
+    def _press(self, event: pygame.Event) -> None:
+        action = self._keyboard.press(event, manual=self.player.manual)
+        if action is not None and action.name in self._actions:
+            self._actions[action.name]()
+        self._keyboard.forget(event)
 
     def _is_on(self, action: str) -> bool:
         """Return whether the setting that a button switches is on."""
