@@ -130,6 +130,19 @@ def test_a_run_changed_by_hand_has_no_predictions_and_a_new_start_has(tmp_path):
     assert "way" in desk.says
 
 
+def test_after_a_slider_r_runs_again_with_its_value_and_predicts(open_window):
+    window = open_window(0, experiment="push_box")
+    window.press("F3", "Right")
+    panel = window.shown._predictions
+    window.shown.parameters._set("mu", 0.4)
+    window.settle()
+    assert "R: again with mu = 0.4, and predict." in " ".join(panel._words(10_000))
+    window.press("r", "Right")
+    window.settle()
+    assert panel._timeline.options == {"mu": 0.4}
+    assert "of 6 predictions" in " ".join(panel._words(10_000))
+
+
 @THEMES
 @each_case("text", TEXT_SIZES)
 def test_words_and_numbers_never_lie_on_each_other(tmp_path, theme, text):

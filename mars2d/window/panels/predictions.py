@@ -198,7 +198,10 @@ class Predictions(Panel):
         """Return lines about the run, and about values that could not be read; width: pixels."""
         timeline, reading, ui = self._timeline, self.reading, self.painter.ui
         if timeline is not None and timeline.world.operator.log:
-            text = "A hand has changed this run; the predictions are for one without."
+            first = timeline.world.recorder.options
+            new = [f"{k} = {v:.6g}" for k, v in timeline.options.items() if first.get(k) != v]
+            again = f"R: again with {', '.join(new)}, and predict." if new else "R: again."
+            text = f"A hand has changed this run; the predictions are for one without. {again}"
         elif not reading.predictions and reading.error is None:
             text = "Nothing is measured yet."
         elif reading.error is not None:
