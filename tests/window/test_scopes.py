@@ -124,7 +124,7 @@ def test_a_function_of_ones_own_is_traced_and_its_mistakes_are_told(timeline):
 # -- plots ----------------------------------------------------------------------------------------
 
 
-ACTS = dict.fromkeys(("scopes", "figure", "table"), lambda: None)
+NONE = dict.fromkeys(("scopes", "figure", "table"), None)
 
 
 class Scoped:
@@ -134,7 +134,7 @@ class Scoped:
         layout = Layout.of((1280, 720))
         self.timeline, self.gone = timeline, []
         self.scopes = Scopes(
-            painter(layout, theme), SimpleNamespace(source=timeline, go=self.gone.append), ACTS,
+            painter(layout, theme), SimpleNamespace(source=timeline, go=self.gone.append), NONE,
             clock=lambda: 0.0,
         )  # fmt: skip
         self.surface = Written(size)
@@ -160,7 +160,7 @@ def test_the_cursor_has_the_values_of_the_row_that_is_shown(timeline):
 
 
 def test_what_is_switched_on_for_one_body_joins_the_plot_of_another():
-    scopes = Scopes(None, None, ACTS)
+    scopes = Scopes(None, None, NONE)
     scopes.switch("speed", (0,))
     scopes.switch("speed", (2,))
     scopes.switch("energy", ())
