@@ -48,7 +48,7 @@ def checks(record):
     robot, (box, _, disc, _, ball, other, last) = record.scenario.robots[0], record.scenario.props
     speed, _, spin = np.diff(record.prop_pose[-2:], axis=0)[0] / record.scenario.sampling_time
     b, e = -last.pose[1], record.scenario.restitution_between
-    blows = [int((record.contacts["b"] == k).sum()) for k in (4, 5, 6, 7)]
+    blows = [int(record.contacts["began"][record.contacts["b"] == k].sum()) for k in (4, 5, 6, 7)]
     if any(prop.ground_friction for prop in (box, disc)) or blows != [1] * 4 or abs(b) >= 0.2:
         why = "each ball has to hit once, on a face of a body that the floor does not hold"
         yield Prediction.silent("speeds and spins", why)

@@ -46,7 +46,7 @@ def outcome(name, seed=0, **options):
 def test_a_game_agrees_with_its_formula(name, options):
     _, _, predictions = played(name, **options)
     assert predictions
-    assert [p for p in predictions if not p.ok] == []
+    assert [p for p in predictions if p.ok is False] == []
 
 
 # -- the laws -----------------------------------------------------------------------------------

@@ -24,9 +24,16 @@ def test_a_chase_takes_as_long_as_its_closed_form_says(ratio, law, evader):
 
 
 def test_a_chase_that_is_no_textbooks_predicts_nothing():
-    assert not played("straight_chase", pursuer="pursuers/halfway.py")[2]
-    assert not played("straight_chase", evader="evaders/zigzag.py")[2]
-    assert not played("straight_chase", crates=True)[2]
+    others = {"pursuer": "pursuers/halfway.py"}, {"evader": "evaders/zigzag.py"}, {"crates": True}
+    for options in (*others, {"ratio": 0.9}, {"ratio": 1.0}, {"stop_time": 5}):
+        (capture,) = played("straight_chase", **options)[2]
+        assert capture.reason
+
+
+def test_a_chase_of_wide_discs_takes_as_long_as_its_closed_form_says():
+    _, outcome, (capture,) = played("straight_chase", ratio=0.5, **{"robots.*.diameter": 2.0})
+    assert outcome.capture_time == pytest.approx(3.53, abs=0.01)
+    assert capture.predicted == pytest.approx(3.53, abs=0.01)
 
 
 @pytest.mark.parametrize("ratio", [0.4, 0.55, 0.7])
@@ -66,7 +73,13 @@ def test_tyres_and_feet_that_hold_little_lose_the_pedestrian_its_jump():
 def test_two_cars_need_bend_and_a_law_that_uses_it(law, radius, winner):
     _, outcome, predictions = played("two_cars", radius=radius, pursuer=f"pursuers/{law}.py")
     assert outcome.winner == winner
-    assert all(p.ok for p in predictions)
+    assert all(p.ok is not False for p in predictions)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 0.9, 0.95])
+def test_a_matador_gets_clear_of_each_pass_where_isaacs_says_so(ratio):
+    for seed in range(4):
+        assert played("homicidal_chauffeur", ratio=ratio, seed=seed)[1].winner == "pedestrian"
 
 
 @pytest.mark.parametrize("reach", [0.8, 0.2, 0.05])

@@ -22,10 +22,6 @@ def heights(record):
     return max(0, edge[1].min() - line), max(0, record.pose[-1, 1, 1] - line)
 
 
-def miss(record):
-    return -np.subtract(*heights(record))
-
-
 def checks(record):
     (guard, attacker), game = record.scenario.robots, record.scenario.addons[0]
     mu = attacker.drive.max_linear_speed / guard.drive.max_linear_speed

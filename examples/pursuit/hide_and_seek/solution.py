@@ -1,7 +1,8 @@
 """Hide and seek, a model answer: a slim seeker need be only a little quicker.
 
 1. acos(1.5 / 2.05) + acos(1.5 / 1.75) = 1.29 rad: the chord that just touches the pillar.
-2. At mu = 1.15 < 2.05 / 1.75 = 1.17 the hider gains on the seeker, and is not seen for ever.
+2. At mu = 1.15 < 2.05 / 1.75 = 1.17 the hider gains on the seeker, and is never seen. At 1.2 it
+   loses 0.007 rad/s, which takes 200 s and more; at 1.3 it is seen after 48 s.
 3. On a circle of 3.3 m the seeker sees more, 1.64 rad, but needs mu = 1.89 to gain: `wide` loses.
 4. Below, a seeker as slim as the hider runs on the hider's own circle, at mu = 1.2.
 """

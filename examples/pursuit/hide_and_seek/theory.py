@@ -24,10 +24,6 @@ def times(record):
     return min(end, max(left, 0) / falls) if falls > 0 else end, record.time[-1]
 
 
-def miss(record):
-    return -np.subtract(*times(record))
-
-
 def checks(record):
     far, angle = polar(record)
     speed = np.diff(angle, axis=0) * far[0] / record.scenario.sampling_time  # m/s

@@ -5,11 +5,6 @@ import numpy as np
 from mars2d import Prediction
 
 
-def caught(record):
-    """How many are caught."""
-    return len(record.scenario.addons[0].outcome(record).captures)
-
-
 def checks(record):
     """The first victim, by its domain of danger, and how long it is free."""
     game = record.scenario.addons[0]

@@ -1,7 +1,7 @@
 """Two cars, a model answer: an evader that bends less than its pursuer is caught.
 
 1. v^2 / R = 0.5 m/s^2, and 0.49 / r is as much at r = 0.98 m.
-2. At r = 0.3 m the evader turns round within the pursuer's circle; the first way past is 0.29 m.
+2. At r = 0.3 m the evader turns round within the pursuer's circle; the way past is 0.29 m.
 3. follow steers late: it turns only as the other car is off its nose. It loses up to r = 1 m, while
    lead, which turns four times as quickly as the line of sight, wins from 0.7 m on: the cars are
    0.2 m wide, and that is worth some bend.
