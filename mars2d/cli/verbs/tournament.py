@@ -17,6 +17,7 @@ from mars2d.core.terminal import tell
 from mars2d.output import formats
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import experiment_name
+from mars2d.scenario.experiment import open_experiment
 from mars2d.study.plan import parse_all
 from mars2d.study.work import worker_count
 from mars2d.tournaments.folder import played_before
@@ -25,7 +26,8 @@ from mars2d.tournaments.league import matches_of
 from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, replayed
 from mars2d.tournaments.page import save_rules
-from mars2d.tournaments.schedule import Schedule, game_rules, schedule
+from mars2d.tournaments.rules import Rules
+from mars2d.tournaments.schedule import Schedule, schedule
 from mars2d.tournaments.tournament import PAGE, TournamentInterrupted, missing, play_schedule
 
 EACH: dict[str, Any] = {**MANY, "nargs": "+"}
@@ -68,7 +70,10 @@ def execute(arguments: argparse.Namespace) -> None:
     limits, roles, settings = _limits(arguments), _roles(arguments.role), parse_all(arguments.set)
     game, first, stop_time = arguments.scenario, arguments.first_seed, arguments.stop_time
     if arguments.rules is not None:
-        save_rules(game_rules(game, limits, settings, stop_time, first), arguments.rules)
+        options = {name: values[0] for name, values in settings.items()}
+        always = {} if stop_time is None else {"stop_time": stop_time}
+        opened = open_experiment(game, options | always, seed=first)
+        save_rules(Rules.of(opened, limits), arguments.rules)
         tell(f"rules: {arguments.rules}")
         if not (roles or arguments.players):
             return
@@ -124,7 +129,7 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path) -> N
     count = len(planned.matches)
     before = count - len(missing(planned, played_before(path, planned)))
     known = f", {before} of them played before" if before else ""
-    tell(f"{planned.title}: {who}: {matches_of(count)}{known}")
+    tell(f"{planned.rules.title}: {who}: {matches_of(count)}{known}")
     replays = not arguments.no_replays
     interrupt = None
     with workers_of(arguments) as (executor, workers):

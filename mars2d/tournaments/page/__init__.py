@@ -7,6 +7,7 @@ import zlib
 from itertools import accumulate
 from pathlib import Path
 
+from mars2d.core.errors import one_line
 from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
 from mars2d.tournaments.league import UNPROTECTED, Tournament
@@ -18,7 +19,7 @@ from mars2d.tournaments.page.tables import (
     matrix,
     standing_tables,
 )
-from mars2d.tournaments.page.words import clean, escaped, read, terms
+from mars2d.tournaments.page.words import escaped, read, terms
 from mars2d.tournaments.rules import Rules
 
 __all__ = ["MAX_REPLAYS_SIZE", "league_page", "rules_page", "save_html", "save_rules"]
@@ -36,7 +37,7 @@ def league_page(tournament: Tournament) -> str:
     replays = {each.match.number: each.replay for each in tournament.matches if each.replay}
     sizes = accumulate(len(replay) for replay in replays.values())
     kept = sum(size <= MAX_REPLAYS_SIZE for size in sizes)
-    inside, title = read("inside.js"), tournament.schedule.title
+    inside, title = read("inside.js"), tournament.schedule.rules.title
     words = {
         "facts": terms(_facts(tournament, [*replays][kept:])),
         "standings": standing_tables(tournament),
@@ -45,7 +46,7 @@ def league_page(tournament: Tournament) -> str:
         "choices": choices(tournament),
         "matches": match_table(tournament),
         "rules": rules_part(tournament.schedule.rules),
-        "player": _player(clean(title), inside),
+        "player": _player(one_line(title), inside),
         "replays": "\n".join(
             f'<script id="replay-{number}" type="text/plain">{escaped(replay)}</script>'
             for number, replay in [*replays.items()][:kept]
