@@ -64,8 +64,7 @@ def played(number, mu, seed, hunter, runner, data):
 @pytest.fixture(scope="module")
 def tournament(records):
     data = {mu: replay_data(record) for mu, record in records.items()}
-    points = itertools.product((1, 3), SEEN = EVIL.replace("\u2028", r"\u2028")
-HUNTERS, RUNNERS, (0, 1))
+    points = itertools.product((1, 3), HUNTERS, RUNNERS, (0, 1))
     matches = [
         played(number, mu, seed, hunter, runner, data[mu])
         for number, (mu, hunter, runner, seed) in enumerate(points, 1)
