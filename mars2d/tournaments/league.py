@@ -11,6 +11,7 @@ from functools import cached_property
 from html import escape
 from itertools import groupby
 from math import inf
+from operator import itemgetter
 from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING, Any
@@ -259,17 +260,19 @@ class Tournament:
 
 def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
     """Return a group's row in the grading sheet, from its roles and matches."""
-    reasons = [each.verdicts[role] for role, each in matches if role in each.verdicts]
-    firsts = {verdict.kind: verdict.text for verdict in reversed(reasons)}
-    kinds = Counter(verdict.kind for verdict in reasons)
+    lost = [(each.verdicts[role], each) for role, each in matches if role in each.verdicts]
+    kinds = Counter(verdict.kind for verdict, _ in lost)
+    firsts = {verdict.kind: (each.match.number, verdict.text) for verdict, each in reversed(lost)}
+    reasons = [
+        f"{kind} in {matches_of(kinds[kind])}, first in match {number}: {text}"
+        for kind, (number, text) in sorted(firsts.items(), key=itemgetter(1))
+    ]
     return {
         "group": group,
         "matches": len(matches),
         "points": sum(points_of(each, role) for role, each in matches),
-        "forfeits": len(reasons),
-        "reasons": "; ".join(
-            f"{matches_of(count)}: {kind}: {firsts[kind]}" for kind, count in kinds.items()
-        ),
+        "forfeits": len(lost),
+        "reasons": "; ".join(reasons),
     }
 
 

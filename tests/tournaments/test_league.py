@@ -179,5 +179,5 @@ a                   1         1
 c                   0         0
 x                   1         1
 
-c: 2 matches forfeited: slow: c.py, line 7: no command after 1 s (match 2 and 1 other)"""
+c forfeits: slow in 2 matches, first in match 2: c.py, line 7: no command after 1 s"""
     )

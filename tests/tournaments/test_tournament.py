@@ -198,8 +198,9 @@ def test_the_folder_has_a_row_for_each_match_and_law_and_a_page(evening):
     ]
     with (evening.out / "grades.csv").open(newline="") as file:
         grades = [[*row.values()] for row in csv.DictReader(file)]
-    slow = "2 matches: slow: loop.py, line 2: no command after 1 s"
-    out = "4 matches: late: ran out of time in 2 matches before, and forfeits the rest"
+    slow = "slow in 2 matches, first in match 1: loop.py, line 2: no command after 1 s"
+    told = "ran out of time in 2 matches before, and forfeits the rest"
+    out = f"late in 4 matches, first in match 3: {told}"
     assert grades[1] == ["loop", "6", "0.0", "6", f"{slow}; {out}"]
     assert [row[:4] for row in grades] == [
         ["crash", "4", "0.0", "4"],
@@ -222,7 +223,7 @@ def test_the_same_command_plays_nothing_twice(evening, command, words):
     code, printed, said = command("chase.py", *words, "--out", "out")
     assert (code, said) == (0, "")
     assert printed.startswith("Chase: 2 as pursuer, 3 as evader: 12 matches, 12 of them played")
-    assert "nan: 2 matches forfeited: command: nan.py, line 1:" in printed
+    assert "nan forfeits: command in 2 matches, first in match 9: nan.py, line 1:" in printed
     assert printed.endswith(f"page: {Path('out/league.html')}\n")
     assert (evening.out / PLAYED).read_bytes() == before
 
