@@ -181,38 +181,19 @@ class Tournament:
 
     # -- tables --------------------------------------------------------------------------------
 
-    def rows(self) -> tuple[dict[str, Any], ...]:
-        """Return a row for each match: its number, settings, seed, laws and result.
+    def table(self, name: str = "matches") -> tuple[dict[str, Any], ...]:
+        """Return the rows of a table: "matches", "league" with a row a law, or "grades".
 
-        ``verdict`` names the role and fault of each law that failed, such as ``pursuer: slow``.
+        In matches, ``verdict`` names the role and fault of each law that failed, such as
+        ``pursuer: slow``. A row of grades is that of a group, which is the name of its files;
+        ``reasons`` says in words why it has forfeited. Raises InputError for another name.
         """
-        roles = self.schedule.roles
-        return tuple(
-            {
-                "match": played.match.number,
-                **{name: played.match.options.get(name) for name in self.schedule.settings},
-                "seed": played.match.seed,
-                **{role: played.match.laws[role] for role in roles},
-                "winner": played.winner,
-                **{f"{role}_score": played.score.get(role) for role in roles},
-                "capture_time": played.capture_time,
-                "steps": played.steps,
-                "verdict": "; ".join(f"{role}: {v.kind}" for role, v in played.verdicts.items()),
-                "message": played.message,
-                "digest": played.digest,
-            }
-            for played in self.matches
-        )
-
-    def standing_rows(self) -> tuple[dict[str, Any], ...]:
-        """Return a row for each law: its place in its table, and its results."""
-        return tuple(map(asdict, self.standings))
-
-    def grade_rows(self) -> tuple[dict[str, Any], ...]:
-        """Return a row for each group, which is the name of its files: matches, points, forfeits.
-
-        ``reasons`` says in words why it has forfeited.
-        """
+        if name == "matches":
+            return tuple(map(self._match, self.matches))
+        if name == "league":
+            return tuple(map(asdict, self.standings))
+        if name != "grades":
+            raise InputError(f"table={name!r}: expected 'matches', 'league' or 'grades'")
         groups: dict[str, list[tuple[str, Played]]] = {}
         for played in self.matches:
             if not played.error:
@@ -220,24 +201,33 @@ class Tournament:
                     groups.setdefault(law.rpartition("/")[2], []).append((role, played))
         return tuple(_grade(group, groups[group]) for group in sorted(groups))
 
-    def _table(self, name: str) -> tuple[dict[str, Any], ...]:
-        tables = {
-            "matches": self.rows, "league": self.standing_rows, "grades": self.grade_rows,
-        }  # fmt: skip
-        if name not in tables:
-            raise InputError(f"table={name!r}: expected {', '.join(map(repr, tables))}")
-        return tables[name]()
+    def _match(self, played: Played) -> dict[str, Any]:
+        """Return a match's row: its number, settings, seed, laws and result."""
+        roles, match = self.schedule.roles, played.match
+        return {
+            "match": match.number,
+            **{name: match.options.get(name) for name in self.schedule.settings},
+            "seed": match.seed,
+            **{role: match.laws[role] for role in roles},
+            "winner": played.winner,
+            **{f"{role}_score": played.score.get(role) for role in roles},
+            "capture_time": played.capture_time,
+            "steps": played.steps,
+            "verdict": "; ".join(f"{role}: {v.kind}" for role, v in played.verdicts.items()),
+            "message": played.message,
+            "digest": played.digest,
+        }
 
     def to_frame(self, table: str = "matches") -> DataFrame:
-        """Return a table of pandas: "matches", "league", one row a law, or "grades", a group."""
-        rows = self._table(table)
+        """Return a table as one of pandas, see `table`."""
+        rows = self.table(table)
         with extra("data", "tables need pandas"):
             import pandas as pd
         return pd.DataFrame(rows)
 
     def save_csv(self, path: str | Path, table: str = "matches") -> Path:
-        """Write a table, see `to_frame`, and return the path."""
-        rows = self._table(table)
+        """Write a table, see `table`, and return the path."""
+        rows = self.table(table)
         text = io.StringIO(newline="")
         writer = csv.writer(text)
         writer.writerow(rows[0] if rows else [])

@@ -75,7 +75,7 @@ def _faults(tournament: Tournament) -> str:
     """Return a line for each group that has forfeited matches, and one if some have no result."""
     lines = [
         f"{row['group']} forfeits: {row['reasons']}"
-        for row in tournament.grade_rows()
+        for row in tournament.table("grades")
         if row["forfeits"]
     ]
     if failed := [played for played in tournament.matches if played.error]:

@@ -108,7 +108,7 @@ def test_equal_points_share_a_place_in_table_page_and_csv(tmp_path):
     result = tournament_of(matches)
     hunters = {s.law: s.place for s in result.standings if s.role == "pursuer"}
     assert hunters == {"d": 1, "b": 2, "a": 2, "c": 4}
-    assert [row["place"] for row in result.standing_rows()] == [1, 2, 2, 4, 1, 1]
+    assert [row["place"] for row in result.table("league")] == [1, 2, 2, 4, 1, 1]
     lines = league_text(result).splitlines()
     assert [line.split()[:2] for line in lines[1:5]] == [
         ["1", "d"], ["2", "b"], ["2", "a"], ["4", "c"],

@@ -188,7 +188,7 @@ def test_the_league_tables_have_the_numbers_of_the_standings(tab, tournament):
 def test_the_grading_sheet_fits_also_a_telephone(open_tab, path, tournament):
     for width in (1280, 390):
         tab = open_tab(path, (width, 800))
-        points = [f"{row['points']:g}" for row in tournament.grade_rows()]
+        points = [f"{row['points']:g}" for row in tournament.table("grades")]
         assert column(tab, "table.grades", 3) == points
         wide = tab.page.locator(".wide:has(.grades)")
         assert wide.evaluate("wide => wide.scrollWidth <= wide.clientWidth")

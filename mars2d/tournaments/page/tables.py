@@ -105,7 +105,7 @@ def grades(tournament: Tournament) -> str:
             _forfeits(row["forfeits"]),
             escaped(row["reasons"]),
         )
-        for row in tournament.grade_rows()
+        for row in tournament.table("grades")
     ]
     return table("grades", "Grading sheet", columns, rows)
 
