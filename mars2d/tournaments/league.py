@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
-from html import escape
 from itertools import groupby
 from math import inf
 from operator import itemgetter
@@ -236,16 +235,6 @@ class Tournament:
         with atomic_write(target) as file:
             file.write(text.getvalue().encode("utf-8", errors="replace"))
         return target
-
-    def _repr_html_(self) -> str:
-        """Return the league as tables, for a notebook."""
-        found = ""
-        for standings, rows in league_tables(self):
-            lines = [[*rows[0]], *(row.values() for row in rows)]
-            cells = ("".join(f"<td>{escape(text)}</td>" for text in line) for line in lines)
-            body = "".join(f"<tr>{row}</tr>" for row in cells)
-            found += f"<table><caption>{escape(standings[0].role)}</caption>{body}</table>"
-        return found
 
 
 def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from mars2d.tournaments.folder import Folder
 from mars2d.tournaments.isolation.limits import LIMITS, OUT_OF_TIME, Limits
 from mars2d.tournaments.league import Tournament
 from mars2d.tournaments.match import Match, Played, play, settled
-from mars2d.tournaments.page import save_html
+from mars2d.tournaments.page import league_page, save_page
 from mars2d.tournaments.schedule import Files, Schedule, schedule
 
 PAGE = "league.html"
@@ -121,7 +121,7 @@ def play_schedule(
     if out is not None:
         for table in ("matches", "league", "grades"):
             result.save_csv(out / f"{table}.csv", table)
-        save_html(result, out / PAGE)
+        save_page(league_page(result), out / PAGE)
     if interrupted:
         where = "were played" if out is None else f"are in {out}; the same command goes on"
         said = f"{len(result.matches)} of {len(planned.matches)} matches {where}"

@@ -13,7 +13,7 @@ from mars2d.output.pages.replay import replay_data
 from mars2d.tournaments.isolation import Verdict
 from mars2d.tournaments.league import league_tables
 from mars2d.tournaments.match import Match, Played
-from mars2d.tournaments.page import league_page, save_html
+from mars2d.tournaments.page import league_page, save_page
 from mars2d.tournaments.page.tables import STEPS
 from tests.browser import Tab
 from tests.tournaments.leagues import tournament_of
@@ -74,7 +74,9 @@ def tournament(records):
 
 @pytest.fixture(scope="module")
 def path(tournament, tmp_path_factory):
-    return save_html(tournament, tmp_path_factory.mktemp("league") / "league.html")
+    path = tmp_path_factory.mktemp("league") / "league.html"
+    save_page(league_page(tournament), path)
+    return path
 
 
 @pytest.fixture

@@ -25,7 +25,7 @@ from mars2d.tournaments.isolation.limits import Limits
 from mars2d.tournaments.league import matches_of
 from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, replayed
-from mars2d.tournaments.page import save_rules
+from mars2d.tournaments.page import rules_page, save_page
 from mars2d.tournaments.rules import Rules
 from mars2d.tournaments.schedule import Schedule, schedule
 from mars2d.tournaments.tournament import PAGE, TournamentInterrupted, missing, play_schedule
@@ -73,7 +73,7 @@ def execute(arguments: argparse.Namespace) -> None:
         options = {name: values[0] for name, values in settings.items()}
         always = {} if stop_time is None else {"stop_time": stop_time}
         opened = open_experiment(game, options | always, seed=first)
-        save_rules(Rules.of(opened, limits), arguments.rules)
+        save_page(rules_page(Rules.of(opened, limits)), arguments.rules)
         tell(f"rules: {arguments.rules}")
         if not (roles or arguments.players):
             return

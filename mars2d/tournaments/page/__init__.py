@@ -22,7 +22,7 @@ from mars2d.tournaments.page.tables import (
 from mars2d.tournaments.page.words import escaped, read, terms
 from mars2d.tournaments.rules import Rules
 
-__all__ = ["MAX_REPLAYS_SIZE", "league_page", "rules_page", "save_html", "save_rules"]
+__all__ = ["MAX_REPLAYS_SIZE", "league_page", "rules_page", "save_page"]
 
 MAX_REPLAYS_SIZE = 40_000_000
 """How many characters the replays of a page may have; a larger page is slow to load."""
@@ -60,17 +60,10 @@ def rules_page(rules: Rules) -> str:
     return _page(f"{rules.title}: the rules", f'<main class="rules">{rules_part(rules)}</main>')
 
 
-def save_html(tournament: Tournament, path: Path) -> Path:
-    """Write a tournament's page and return its path. Raises InputError if it can't be written."""
+def save_page(page: str, path: Path) -> None:
+    """Write a page to a file. Raises InputError if it can't be written."""
     with atomic_write(path) as file:
-        file.write(league_page(tournament).encode("utf-8", errors="replace"))
-    return path
-
-
-def save_rules(rules: Rules, path: Path) -> None:
-    """Write the page of a game's rules. Raises InputError if it can't be written."""
-    with atomic_write(path) as file:
-        file.write(rules_page(rules).encode("utf-8", errors="replace"))
+        file.write(page.encode("utf-8", errors="replace"))
 
 
 def _page(title: str, body: str, script: str = "", inside: str = "") -> str:
