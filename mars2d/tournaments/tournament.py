@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import nullcontext
+from contextlib import closing, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -106,7 +106,7 @@ def play_schedule(
         bar = progress(len(planned.matches), len(done), unit="match", show=show_progress)
         interrupted = False
         try:
-            with interrupts() as check:
+            with closing(bar), interrupts() as check:
                 for played in _each_played(planned, done, function, executor, workers):
                     done.append(played)
                     if folder is not None:
@@ -115,8 +115,6 @@ def play_schedule(
                     check()
         except KeyboardInterrupt:
             interrupted = True
-        finally:
-            bar.close()
     result = Tournament(planned, tuple(settled(planned.matches, done)))
     if out is not None:
         for table in ("matches", "league", "grades"):
