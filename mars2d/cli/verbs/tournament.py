@@ -8,13 +8,11 @@ from math import dist
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import MANY, option, preferences_of, shared, workers_of
-from mars2d.cli.outputs import check_outputs
+from mars2d.cli.arguments import MANY, Output, option, preferences_of, shared, workers_of
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError, Mars2dError, counted, one_line
 from mars2d.core.scene import NAMED, rgb
 from mars2d.core.terminal import tell
-from mars2d.output import formats
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.experiment import open_experiment
@@ -49,10 +47,10 @@ ARGUMENTS = {
     "--reads": option("FILES", "files and folders that laws may read", **EACH),
     "--out": option("FOLDER", _FOLDER, Path),
     "--no-replays": option(None, "a small page, for very many matches"),
-    "--rules": option("OUT.html", "write the game's rules as a page", Path),
+    "--rules": option("OUT.html", "write the game's rules as a page", Path, action=Output),
     "--match": option("N", "play only this match, again", int),
     "--view": option(None, "with --match: show it in a window"),
-    "--record": option("OUT", "with --match: save all its data", Path),
+    "--record": option("OUT", "with --match: save all its data", Path, action=Output),
     **shared("workers cluster dark text"),
 }
 
@@ -62,7 +60,6 @@ def execute(arguments: argparse.Namespace) -> None:
     for name in ("view", "record"):
         if getattr(arguments, name) and arguments.match is None:
             raise InputError(f"--{name} needs --match N")
-    check_outputs(arguments, {"record": tuple(formats.FORMATS), "rules": (".html", ".htm")})
     worker_count(arguments.workers)
     if arguments.view and not has_display():
         require_pygame("a window")
