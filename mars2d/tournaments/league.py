@@ -72,11 +72,15 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     laws = {role: {each.match.laws[role] for each in played} for role in roles}
     if not set.isdisjoint(*laws.values()):
         laws = {"": set.union(*laws.values())}
+
+    def order(standing: Standing) -> tuple[float, float, str]:
+        time = inf if standing.capture_time is None else standing.capture_time
+        evades = standing.role in roles[1:]
+        return -_rate(standing), -time if evades else time, standing.law
+
     standings = []
     for role, every in laws.items():
-        sign = -1 if role in roles[1:] else 1
-        table = [_standing(law, role, roles, played) for law in every]
-        table.sort(key=lambda each: (-_rate(each), sign * _time(each), each.law))
+        table = sorted((_standing(law, role, roles, played) for law in every), key=order)
         rates = [_rate(each) for each in table]
         standings += [replace(each, place=rates.index(_rate(each)) + 1) for each in table]
     return standings
@@ -84,10 +88,6 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
 
 def _rate(standing: Standing) -> float:
     return standing.points / max(standing.played, 1)
-
-
-def _time(standing: Standing) -> float:
-    return inf if standing.capture_time is None else standing.capture_time
 
 
 def _standing(law: str, role: str, roles: Sequence[str], played: Sequence[Played]) -> Standing:
