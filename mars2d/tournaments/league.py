@@ -8,9 +8,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
-from html import escape
 from itertools import groupby
 from math import inf
+from operator import itemgetter
 from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING, Any
@@ -72,11 +72,15 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     laws = {role: {each.match.laws[role] for each in played} for role in roles}
     if not set.isdisjoint(*laws.values()):
         laws = {"": set.union(*laws.values())}
+
+    def order(standing: Standing) -> tuple[float, float, str]:
+        time = inf if standing.capture_time is None else standing.capture_time
+        evades = standing.role in roles[1:]
+        return -_rate(standing), -time if evades else time, standing.law
+
     standings = []
     for role, every in laws.items():
-        sign = -1 if role in roles[1:] else 1
-        table = [_standing(law, role, roles, played) for law in every]
-        table.sort(key=lambda each: (-_rate(each), sign * _time(each), each.law))
+        table = sorted((_standing(law, role, roles, played) for law in every), key=order)
         rates = [_rate(each) for each in table]
         standings += [replace(each, place=rates.index(_rate(each)) + 1) for each in table]
     return standings
@@ -84,10 +88,6 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
 
 def _rate(standing: Standing) -> float:
     return standing.points / max(standing.played, 1)
-
-
-def _time(standing: Standing) -> float:
-    return inf if standing.capture_time is None else standing.capture_time
 
 
 def _standing(law: str, role: str, roles: Sequence[str], played: Sequence[Played]) -> Standing:
@@ -180,38 +180,19 @@ class Tournament:
 
     # -- tables --------------------------------------------------------------------------------
 
-    def rows(self) -> tuple[dict[str, Any], ...]:
-        """Return a row for each match: its number, settings, seed, laws and result.
+    def table(self, name: str = "matches") -> tuple[dict[str, Any], ...]:
+        """Return the rows of a table: "matches", "league" with a row a law, or "grades".
 
-        ``verdict`` names the role and fault of each law that failed, such as ``pursuer: slow``.
+        In matches, ``verdict`` names the role and fault of each law that failed, such as
+        ``pursuer: slow``. A row of grades is that of a group, which is the name of its files;
+        ``reasons`` says in words why it has forfeited. Raises InputError for another name.
         """
-        roles = self.schedule.roles
-        return tuple(
-            {
-                "match": played.match.number,
-                **{name: played.match.options.get(name) for name in self.schedule.settings},
-                "seed": played.match.seed,
-                **{role: played.match.laws[role] for role in roles},
-                "winner": played.winner,
-                **{f"{role}_score": played.score.get(role) for role in roles},
-                "capture_time": played.capture_time,
-                "steps": played.steps,
-                "verdict": "; ".join(f"{role}: {v.kind}" for role, v in played.verdicts.items()),
-                "message": played.message,
-                "digest": played.digest,
-            }
-            for played in self.matches
-        )
-
-    def standing_rows(self) -> tuple[dict[str, Any], ...]:
-        """Return a row for each law: its place in its table, and its results."""
-        return tuple(map(asdict, self.standings))
-
-    def grade_rows(self) -> tuple[dict[str, Any], ...]:
-        """Return a row for each group, which is the name of its files: matches, points, forfeits.
-
-        ``reasons`` says in words why it has forfeited.
-        """
+        if name == "matches":
+            return tuple(map(self._match, self.matches))
+        if name == "league":
+            return tuple(map(asdict, self.standings))
+        if name != "grades":
+            raise InputError(f"table={name!r}: expected 'matches', 'league' or 'grades'")
         groups: dict[str, list[tuple[str, Played]]] = {}
         for played in self.matches:
             if not played.error:
@@ -219,24 +200,33 @@ class Tournament:
                     groups.setdefault(law.rpartition("/")[2], []).append((role, played))
         return tuple(_grade(group, groups[group]) for group in sorted(groups))
 
-    def _table(self, name: str) -> tuple[dict[str, Any], ...]:
-        tables = {
-            "matches": self.rows, "league": self.standing_rows, "grades": self.grade_rows,
-        }  # fmt: skip
-        if name not in tables:
-            raise InputError(f"table={name!r}: expected {', '.join(map(repr, tables))}")
-        return tables[name]()
+    def _match(self, played: Played) -> dict[str, Any]:
+        """Return a match's row: its number, settings, seed, laws and result."""
+        roles, match = self.schedule.roles, played.match
+        return {
+            "match": match.number,
+            **{name: match.options.get(name) for name in self.schedule.settings},
+            "seed": match.seed,
+            **{role: match.laws[role] for role in roles},
+            "winner": played.winner,
+            **{f"{role}_score": played.score.get(role) for role in roles},
+            "capture_time": played.capture_time,
+            "steps": played.steps,
+            "verdict": "; ".join(f"{role}: {v.kind}" for role, v in played.verdicts.items()),
+            "message": played.message,
+            "digest": played.digest,
+        }
 
     def to_frame(self, table: str = "matches") -> DataFrame:
-        """Return a table of pandas: "matches", "league", one row a law, or "grades", a group."""
-        rows = self._table(table)
+        """Return a table as one of pandas, see `table`."""
+        rows = self.table(table)
         with extra("data", "tables need pandas"):
             import pandas as pd
         return pd.DataFrame(rows)
 
     def save_csv(self, path: str | Path, table: str = "matches") -> Path:
-        """Write a table, see `to_frame`, and return the path."""
-        rows = self._table(table)
+        """Write a table, see `table`, and return the path."""
+        rows = self.table(table)
         text = io.StringIO(newline="")
         writer = csv.writer(text)
         writer.writerow(rows[0] if rows else [])
@@ -246,30 +236,22 @@ class Tournament:
             file.write(text.getvalue().encode("utf-8", errors="replace"))
         return target
 
-    def _repr_html_(self) -> str:
-        """Return the league as tables, for a notebook."""
-        found = ""
-        for standings, rows in league_tables(self):
-            lines = [[*rows[0]], *(row.values() for row in rows)]
-            cells = ("".join(f"<td>{escape(text)}</td>" for text in line) for line in lines)
-            body = "".join(f"<tr>{row}</tr>" for row in cells)
-            found += f"<table><caption>{escape(standings[0].role)}</caption>{body}</table>"
-        return found
-
 
 def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
     """Return a group's row in the grading sheet, from its roles and matches."""
-    reasons = [each.verdicts[role] for role, each in matches if role in each.verdicts]
-    firsts = {verdict.kind: verdict.text for verdict in reversed(reasons)}
-    kinds = Counter(verdict.kind for verdict in reasons)
+    lost = [(each.verdicts[role], each) for role, each in matches if role in each.verdicts]
+    kinds = Counter(verdict.kind for verdict, _ in lost)
+    firsts = {verdict.kind: (each.match.number, verdict.text) for verdict, each in reversed(lost)}
+    reasons = [
+        f"{kind} in {matches_of(kinds[kind])}, first in match {number}: {text}"
+        for kind, (number, text) in sorted(firsts.items(), key=itemgetter(1))
+    ]
     return {
         "group": group,
         "matches": len(matches),
         "points": sum(points_of(each, role) for role, each in matches),
-        "forfeits": len(reasons),
-        "reasons": "; ".join(
-            f"{matches_of(count)}: {kind}: {firsts[kind]}" for kind, count in kinds.items()
-        ),
+        "forfeits": len(lost),
+        "reasons": "; ".join(reasons),
     }
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
-from mars2d.core.errors import counted
+from mars2d.core.errors import counted, one_line
 from mars2d.core.terminal import aligned
 from mars2d.tournaments.league import (
     UNPROTECTED,
@@ -18,8 +18,8 @@ from mars2d.tournaments.match import Played
 MAX_WIDTH = 100
 """The greatest width of the tables of pairings and rounds; wider ones are only on the page."""
 
-MAX_FAULT_LENGTH = 160
-"""The greatest length of the text about a law's faults."""
+MAX_FAULT_LENGTH = 400
+"""The greatest length of the text about a group's faults."""
 
 
 def league_text(tournament: Tournament) -> str:
@@ -72,30 +72,16 @@ def _rounds(tournament: Tournament) -> str:
 
 
 def _faults(tournament: Tournament) -> str:
-    """Return a line for each law's kind of fault: how often it occurred, and its first text."""
-    faults: dict[tuple[str, str, str], list[tuple[Played, str]]] = {}
-    for played in tournament.matches:
-        for role, verdict in played.verdicts.items():
-            kind = (f"{played.match.laws[role]}: ", "forfeited", f"{verdict.kind}: ")
-            faults.setdefault(kind, []).append((played, verdict.text))
-    for played in tournament.matches:
-        if played.error:
-            kind = ("", "without a result", "")
-            faults.setdefault(kind, []).append((played, played.error))
-    return "\n".join(
-        f"{law}{matches_of(len(found))} {what}: {kind}{_cut(found[0][1])}"
-        f" ({_numbers(played for played, _ in found)})"
-        for (law, what, kind), found in faults.items()
-    )
-
-
-def _cut(text: str) -> str:
-    return text if len(text) <= MAX_FAULT_LENGTH else text[: MAX_FAULT_LENGTH - 3] + "..."
-
-
-def _numbers(matches: Iterable[Played]) -> str:
-    first, *others = (played.match.number for played in matches)
-    return f"match {first}" + (f" and {counted(len(others), 'other')}" if others else "")
+    """Return a line for each group that has forfeited matches, and one if some have no result."""
+    lines = [
+        f"{row['group']} forfeits: {row['reasons']}"
+        for row in tournament.table("grades")
+        if row["forfeits"]
+    ]
+    if failed := [played for played in tournament.matches if played.error]:
+        first = f"first match {failed[0].match.number}: {failed[0].error}"
+        lines.append(f"{matches_of(len(failed))} without a result, {first}")
+    return "\n".join(one_line(line, MAX_FAULT_LENGTH) for line in lines)
 
 
 def _same_matches(tournament: Tournament) -> str:

@@ -59,11 +59,10 @@ class Role:
     def of(cls, name: str, team: Sequence[int], contest: Contest, scenario: Scenario) -> Role:
         """Return a role of a contest; team: its robots, by index."""
         robots = [scenario.robots[index] for index in team]
+        each = [_facts(robot) for robot in robots]
         facts = {
             "Robots": ", ".join(str(robot.name) for robot in robots),
-            "Drive": " or ".join(dict.fromkeys(map(_drive, robots))),
-            "A law returns": " or ".join(dict.fromkeys(map(_command, robots))),
-            "It sees": " or ".join(dict.fromkeys(map(_sees, robots))),
+            **{term: " or ".join(dict.fromkeys(one[term] for one in each)) for term in each[0]},
         }
         colors = dict.fromkeys(scenario.colors[index] for index in team)
         return cls(name, tuple(colors), contest.aim(name, scenario), facts)
@@ -124,20 +123,17 @@ def _docstring(path: Path | None) -> str:
     return ""
 
 
-def _drive(robot: Robot) -> str:
+def _facts(robot: Robot) -> dict[str, str]:
+    """Return what a robot can do, and what its law knows."""
     bounds = {words: getattr(robot.drive, name, None) for name, words in BOUNDS.items()}
     told = [words.format(bound) for words, bound in bounds.items() if bound and bound < 1e3]
-    return ", ".join([type(robot.drive).__name__, *told])
-
-
-def _command(robot: Robot) -> str:
-    names = [f"{each.name} [{each.unit}]" for each in robot.drive.quantities]
-    return f"({', '.join(names)})" if names else "two numbers"
-
-
-def _sees(robot: Robot) -> str:
+    names = ", ".join(f"{each.name} [{each.unit}]" for each in robot.drive.quantities)
     sensors = ", ".join(sensor.key for sensor in robot.sensors)
-    return SEES[robot.sees] + (f"; it senses {sensors}" if sensors else "")
+    return {
+        "Drive": ", ".join([type(robot.drive).__name__, *told]),
+        "A law returns": f"({names})" if names else "two numbers",
+        "It sees": SEES[robot.sees] + (f"; it senses {sensors}" if sensors else ""),
+    }
 
 
 def _arena(scenario: Scenario) -> str:

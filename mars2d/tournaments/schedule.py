@@ -14,7 +14,7 @@ from typing import Any
 
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
-from mars2d.scenario.examples import examples, experiment_name
+from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.policy import SUFFIX as POLICY
 from mars2d.scenario.roles import contest_of, roles_of
@@ -40,12 +40,11 @@ EXPECTED = "expected files of laws (.py or .onnx), a folder of them, or a patter
 class Schedule:
     """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
 
-    title, experiment: those of the scenario. roles: those of its contest, in order. settings: the
-    options in which rounds differ. limits: of each law. files: those that were read for the
+    experiment: a file, or the name of an example. roles: those of its contest, in order. settings:
+    the options in which rounds differ. limits: of each law. files: those that were read for the
     experiment itself. rules: of the game, in the first round.
     """
 
-    title: str
     experiment: str
     roles: tuple[str, ...]
     settings: tuple[str, ...]
@@ -85,7 +84,8 @@ def schedule(
         if _opened(experiment, probe | always, plan.seeds[0])[1] != names:
             raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
     _check_names(plan.settings, names)
-    taking_part = entrants(names, roles or {}, players or (), _beside(opened))
+    beside = Path(opened.source.path or "").parent
+    taking_part = entrants(names, roles or {}, players or (), beside)
     pairings = [
         {role: str(law) for role, law in zip(names, laws, strict=True)}
         for laws in itertools.product(*taking_part.values())
@@ -114,7 +114,6 @@ def schedule(
         )
     )
     return Schedule(
-        title=opened.scenario.title or experiment_name(Path(named)),
         experiment=named,
         roles=names,
         settings=tuple(plan.settings),
@@ -123,15 +122,6 @@ def schedule(
         files=frozenset(opened.source.written),
         rules=Rules.of(opened, limits),
     )
-
-
-def game_rules(
-    experiment: str, limits: Limits, settings: Mapping[str, Any], stop_time: float | None, seed: int
-) -> Rules:
-    """Return the rules of a game in its first round, for which nobody need play."""
-    first = next(Plan(settings_of(settings), (seed,)).points())
-    always = {} if stop_time is None else {"stop_time": stop_time}
-    return Rules.of(_opened(experiment, {**first, **always}, seed)[0], limits)
 
 
 def trial_matches(
@@ -144,7 +134,7 @@ def trial_matches(
     opened, names = _opened(experiment, options)
     if role not in names:
         raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
-    files = law_files(laws, _beside(opened))
+    files = law_files(laws, Path(opened.source.path or "").parent)
     check_meant(role, files, names)
     each = itertools.product(files, range(TRIALS))
     return tuple(
@@ -160,11 +150,6 @@ def _opened(
     opened = open_experiment(experiment, options, seed=seed)
     contest_of(opened.scenario, str(experiment))
     return opened, tuple(roles_of(opened.scenario))
-
-
-def _beside(opened: Experiment) -> Path | None:
-    """Return the folder of an experiment's file."""
-    return None if opened.source.path is None else opened.source.path.parent
 
 
 def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
@@ -193,7 +178,7 @@ def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
 # -- entrants --------------------------------------------------------------------------------------
 
 
-def law_files(named: Files, beside: Path | None = None) -> tuple[Path, ...]:
+def law_files(named: Files, beside: Path = Path()) -> tuple[Path, ...]:
     """Return the files that names stand for: absolute paths, each once.
 
     named: a file, a folder (all its laws except those that begin with _), a pattern, or
@@ -207,7 +192,7 @@ def law_files(named: Files, beside: Path | None = None) -> tuple[Path, ...]:
     parts = [part.strip() for each in given for part in str(each).split(",") if part.strip()]
     if given and not parts:
         raise InputError(f"{named!r}: {EXPECTED}")
-    folders = [Path.cwd()] if beside is None else [Path.cwd(), beside]
+    folders = (Path.cwd(), beside)
     return tuple(dict.fromkeys(file for part in parts for file in _files(part, folders)))
 
 
@@ -236,7 +221,7 @@ def entrants(
     roles: Sequence[str],
     given: Mapping[str, Files],
     players: Files = (),
-    beside: Path | None = None,
+    beside: Path = Path(),
 ) -> dict[str, tuple[Path, ...]]:
     """Return each role's laws: those given for it, and the players, which play every role.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import nullcontext
+from contextlib import closing, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from mars2d.tournaments.folder import Folder
 from mars2d.tournaments.isolation.limits import LIMITS, OUT_OF_TIME, Limits
 from mars2d.tournaments.league import Tournament
 from mars2d.tournaments.match import Match, Played, play, settled
-from mars2d.tournaments.page import save_html
+from mars2d.tournaments.page import league_page, save_page
 from mars2d.tournaments.schedule import Files, Schedule, schedule
 
 PAGE = "league.html"
@@ -106,7 +106,7 @@ def play_schedule(
         bar = progress(len(planned.matches), len(done), unit="match", show=show_progress)
         interrupted = False
         try:
-            with interrupts() as check:
+            with closing(bar), interrupts() as check:
                 for played in _each_played(planned, done, function, executor, workers):
                     done.append(played)
                     if folder is not None:
@@ -115,13 +115,11 @@ def play_schedule(
                     check()
         except KeyboardInterrupt:
             interrupted = True
-        finally:
-            bar.close()
     result = Tournament(planned, tuple(settled(planned.matches, done)))
     if out is not None:
         for table in ("matches", "league", "grades"):
             result.save_csv(out / f"{table}.csv", table)
-        save_html(result, out / PAGE)
+        save_page(league_page(result), out / PAGE)
     if interrupted:
         where = "were played" if out is None else f"are in {out}; the same command goes on"
         said = f"{len(result.matches)} of {len(planned.matches)} matches {where}"

@@ -1,6 +1,7 @@
 """Tournaments whose matches went as is said."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from mars2d import Robot, Scenario
 from mars2d.addons import Game
@@ -28,7 +29,7 @@ def tournament_of(
     """A tournament with these matches, of a red pursuer and a blue evader."""
     robots = [Robot(name="red", pose=(-1, 0, 0)), Robot(name="blue", pose=(1, 0, 0))]
     game = Game({"pursuer": ["red"], "evader": ["blue"]})
-    rules = rules_of(Scenario(title="Chase", robots=robots, addons=[game]))
+    rules = replace(rules_of(Scenario(robots=robots, addons=[game])), title=title)
     planned = tuple(each.match for each in matches)
-    schedule = Schedule(title, experiment, ROLES, settings, LIMITS, planned, frozenset(), rules)
+    schedule = Schedule(experiment, ROLES, settings, LIMITS, planned, frozenset(), rules)
     return Tournament(schedule, tuple(matches))

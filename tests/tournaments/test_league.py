@@ -8,7 +8,7 @@ from mars2d.tournaments.isolation import Verdict
 from mars2d.tournaments.league import league
 from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, settled
-from mars2d.tournaments.page import save_html
+from mars2d.tournaments.page import league_page
 from tests.tournaments.leagues import ROLES, tournament_of
 
 
@@ -62,10 +62,10 @@ def test_a_law_that_ran_out_of_time_twice_forfeits_the_rest_in_whatever_order_th
     assert [each.match.number for each in settled(planned, [slow[1], others[0]])] == [2, 3]
 
 
-def test_the_league_says_where_it_was_not_protected(tmp_path):
+def test_the_league_says_where_it_was_not_protected():
     for protected in (True, False):
         found = tournament_of([played(1, "a", "x", "pursuer", protected=protected)])
-        page = save_html(found, tmp_path / "league.html").read_text()
+        page = league_page(found)
         for text in (league_text(found), page):
             assert ("not protected on this system" in text) is not protected
 
@@ -108,14 +108,14 @@ def test_equal_points_share_a_place_in_table_page_and_csv(tmp_path):
     result = tournament_of(matches)
     hunters = {s.law: s.place for s in result.standings if s.role == "pursuer"}
     assert hunters == {"d": 1, "b": 2, "a": 2, "c": 4}
-    assert [row["place"] for row in result.standing_rows()] == [1, 2, 2, 4, 1, 1]
+    assert [row["place"] for row in result.table("league")] == [1, 2, 2, 4, 1, 1]
     lines = league_text(result).splitlines()
     assert [line.split()[:2] for line in lines[1:5]] == [
         ["1", "d"], ["2", "b"], ["2", "a"], ["4", "c"],
     ]  # fmt: skip
     csv = result.save_csv(tmp_path / "league.csv", "league").read_text().splitlines()
     assert [line.split(",")[1] for line in csv[1:5]] == ["1", "2", "2", "4"]
-    page = save_html(result, tmp_path / "league.html").read_text()
+    page = league_page(result)
     assert page.count('<td class="number">2</td><th') == 2
 
 
@@ -179,5 +179,5 @@ a                   1         1
 c                   0         0
 x                   1         1
 
-c: 2 matches forfeited: slow: c.py, line 7: no command after 1 s (match 2 and 1 other)"""
+c forfeits: slow in 2 matches, first in match 2: c.py, line 7: no command after 1 s"""
     )

@@ -9,7 +9,9 @@ import signal
 import subprocess
 import sys
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
+from textwrap import dedent
 from types import SimpleNamespace
 
 import pytest
@@ -71,9 +73,7 @@ def evening(tmp_path_factory):
     for name, text in LAWS.items():
         path = folder / name
         path.parent.mkdir(exist_ok=True)
-        lines = text.strip("\n").splitlines()
-        indent = len(lines[0]) - len(lines[0].lstrip())
-        path.write_text("\n".join(line[indent:] for line in lines) + "\n")
+        path.write_text(dedent(text).strip("\n") + "\n")
     result = mars2d.tournament(
         folder / "chase.py",
         {"pursuer": "pursuers", "evader": "evaders/*.py"},
@@ -101,15 +101,15 @@ SAME = ("--role", "pursuer=pursuers/loop.py", "pursuers/quick.py", "evader=evade
 """What a shell may have made of patterns."""
 
 
+def rows_of(path):
+    with path.open(newline="") as file:
+        return [*csv.DictReader(file)]
+
+
 @pytest.mark.slow
 def test_everybody_meets_everybody_from_the_same_seeds(evening):
     met = [(*m.match.laws.values(), m.match.seed) for m in evening.result.matches]
-    assert met == [
-        (pursuer, evader, seed)
-        for pursuer in ("loop", "quick")
-        for evader in ("crash", "nan", "still")
-        for seed in (0, 1)
-    ]
+    assert met == [*product(("loop", "quick"), ("crash", "nan", "still"), (0, 1))]
     assert [m.match.number for m in evening.result.matches] == list(range(1, 13))
     assert not any(m.error for m in evening.result.matches)
 
@@ -121,12 +121,11 @@ def test_a_law_that_fails_forfeits_with_a_verdict_and_the_rest_goes_on(evening):
         for m in evening.result.matches
     }
     slow = {"pursuer": ("slow", "loop.py, line 2: no command after 1 s")}
-    late = {
-        "pursuer": ("late", "ran out of time in 2 matches before, and forfeits the rest"),
-    }
+    late = {"pursuer": ("late", "ran out of time in 2 matches before, and forfeits the rest")}
     raised = "control raised ZeroDivisionError: division by zero"
     crash = {"evader": ("error", f"crash.py, line 2: {raised}")}
-    nan = {"evader": ("command", "nan.py, line 1: control returned (nan, 0.0): a command must be finite")}  # fmt: skip  # noqa: E501
+    returned = "control returned (nan, 0.0): a command must be finite"
+    nan = {"evader": ("command", f"nan.py, line 1: {returned}")}
     assert verdicts == {
         ("quick", "still"): {},
         ("quick", "crash"): crash,
@@ -163,11 +162,9 @@ def test_a_match_is_the_run_with_the_same_laws_and_seed(evening):
 @pytest.mark.slow
 def test_the_league_depends_on_no_number_of_workers(evening):
     laws = {"pursuer": evening.folder / "pursuers/quick.py", "evader": evening.folder / "evaders"}
-    alone = mars2d.tournament(evening.folder / "chase.py", laws, seeds=SEEDS, workers=1)
+    alone = mars2d.tournament(evening.folder / "chase.py", laws, seeds=SEEDS, workers=1).matches
     before = evening.result.matches[-3 * SEEDS :]
-    assert [replace(m, match=None) for m in alone.matches] == [
-        replace(m, match=None) for m in before
-    ]
+    assert [replace(m, match=None) for m in alone] == [replace(m, match=None) for m in before]
 
 
 def test_laws_stand_by_their_points(evening):
@@ -182,24 +179,22 @@ def test_laws_stand_by_their_points(evening):
 
 
 def test_the_folder_has_a_row_for_each_match_and_law_and_a_page(evening):
-    with (evening.out / "matches.csv").open(newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(evening.out / "matches.csv")
     assert [row["match"] for row in rows] == [str(k) for k in range(1, 13)]
     row = rows[2]
-    assert (row["pursuer"], row["evader"], row["seed"], row["winner"]) == ("loop", "nan", "0", "evader")  # fmt: skip  # noqa: E501
-    assert (row["verdict"], row["capture_time"]) == ("pursuer: late", "")
+    found = [row[name] for name in ("pursuer", "evader", "seed", "winner", "verdict")]
+    assert found == ["loop", "nan", "0", "evader", "pursuer: late"]
+    assert row["capture_time"] == ""
     assert rows[-1]["digest"] == evening.result.matches[-1].digest
     assert float(rows[-1]["capture_time"]) == evening.result.matches[-1].capture_time
-    with (evening.out / "league.csv").open(newline="") as file:
-        league = list(csv.DictReader(file))
-    assert [(r["role"], r["place"], r["law"]) for r in league][:2] == [
-        ("pursuer", "1", "quick"),
-        ("pursuer", "2", "loop"),
+    league = [
+        [row["role"], row["place"], row["law"]] for row in rows_of(evening.out / "league.csv")
     ]
-    with (evening.out / "grades.csv").open(newline="") as file:
-        grades = [[*row.values()] for row in csv.DictReader(file)]
-    slow = "2 matches: slow: loop.py, line 2: no command after 1 s"
-    out = "4 matches: late: ran out of time in 2 matches before, and forfeits the rest"
+    assert league[:2] == [["pursuer", "1", "quick"], ["pursuer", "2", "loop"]]
+    grades = [[*row.values()] for row in rows_of(evening.out / "grades.csv")]
+    slow = "slow in 2 matches, first in match 1: loop.py, line 2: no command after 1 s"
+    told = "ran out of time in 2 matches before, and forfeits the rest"
+    out = f"late in 4 matches, first in match 3: {told}"
     assert grades[1] == ["loop", "6", "0.0", "6", f"{slow}; {out}"]
     assert [row[:4] for row in grades] == [
         ["crash", "4", "0.0", "4"],
@@ -222,7 +217,7 @@ def test_the_same_command_plays_nothing_twice(evening, command, words):
     code, printed, said = command("chase.py", *words, "--out", "out")
     assert (code, said) == (0, "")
     assert printed.startswith("Chase: 2 as pursuer, 3 as evader: 12 matches, 12 of them played")
-    assert "nan: 2 matches forfeited: command: nan.py, line 1:" in printed
+    assert "nan forfeits: command in 2 matches, first in match 9: nan.py, line 1:" in printed
     assert printed.endswith(f"page: {Path('out/league.html')}\n")
     assert (evening.out / PLAYED).read_bytes() == before
 
@@ -323,12 +318,7 @@ def test_without_a_result_the_exit_code_is_1_and_nobody_need_read_what_is_printe
     )
     assert done.returncode == 1
     assert done.stderr == "mars2d: 1 match without a result: play again by the same command\n"
-    with (tmp_path / "matches.csv").open(newline="") as file:
-        assert [row["winner"] for row in csv.DictReader(file)] == ["pursuer", ""]
-
-
-def _with_line(lines, k, line):
-    return b"".join([*lines[:k], line, *lines[k + 1 :]])
+    assert [row["winner"] for row in rows_of(tmp_path / "matches.csv")] == ["pursuer", ""]
 
 
 CHANGES = {
@@ -346,7 +336,8 @@ def test_a_match_that_was_changed_in_the_file_is_refused(evening, tmp_path, chan
     lines = (evening.out / PLAYED).read_bytes().splitlines(keepends=True)
     row = json.loads(lines[3])
     change(row)
-    forged = _with_line(lines, 3, json.dumps(row).encode() + b"\n")
+    lines[3] = json.dumps(row).encode() + b"\n"
+    forged = b"".join(lines)
     (tmp_path / PLAYED).write_bytes(forged)
     with pytest.raises(
         InputError, match=r"played\.jsonl, line 4: was changed after it was written"
@@ -410,62 +401,38 @@ def test_players_play_both_roles_in_each_round_and_an_experiment_that_fails_cost
 # -- what can't be played --------------------------------------------------------------------------
 
 
-@each_case(
-    "words, message",
-    [
-        (
-            ["random_walk", "--players", "evaders"],
-            "random_walk: a game needs one add-on that says who has won, such as Game(",
-        ),
-        (
-            ["chase.py", "--role", "pursuer"],
-            "--role pursuer: expected ROLE=FILES, such as --role pursuer=laws/*.py",
-        ),
-        (
-            ["chase.py", "--role", "hunter=pursuers"],
-            "there is no role 'hunter'; known: evader, pursuer",
-        ),
-        (
-            ["chase.py", "--role", "pursuer=pursuers"],
-            "no laws for the role 'evader': name them by --role evader=FILES",
-        ),
-        (
-            ["chase.py", "--players", "pursuers/quick.py"],
-            "there is nobody to play against: a law does not play itself",
-        ),
-        (["chase.py", *ALL, "--match", "13"], "--match 13: expected a number from 1 to 12"),
-        (["chase.py", *ALL, "--view"], "--view needs --match N"),
-        (["chase.py", *ALL, "--record", "a.npz"], "--record needs --match N"),
-        (
-            ["chase.py", *ALL, "--set", "seed=1,2"],
-            "setting 'seed': say how many there are, with --seeds N",
-        ),
-        (
-            ["chase.py", *ALL, "--set", "evader=evaders/nan.py"],
-            "setting 'evader': this is a role; name its laws by --role evader=FILES",
-        ),
-        (
-            ["chase.py", *ALL, "--set", "speed=1", "--set", "speed=2"],
-            "--set speed: is given twice; give all its values at once",
-        ),
-        (
-            ["chase.py", *ALL, "--tick-limit", "0"],
-            "Limits.tick = 0.0: expected a number > 0, and below 1e9",
-        ),
-        (
-            ["chase.py", *ALL, "--out", "evaders"],
-            "evaders: holds crash.py, which is not of a tournament; nothing was changed",
-        ),
-        (
-            ["sumo", "--players", "players", "--out", "out"],
-            "out: is of a tournament of chase.py; name another folder by --out",
-        ),
-        (["chase.py", *ALL, "--out", "chase.py"], "chase.py: this is a file; expected a folder"),
-        (["chase.py", *ALL, "--out", "no/where"], "no/where: there is no folder no"),
-    ],
-)
+WRONG = {
+    "random_walk --players evaders":
+        "random_walk: a game needs one add-on that says who has won, such as Game(",
+    "chase.py --role pursuer":
+        "--role pursuer: expected ROLE=FILES, such as --role pursuer=laws/*.py",
+    "chase.py --role hunter=pursuers": "there is no role 'hunter'; known: evader, pursuer",
+    "chase.py --role pursuer=pursuers":
+        "no laws for the role 'evader': name them by --role evader=FILES",
+    "chase.py --players pursuers/quick.py":
+        "there is nobody to play against: a law does not play itself",
+    "chase.py ALL --match 13": "--match 13: expected a number from 1 to 12",
+    "chase.py ALL --view": "--view needs --match N",
+    "chase.py ALL --record a.npz": "--record needs --match N",
+    "chase.py ALL --set seed=1,2": "setting 'seed': say how many there are, with --seeds N",
+    "chase.py ALL --set evader=evaders/nan.py":
+        "setting 'evader': this is a role; name its laws by --role evader=FILES",
+    "chase.py ALL --set speed=1 --set speed=2":
+        "--set speed: is given twice; give all its values at once",
+    "chase.py ALL --tick-limit 0": "Limits.tick = 0.0: expected a number > 0, and below 1e9",
+    "chase.py ALL --out evaders":
+        "evaders: holds crash.py, which is not of a tournament; nothing was changed",
+    "sumo --players players --out out":
+        "out: is of a tournament of chase.py; name another folder by --out",
+    "chase.py ALL --out chase.py": "chase.py: this is a file; expected a folder",
+    "chase.py ALL --out no/where": "no/where: there is no folder no",
+}  # fmt: skip
+"""Commands, and what each is told."""
+
+
+@each_case("words, message", WRONG.items())
 def test_what_can_not_be_played_is_said_in_one_line(command, words, message):
-    code, _, said = command(*words)
+    code, _, said = command(*words.replace("ALL", " ".join(ALL)).split())
     assert (code, said.count("\n")) == (2, 1)
     assert said.startswith(f"mars2d: {message}")
 

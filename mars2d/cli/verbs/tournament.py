@@ -15,15 +15,17 @@ from mars2d.core.scene import NAMED, rgb
 from mars2d.core.terminal import tell
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import experiment_name
+from mars2d.scenario.experiment import open_experiment
 from mars2d.study.plan import parse_all
 from mars2d.study.work import worker_count
 from mars2d.tournaments.folder import played_before
-from mars2d.tournaments.isolation.limits import Limits
+from mars2d.tournaments.isolation.limits import LIMITS, Limits
 from mars2d.tournaments.league import matches_of
 from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, replayed
-from mars2d.tournaments.page import save_rules
-from mars2d.tournaments.schedule import Schedule, game_rules, schedule
+from mars2d.tournaments.page import rules_page, save_page
+from mars2d.tournaments.rules import Rules
+from mars2d.tournaments.schedule import Schedule, schedule
 from mars2d.tournaments.tournament import PAGE, TournamentInterrupted, missing, play_schedule
 
 EACH: dict[str, Any] = {**MANY, "nargs": "+"}
@@ -39,9 +41,9 @@ ARGUMENTS = {
     "--first-seed": option("K", "the seeds are K to K + N - 1", int, default=0),
     **shared("stop-time"),
     "--set": option("KEY=VALUES", _ROUNDS, **MANY),
-    "--tick-limit": option("S", "seconds that a law may take for a step", float),
-    "--match-limit": option("S", "seconds that a law may take for a match", float),
-    "--memory": option("MB", "memory that a law may use", float),
+    "--tick-limit": option("S", "a law's seconds for a step", float, default=LIMITS.tick),
+    "--match-limit": option("S", "its seconds for a match", float, default=LIMITS.match),
+    "--memory": option("MB", "memory that a law may use", float, default=LIMITS.memory),
     "--reads": option("FILES", "files and folders that laws may read", **EACH),
     "--out": option("FOLDER", _FOLDER, Path),
     "--no-replays": option(None, "a small page, for very many matches"),
@@ -62,10 +64,19 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.view and not has_display():
         require_pygame("a window")
         raise InputError("--view: there is no display; save the match with --record OUT.npz")
-    limits, roles, settings = _limits(arguments), _roles(arguments.role), parse_all(arguments.set)
+    limits = Limits(
+        tick=arguments.tick_limit,
+        match=arguments.match_limit,
+        memory=arguments.memory,
+        reads=[file for files in arguments.reads for file in files],
+    )
+    roles, settings = _roles(arguments.role), parse_all(arguments.set)
     game, first, stop_time = arguments.scenario, arguments.first_seed, arguments.stop_time
     if arguments.rules is not None:
-        save_rules(game_rules(game, limits, settings, stop_time, first), arguments.rules)
+        options = {name: values[0] for name, values in settings.items()}
+        always = {} if stop_time is None else {"stop_time": stop_time}
+        opened = open_experiment(game, options | always, seed=first)
+        save_page(rules_page(Rules.of(opened, limits)), arguments.rules)
         tell(f"rules: {arguments.rules}")
         if not (roles or arguments.players):
             return
@@ -80,20 +91,8 @@ def execute(arguments: argparse.Namespace) -> None:
         limits=limits,
     )
     path = arguments.out or Path(f"tournament_{experiment_name(Path(planned.experiment))}")
-    if arguments.match is None:
-        _play_all(arguments, planned, path)
-    else:
-        _play_one(arguments, planned, path)
-
-
-def _limits(arguments: argparse.Namespace) -> Limits:
-    given: dict[str, Any] = {
-        "tick": arguments.tick_limit,
-        "match": arguments.match_limit,
-        "memory": arguments.memory,
-        "reads": [file for files in arguments.reads for file in files] or None,
-    }
-    return Limits(**{name: value for name, value in given.items() if value is not None})
+    play = _play_all if arguments.match is None else _play_one
+    play(arguments, planned, path)
 
 
 def _roles(given: list[list[str]]) -> dict[str, list[str]]:
@@ -121,7 +120,7 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path) -> N
     count = len(planned.matches)
     before = count - len(missing(planned, played_before(path, planned)))
     known = f", {before} of them played before" if before else ""
-    tell(f"{planned.title}: {who}: {matches_of(count)}{known}")
+    tell(f"{planned.rules.title}: {who}: {matches_of(count)}{known}")
     replays = not arguments.no_replays
     interrupt = None
     with workers_of(arguments) as (executor, workers):

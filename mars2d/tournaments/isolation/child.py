@@ -14,6 +14,7 @@ import socket
 import sys
 import traceback
 from collections.abc import Mapping
+from contextlib import suppress
 from importlib.machinery import (
     EXTENSION_SUFFIXES,
     ExtensionFileLoader,
@@ -187,8 +188,6 @@ def _limit(limits: Limits) -> None:
     if sys.platform == "linux":  # writable memory; what is only reserved, as by torch, is not used
         data = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[5])
         most["DATA"] = (int(data * os.sysconf("SC_PAGE_SIZE") + limits.memory * MB),) * 2
-    for name, (soft, hard) in most.items():
-        number = getattr(resource, f"RLIMIT_{name}")
-        before = resource.getrlimit(number)[1]
-        before = hard if before == resource.RLIM_INFINITY else before
-        resource.setrlimit(number, (min(soft, before), min(hard, before)))
+    for name, limit in most.items():
+        with suppress(ValueError):  # a lower one is set already
+            resource.setrlimit(getattr(resource, f"RLIMIT_{name}"), limit)

@@ -1,11 +1,13 @@
 """The wall around a law: what Linux refuses to its process, before its file is loaded.
 
 Landlock limits the files that it can open, a seccomp filter the system calls, and both hold for
-good. Numbers of system calls and flags are those of Linux's headers; see landlock(7), seccomp(2).
+good. `refused.csv` has the calls that are refused whatever their arguments. Numbers of system calls
+and flags are those of Linux's headers; see landlock(7), seccomp(2).
 """
 
 from __future__ import annotations
 
+import csv
 import ctypes
 import errno
 import os
@@ -16,47 +18,10 @@ import sys
 import sysconfig
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
+from importlib.resources import files
 from pathlib import Path
 
 from mars2d.core.errors import InputError
-
-REFUSED = """
-# signals to others, and their memory
-tkill 200 130, rt_sigqueueinfo 129 138, rt_tgsigqueueinfo 297 240, pidfd_send_signal 424 424
-pidfd_open 434 434, pidfd_getfd 438 438, ptrace 101 117, process_vm_readv 310 270
-process_vm_writev 311 271, kcmp 312 272, process_madvise 440 440, process_mrelease 448 448
-move_pages 279 239, migrate_pages 256 238
-# programs and processes
-fork 57 -, vfork 58 -, execve 59 221, execveat 322 281, unshare 272 97, setns 308 268
-personality 135 92
-# the network, and what is shared by name
-socket 41 198, connect 42 203, bind 49 200, listen 50 201, accept 43 202, accept4 288 242
-sendmsg 46 211, sendmmsg 307 269, shmget 29 194, shmat 30 196, shmctl 31 195, semget 64 190
-semctl 66 191, semop 65 193, msgget 68 186, msgctl 71 187, mq_open 240 180, mq_unlink 241 181
-# memory that no limit counts, and ways around this filter
-memfd_create 319 279, memfd_secret 447 447, io_uring_setup 425 425, io_uring_enter 426 426
-io_uring_register 427 427, userfaultfd 323 282, bpf 321 280, perf_event_open 298 241
-add_key 248 217, request_key 249 218, keyctl 250 219
-# limits and priorities
-setrlimit 160 164, setpriority 141 140, sched_setscheduler 144 119, sched_setparam 142 118
-sched_setattr 314 274, ioprio_set 251 30
-# properties of files, with which Landlock does not deal
-chmod 90 -, fchmod 91 52, fchmodat 268 53, fchmodat2 452 452, chown 92 -, fchown 93 55
-lchown 94 -, fchownat 260 54, utime 132 -, utimes 235 -, futimesat 261 -, utimensat 280 88
-setxattr 188 5, lsetxattr 189 6, fsetxattr 190 7, setxattrat 463 463, removexattr 197 14
-lremovexattr 198 15, fremovexattr 199 16, removexattrat 466 466, file_setattr 469 469
-truncate 76 45, name_to_handle_at 303 264, open_by_handle_at 304 265, fanotify_init 300 262
-# the machine
-mount 165 40, umount2 166 39, pivot_root 155 41, chroot 161 51, open_tree 428 428
-move_mount 429 429, fsopen 430 430, fsmount 432 432, fspick 433 433, mount_setattr 442 442
-init_module 175 105, finit_module 313 273, delete_module 176 106, kexec_load 246 104
-kexec_file_load 320 294, reboot 169 142, swapon 167 224, swapoff 168 225, acct 163 89
-settimeofday 164 170, adjtimex 159 171, clock_settime 227 112, clock_adjtime 305 266
-sethostname 170 161, setdomainname 171 162, iopl 172 -, ioperm 173 -, quotactl 179 60
-syslog 103 116, vhangup 153 58
-"""
-"""System calls that are refused whatever their arguments: the name, the number on x86_64, and that
-on aarch64."""
 
 # The numbers of system calls of which some uses are refused, on x86_64 and aarch64.
 CLONE, KILL, TGKILL, SCHED_SETAFFINITY = (56, 220), (62, 129), (234, 131), (203, 122)
@@ -190,11 +155,10 @@ def _filter() -> Iterator[bytes]:
     yield _step(LOAD, 0)
     yield _step(AT_LEAST, X32, 0, 1)
     yield _step(ANSWER, REFUSE)
-    for line in REFUSED.strip().splitlines():
-        for entry in line.split(", ") if not line.startswith("#") else ():
-            number = entry.split()[1 + column]
-            if number != "-":
-                yield from (_step(EQUAL, int(number), 0, 1), _step(ANSWER, REFUSE))
+    refused = (files(__package__) / "refused.csv").read_text(encoding="ascii")
+    for row in csv.DictReader(refused.splitlines()):
+        if row[machine] != "-":
+            yield from (_step(EQUAL, int(row[machine]), 0, 1), _step(ANSWER, REFUSE))
     yield from (_step(EQUAL, CLONE3, 0, 1), _step(ANSWER, UNKNOWN))
     mine = (0, os.getpid())
     for call, argument, mask, values, listed, others in (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any, cast
 
 import numpy as np
@@ -30,18 +31,19 @@ Letter = tuple[int, str, list[int] | None]
 
 
 class Mailbox(Channel):
-    """The channel of an isolated law: it keeps messages to and from its robots.
+    """The channel of an isolated law in a control step: messages to and from its robots.
 
-    sent: those of this control step. arrived: by receiver.
+    arrived: by receiver. sent: those of this control step.
     """
 
-    def __init__(self, names: Sequence[str], limit: int) -> None:
-        """Take the names of all robots, and the most bytes that may be sent in a control step."""
+    def __init__(
+        self, names: Sequence[str], limit: int, arrived: Mapping[int, tuple[Message, ...]]
+    ) -> None:
+        """Take the names of all robots, the most bytes to be sent, and what has arrived."""
         self._names = [*names]
         self._indices = {name: i for i, name in enumerate(names)}
-        self._limit, self._size = limit, 0
+        self._limit, self._size, self.arrived = limit, 0, arrived
         self.sent: list[Letter] = []
-        self.arrived: Mapping[int, tuple[Message, ...]] = {}
 
     def inbox(self, robot: int) -> tuple[Message, ...]:
         """Return the messages that have arrived for a robot at the current control step."""
@@ -55,10 +57,6 @@ class Mailbox(Channel):
         if self._size > self._limit:
             raise LawError(f"robot.send: more than {self._limit} bytes in one control step")
         self.sent.append((sender, text, receivers))
-
-    def turn(self, arrived: Mapping[int, tuple[Message, ...]]) -> None:
-        """Begin the next control step."""
-        self.sent, self._size, self.arrived = [], 0, arrived
 
 
 class OtherView(RobotView):
@@ -94,7 +92,7 @@ class MirrorWorld:
         self.scenario = briefing.scenario
         described, world = self.scenario.robots, cast("Simulation", self)
         names = [str(robot.name) for robot in described]
-        self.mailbox = Mailbox(names, int(briefing.limits.output * MB))
+        self._mailbox_of = partial(Mailbox, names, int(briefing.limits.output * MB))
 
         def stream(name: str) -> np.random.Generator:
             generator = np.random.PCG64(0)
@@ -125,7 +123,7 @@ class MirrorWorld:
             sense = self._minds[robot].sense
             vars(sense).update(row)
             sense._names = [*row]
-        self.mailbox.turn(seen["inbox"])
+        self.mailbox = self._mailbox_of(self.inbox)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):

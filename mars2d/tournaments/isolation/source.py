@@ -22,13 +22,12 @@ def law_code(law: Path) -> dict[Path, bytes]:
         if path in contents or not path.is_file():
             continue
         contents[path] = path.read_bytes()
-        if path.suffix == POLICY:
-            continue  # it imports nothing
-        lines = re.findall(IMPORT, contents[path])
-        names = sorted(
-            {name.decode() for line in lines for name in re.findall(rb"[a-zA-Z0-9_]+", line)}
-        )
-        for folder in dict.fromkeys((path.parent, law.parent)):
-            for name in names:
-                waiting += [folder / f"{name}.py", *sorted((folder / name).rglob("*.py"))]
+        if path.suffix != POLICY:  # which imports nothing
+            lines = re.findall(IMPORT, contents[path])
+            words = {
+                word.decode() for line in lines for word in re.findall(rb"[a-zA-Z0-9_]+", line)
+            }
+            for folder in dict.fromkeys((path.parent, law.parent)):
+                for name in sorted(words):
+                    waiting += [folder / f"{name}.py", *sorted((folder / name).rglob("*.py"))]
     return contents

@@ -7,6 +7,7 @@ import zlib
 from itertools import accumulate
 from pathlib import Path
 
+from mars2d.core.errors import one_line
 from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
 from mars2d.tournaments.league import UNPROTECTED, Tournament
@@ -18,10 +19,10 @@ from mars2d.tournaments.page.tables import (
     matrix,
     standing_tables,
 )
-from mars2d.tournaments.page.words import clean, escaped, read, terms
+from mars2d.tournaments.page.words import escaped, read, terms
 from mars2d.tournaments.rules import Rules
 
-__all__ = ["MAX_REPLAYS_SIZE", "league_page", "rules_page", "save_html", "save_rules"]
+__all__ = ["MAX_REPLAYS_SIZE", "league_page", "rules_page", "save_page"]
 
 MAX_REPLAYS_SIZE = 40_000_000
 """How many characters the replays of a page may have; a larger page is slow to load."""
@@ -36,7 +37,7 @@ def league_page(tournament: Tournament) -> str:
     replays = {each.match.number: each.replay for each in tournament.matches if each.replay}
     sizes = accumulate(len(replay) for replay in replays.values())
     kept = sum(size <= MAX_REPLAYS_SIZE for size in sizes)
-    inside, title = read("inside.js"), tournament.schedule.title
+    inside, title = read("inside.js"), tournament.schedule.rules.title
     words = {
         "facts": terms(_facts(tournament, [*replays][kept:])),
         "standings": standing_tables(tournament),
@@ -45,7 +46,7 @@ def league_page(tournament: Tournament) -> str:
         "choices": choices(tournament),
         "matches": match_table(tournament),
         "rules": rules_part(tournament.schedule.rules),
-        "player": _player(clean(title), inside),
+        "player": _player(one_line(title), inside),
         "replays": "\n".join(
             f'<script id="replay-{number}" type="text/plain">{escaped(replay)}</script>'
             for number, replay in [*replays.items()][:kept]
@@ -59,17 +60,10 @@ def rules_page(rules: Rules) -> str:
     return _page(f"{rules.title}: the rules", f'<main class="rules">{rules_part(rules)}</main>')
 
 
-def save_html(tournament: Tournament, path: Path) -> Path:
-    """Write a tournament's page and return its path. Raises InputError if it can't be written."""
+def save_page(page: str, path: Path) -> None:
+    """Write a page to a file. Raises InputError if it can't be written."""
     with atomic_write(path) as file:
-        file.write(league_page(tournament).encode("utf-8", errors="replace"))
-    return path
-
-
-def save_rules(rules: Rules, path: Path) -> None:
-    """Write the page of a game's rules. Raises InputError if it can't be written."""
-    with atomic_write(path) as file:
-        file.write(rules_page(rules).encode("utf-8", errors="replace"))
+        file.write(page.encode("utf-8", errors="replace"))
 
 
 def _page(title: str, body: str, script: str = "", inside: str = "") -> str:

@@ -11,12 +11,6 @@ from mars2d.tournaments.page.words import dots, escaped, named
 NONE = "-"
 """Shown in place of missing values."""
 
-HEAD = "head"
-"""The kind of cells that are the header of their row."""
-
-NUMBER = "number"
-"""The kind of cells that are flush right."""
-
 
 def table(
     kind: str,
@@ -27,8 +21,8 @@ def table(
 ) -> str:
     """Return a table that can be sorted by its columns; it is by the first.
 
-    columns: the kind of each column's cells, by its heading, text. rows: their cells, HTML. title:
-    above it, HTML.
+    columns: the kinds of each column's cells, by its heading: "head" names the row, "number" is
+    flush right. rows: their cells, HTML. title: above it, HTML.
     """
     by_first = iter([' aria-sort="ascending"'])
     head = "".join(
@@ -40,7 +34,7 @@ def table(
     for row in rows:
         cells = (
             f'<th scope="row" class="{each}">{text}</th>'
-            if each == HEAD
+            if each == "head"
             else f'<td class="{each}">{text}</td>'
             for text, each in zip(row, columns.values(), strict=True)
         )
@@ -56,7 +50,7 @@ def table(
 
 def standing_tables(tournament: Tournament) -> str:
     """Return a league table for each role, or one for all laws."""
-    kinds = {"law": HEAD, "points": f"{NUMBER} points", "share (95 %)": "share"}
+    kinds = {"law": "head", "points": "number points", "share (95 %)": "share"}
     tables = []
     for standings, rows in league_tables(tournament):
         for standing, cells in zip(standings, rows, strict=True):
@@ -64,7 +58,7 @@ def standing_tables(tournament: Tournament) -> str:
             cells["share (95 %)"] = f"{_bar(standing)} {cells['share (95 %)']}"
             if standing.forfeits:
                 cells["forfeits"] = _forfeits(standing.forfeits)
-        role, columns = standings[0].role, {name: kinds.get(name, NUMBER) for name in rows[0]}
+        role, columns = standings[0].role, {name: kinds.get(name, "number") for name in rows[0]}
         label = f"As {escaped(role)}" if role else "All laws"
         title = dots(tournament.schedule.rules.roles[role].colors) + label if role else label
         lines = [[*row.values()] for row in rows]
@@ -94,7 +88,7 @@ def _bar(standing: Standing) -> str:
 def grades(tournament: Tournament) -> str:
     """Return the table of all groups, with what each needs for its grade."""
     columns = {
-        "group": HEAD, "matches": NUMBER, "points": f"{NUMBER} points", "forfeits": NUMBER,
+        "group": "head", "matches": "number", "points": "number points", "forfeits": "number",
         "reasons": "ending",
     }  # fmt: skip
     rows = [
@@ -105,7 +99,7 @@ def grades(tournament: Tournament) -> str:
             _forfeits(row["forfeits"]),
             escaped(row["reasons"]),
         )
-        for row in tournament.grade_rows()
+        for row in tournament.table("grades")
     ]
     return table("grades", "Grading sheet", columns, rows)
 
@@ -168,7 +162,7 @@ def match_table(tournament: Tournament) -> str:
     """Return the table of all matches, each with a button for its replay."""
     schedule = tournament.schedule
     columns = {
-        "match": HEAD, **({"round": "round"} if len(tournament.rounds()) > 1 else {}),
+        "match": "head", **({"round": "round"} if len(tournament.rounds()) > 1 else {}),
         "seed": "seed number", **dict.fromkeys(schedule.roles, "player"),
         "winner": "winner", "capture time": "time number", "how it ended": "ending",
     }  # fmt: skip

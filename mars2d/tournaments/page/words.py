@@ -7,13 +7,11 @@ cleaned and escaped here.
 from __future__ import annotations
 
 import html
-import re
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 
-UNFIT = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
-"""Characters that a page can't hold or show: control characters and lone surrogates."""
+from mars2d.core import errors
 
 
 @cache
@@ -22,22 +20,15 @@ def read(name: str) -> str:
     return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
-def clean(text: object) -> str:
-    r"""Return text with a replacement character for each one that a page can't show.
-
-    >>> clean("a\x00b\r\n")
-    'a\ufffdb\n'
-    """
-    return UNFIT.sub("\ufffd", str(text).replace("\r\n", "\n"))
-
-
 def escaped(text: object) -> str:
-    """Return text that a page shows as it is, also inside quoted attributes.
+    r"""Return text that a page shows as it is, also inside quoted attributes.
 
-    >>> escaped("<script>")
-    '&lt;script&gt;'
+    What nobody sees is escaped, too, but for line breaks.
+
+    >>> escaped("<b>\0\n")
+    '&lt;b&gt;\\x00\n'
     """
-    return html.escape(clean(text))
+    return html.escape("\n".join(map(errors.escaped, str(text).expandtabs().split("\n"))))
 
 
 def named(name: object) -> str:
