@@ -10,22 +10,21 @@ from collections.abc import Callable
 from contextlib import closing
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mars2d.cli.arguments import options_of, preferences_of, shared
-from mars2d.cli.outputs import DURATION, FPS, OUTPUTS, check_outputs, film_speed, outcome
+from mars2d.cli.outputs import DURATION, FPS, OUTPUTS, SIZE, check_outputs, film_speed, outcome
 from mars2d.cli.runs import has_display, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import aligned, tell
 from mars2d.output.figures.comparison import MODES, Comparison
+from mars2d.output.films.footage import Cut
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.window.screen.source import Playback
 from mars2d.world.record import Record
-
-if TYPE_CHECKING:
-    from mars2d.output.films.triptych import Reel
 
 FOLDER = Path("mars2d_compare")
 
@@ -54,14 +53,14 @@ def execute(arguments: argparse.Namespace) -> None:
         stem = experiment_name(Path(arguments.experiment))
         arguments.figure, arguments.video = FOLDER / f"{stem}.png", FOLDER / f"{stem}.gif"
         arguments.speed = arguments.speed or opened("contact").scenario.stop_time / DURATION
-    reels: dict[str, Reel] = {}
-    comparison = Comparison(**{mode: _run(opened(mode), mode, arguments, reels) for mode in MODES})
+    records = {mode: _run(opened(mode), mode) for mode in MODES}
+    comparison = Comparison(**records)
     if arguments.json:
-        _save(comparison, reels, arguments)
+        _save(comparison, records, arguments)
         tell(_as_json(comparison, arguments, time.perf_counter() - start))
         return
     tell(_as_table(comparison))
-    for word, path in _save(comparison, reels, arguments).items():
+    for word, path in _save(comparison, records, arguments).items():
         tell(f"{word + ':':<8} {path}")
 
 
@@ -87,26 +86,17 @@ def _show(arguments: argparse.Namespace, opened: Callable[[str], Experiment]) ->
         tell(_as_table(Comparison(**records)))
 
 
-def _run(
-    experiment: Experiment, mode: str, arguments: argparse.Namespace, reels: dict[str, Reel]
-) -> Record:
-    """Run with a physics, which errors name; keep the frames of a film that is wanted."""
-    from mars2d.output.films.footage import Footage
-
-    speed = film_speed(experiment.scenario, arguments.speed)
-    footage = Footage(experiment.scenario, speed, FPS) if arguments.video else None
+def _run(experiment: Experiment, mode: str) -> Record:
+    """Run with a physics, which errors name."""
     try:
-        world = run_headless(experiment, [footage] if footage else [])
+        return run_headless(experiment).record
     except Mars2dError as error:
         error.where = ": ".join(filter(None, [f"physics = {mode!r}", error.where]))
         raise
-    if footage:
-        reels[mode] = footage, world.frame
-    return world.record
 
 
 def _save(
-    comparison: Comparison, reels: dict[str, Reel], arguments: argparse.Namespace
+    comparison: Comparison, records: dict[str, Record], arguments: argparse.Namespace
 ) -> dict[str, Path]:
     """Save the requested picture and film, and return their paths."""
     made: dict[str, Path] = {}
@@ -114,12 +104,16 @@ def _save(
         made["picture"] = comparison.save_figure(arguments.figure)
     if arguments.video:
         from mars2d.output.films.film import save_pictures
-        from mars2d.output.films.triptych import triptych
+        from mars2d.window.compare_window import CompareWindow
+        from mars2d.window.trio import Trio
 
         made["film"] = arguments.video
-        count = max(footage.count(last) for footage, last in reels.values())
-        with closing(Progress(count, "frames")) as bar:
-            save_pictures(triptych(comparison, reels), arguments.video, FPS, bar.update)
+        speed = film_speed(comparison.contact.scenario, arguments.speed)
+        cut = Cut.of(max(float(record.time[-1]) for record in records.values()), speed, FPS)
+        window = CompareWindow(Trio({mode: Playback(record) for mode, record in records.items()}))
+        pictures = window.film(cut, SIZE, f"{speed:.3g}x")
+        with closing(Progress(cut.count, "frames")) as bar:
+            save_pictures(pictures, arguments.video, FPS, bar.update)
     return made
 
 
