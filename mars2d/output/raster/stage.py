@@ -15,7 +15,7 @@ from mars2d.core.scene import Scene, Shape
 from mars2d.output.layers.addons import sensors
 from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.forces import forces as force_arrows
-from mars2d.output.layers.legend import Legend, legends
+from mars2d.output.layers.legend import legends
 from mars2d.output.layers.placement import Box, placed_names
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
@@ -59,7 +59,7 @@ class Canvas:
         for layer in takewhile(standing().__contains__, layers.seen(scenario.animation)):
             if layer.shapes is None:
                 bounds = grid_bounds(scenario, camera, size)
-                draw_grid(self.still, camera, bounds, painter.ui, painter.theme)
+                draw_grid(self.still, camera, bounds, painter)
             else:
                 painter.paint(self.still, layer.shapes(frame).shapes, camera)
         self.wakes: Wakes | None = None
@@ -142,7 +142,6 @@ class Stage:
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
         self._places: dict[int, int] = {}  # of the names in the last picture
-        self._legends: tuple[Scenario, list[Legend]] | None = None
         self._legend = pygame.Surface((0, 0)), (0, 0)
         self._legend_of: tuple[object, ...] = ()
 
@@ -176,32 +175,23 @@ class Stage:
         (self._spread if canvas.shows(camera, plot) else self._enlarge)(shot, canvas)
         self._paint_above(shot, beneath, marks, selected)
         if layers.grid:
-            bounds, painter = grid_bounds(frame.scenario, camera, surface.get_size()), self.painter
-            numbers = labels(plot, camera, bounds, painter.fonts, painter.ui, painter.theme)
-            surface.fblits(numbers)
-        shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
-        self._draw_legends(surface, shown, camera, plot if free is None else free)
+            bounds = grid_bounds(frame.scenario, camera, surface.get_size())
+            surface.fblits(labels(plot, camera, bounds, self.painter))
+        self._draw_legends(shot, plot if free is None else free)
         surface.set_clip(before)
 
-    def _draw_legends(
-        self, surface: pygame.Surface, shown: Sequence[Legend], camera: Camera, room: pygame.Rect
-    ) -> None:
+    def _draw_legends(self, shot: _Shot, room: pygame.Rect) -> None:
         """Draw legends from a picture that is kept until they change."""
-        painter, names = self.painter, [legend.layer for legend in shown]
-        of = (self._scenario, *names, camera.scale, *room, painter.ui, painter.theme)
+        (surface, frame, camera, layers, _), painter = shot, self.painter
+        of = (frame.scenario, layers.on, camera.scale, *room, painter.ui, painter.theme)
         if of != self._legend_of:
+            shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
             whole = pygame.Surface(room.size, pygame.SRCALPHA, 32)
             draw_legends(whole, painter, camera, whole.get_rect(), shown)
             place = whole.get_bounding_rect()
             self._legend_of, self._legend = of, (whole.subsurface(place).copy(), place.topleft)
         image, (left, top) = self._legend
         surface.blit(image, (room.left + left, room.top + top))
-
-    def _legends_of(self, scenario: Scenario) -> list[Legend]:
-        """Return the legends of a scenario, made once for as long as it is the same."""
-        if self._legends is None or self._legends[0] is not scenario:
-            self._legends = scenario, legends(scenario)
-        return self._legends[1]
 
     def _paint_above(
         self, shot: _Shot, beneath: Sequence[Shape], marks: Sequence[Shape], selected: int | None
