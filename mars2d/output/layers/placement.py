@@ -72,25 +72,27 @@ def placed_names(
     if not bodies or len(labels) != len(bodies):
         return names
     half = [_half(label, metres_per_point) for label in labels]
+    covering = [each for each in others if isinstance(each, (Arrow, Text))]
+    fixed = np.array([_box_of(each, metres_per_point) for each in covering]).reshape(-1, 4)
+    discs, seen_part = np.array(bodies), np.array([view])
     above = _boxes(bodies, half, PLACES[:1])[:, 0]
-    fixed = [_box_of(each, metres_per_point) for each in others if isinstance(each, (Arrow, Text))]
-    discs, frame_of = np.array(bodies), np.array([view])
-    chosen = np.zeros(len(bodies), dtype=int)
-    seen = (abs(discs[:, 0] - view.x) <= view.wide) & (abs(discs[:, 1] - view.y) <= view.high)
-    free = _is_free(above, discs, fixed, view)
+    mutual = _overlaps(above, above)
+    np.fill_diagonal(mutual, 0.0)
+    cost = mutual.sum(axis=1) + _cost(above, fixed, discs, seen_part)
+    free = cost <= CLEAR * 4 * above[:, 2] * above[:, 3]
     if first is not None:
         free[first] = True
-    crowded = [i for i in np.flatnonzero(seen & ~free).tolist() if i != first]
-    taken = [Box(*box) for box in above[seen & free].tolist()] + fixed
+    seen = (abs(discs[:, 0] - view.x) <= view.wide) & (abs(discs[:, 1] - view.y) <= view.high)
+    crowded = np.flatnonzero(seen & ~free).tolist()
+    chosen = np.zeros(len(bodies), dtype=int)
+    taken = np.vstack([above[seen & free], fixed])
     for i in crowded:
         boxes = _boxes([bodies[i]], [half[i]], PLACES)[0]
-        cost = _cost(boxes, np.array(taken).reshape(-1, 4), discs, frame_of)
-        wide, high = half[i]
-        kept = None if last is None else last.get(i)
-        if kept is not None:
-            cost[kept] -= STAYS * 4 * wide * high
+        cost = _cost(boxes, taken, discs, seen_part)
+        if last is not None and i in last:
+            cost[last[i]] -= STAYS * 4 * half[i][0] * half[i][1]
         chosen[i] = int(np.argmin(cost))
-        taken.append(Box(*boxes[chosen[i]].tolist()))
+        taken = np.vstack([taken, boxes[chosen[i]]])
     if last is not None:
         last.clear()
         last.update({i: int(chosen[i]) for i in crowded})
@@ -164,18 +166,6 @@ def _overlaps(boxes: Float, others: Float) -> Float:
     across = np.minimum(x + wide, u + w) - np.maximum(x - wide, u - w)
     along = np.minimum(y + high, v + h) - np.maximum(y - high, v - h)
     return np.asarray(np.clip(across, 0, None) * np.clip(along, 0, None))
-
-
-def _is_free(boxes: Float, bodies: Float, fixed: Sequence[Box], view: Box) -> NDArray[np.bool_]:
-    """Return which boxes (n, 4) share nothing with each other, bodies or others, and are seen."""
-    mutual = _overlaps(boxes, boxes)
-    np.fill_diagonal(mutual, 0.0)
-    shared = mutual.sum(axis=1) + _overlaps(boxes, bodies).sum(axis=1)
-    if fixed:
-        shared += _overlaps(boxes, np.array(fixed)).sum(axis=1)
-    area = 4 * boxes[:, 2] * boxes[:, 3]
-    outside = area - _overlaps(boxes, np.array([view]))[:, 0]
-    return np.asarray(shared + outside <= CLEAR * area)
 
 
 def _cost(boxes: Float, taken: Float, bodies: Float, view: Float) -> Float:
