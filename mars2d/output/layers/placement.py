@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.scene import INK, Arrow, Scene, Shape, Text
 from mars2d.output.layers.rings import RING, has_ring
@@ -86,8 +86,9 @@ def placed_names(
     crowded = np.flatnonzero(seen & ~free).tolist()
     chosen = np.zeros(len(bodies), dtype=int)
     taken = np.vstack([above[seen & free], fixed])
-    for i in crowded:
-        boxes = _boxes([bodies[i]], [half[i]], PLACES)[0]
+    for i, boxes in zip(
+        crowded, _boxes(discs[crowded], np.array(half)[crowded], PLACES), strict=True
+    ):
         cost = _cost(boxes, taken, discs, seen_part)
         if last is not None and i in last:
             cost[last[i]] -= STAYS * 4 * half[i][0] * half[i][1]
@@ -150,10 +151,10 @@ def _bound(frame: Frame, body: int, metres_per_point: float) -> Box:
     return Box(x + ahead * c - left * s, y + ahead * s + left * c, radius, radius)
 
 
-def _boxes(bodies: Iterable[Box], half: Iterable[tuple[float, float]], places: Float) -> Float:
-    """Return the boxes (n, k, 4) of names at k places beside their bodies."""
-    x, y, far, _ = np.array(list(bodies)).T[:, :, None]
-    wide, high = np.array(list(half)).T[:, :, None]
+def _boxes(bodies: ArrayLike, half: ArrayLike, places: Float) -> Float:
+    """Return the boxes (n, k, 4) of names at k places beside their bodies (n, 4)."""
+    x, y, far, _ = np.asarray(bodies).T[:, :, None]
+    wide, high = np.asarray(half).T[:, :, None]
     ring, across, up = places.T[:, None]
     gap = (2 * ring + 0.3) * high
     made = (x + across * (far + gap + wide), y + up * (far + gap + high), wide, high)
@@ -165,7 +166,7 @@ def _overlaps(boxes: Float, others: Float) -> Float:
     (x, y, wide, high), (u, v, w, h) = boxes.T[:, :, None], others.T[:, None]
     across = np.minimum(x + wide, u + w) - np.maximum(x - wide, u - w)
     along = np.minimum(y + high, v + h) - np.maximum(y - high, v - h)
-    return np.asarray(np.clip(across, 0, None) * np.clip(along, 0, None))
+    return np.asarray(np.maximum(across, 0.0) * np.maximum(along, 0.0))
 
 
 def _cost(boxes: Float, taken: Float, bodies: Float, view: Float) -> Float:
