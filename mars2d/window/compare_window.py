@@ -24,7 +24,7 @@ from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.trio import Trio
-from mars2d.window.widgets.keys import Key
+from mars2d.window.widgets.actions import Action
 from mars2d.world.timeline import Timeline
 
 Pixel = tuple[int, int]
@@ -129,7 +129,7 @@ class CompareWindow(PlayerWindow):
             camera = self.viewpoint.camera.panned(plot.left - first.left, 0)
             self._stages[mode].draw(
                 surface, frames[mode], camera, layers, plot,
-                free=pygame.Rect(plot.topleft, (0, 0)),  # legends would cover the robots
+                free=[pygame.Rect(plot.topleft, (0, 0))],  # legends would cover the robots
                 hurried=self.viewpoint.hurried,
             )  # fmt: skip
             self._draw_title(surface, mode, frames[mode], counts[mode])
@@ -161,10 +161,10 @@ class CompareWindow(PlayerWindow):
             at = left, level + (43 + 17 * k) * ui
             painter.write(surface, line, 13.5 * ui, color, midleft=at)
 
-    def _help(self) -> list[tuple[str, list[Key]]]:
+    def _help(self) -> list[tuple[str, list[Action]]]:
         """Return the keys that do something here, in their groups."""
         return [
-            (group, [key for key in each if key.action in self._actions or not key.names])
+            (group, [key for key in each if key.name in self._actions])
             for group, each in keys.GROUPS.items()
             if group != "Mouse"
         ]

@@ -174,8 +174,8 @@ def _draw(
     if own:
         figure.draw_without_rendering()  # the scale is known from the layout
         show_in_notebooks(axes[0])
-    for ax, row in zip(axes, rows, strict=True):
-        paint_row(ax, record, row, look, layers)
+    for ax, frame in zip(axes, frames, strict=True):
+        paint_frame(ax, frame, look, layers)
 
 
 def _page(
@@ -327,11 +327,9 @@ def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SC
         ax.set_ylabel("y [m]", color=look.ink, fontsize=look.label)
 
 
-def paint_row(
-    ax: Axes, record: Rows, row: int, look: Style = SCREEN, layers: Layers | None = None
-) -> None:
-    """Paint the layers at a row; layers: the switches, as in `plot_paths`."""
-    now, scenario = record.frame(row), record.scenario
+def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | None = None) -> None:
+    """Paint the layers of a frame; layers: the switches, as in `plot_paths`."""
+    scenario = now.scenario
     layers = layers or layers_of(scenario)
     _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
     scales, words = _scales(ax, scenario, look), sign_scale(look)
@@ -452,10 +450,12 @@ def _entries(
         dash = look.dash(first) if look.greys else ""
         color, width = scenario.colors[first], 1.5 * look.stroke
         entries.append(Entry(plain_name(name), color, dash, width, "o"))
-    return entries + _signs(frames, layers, look, ppm)
+    return entries + signs_of(frames, layers, look, ppm)
 
 
-def _signs(frames: Sequence[Frame], layers: Layers, look: Style, ppm: float) -> list[Entry | Sign]:
+def signs_of(
+    frames: Sequence[Frame], layers: Layers, look: Style, ppm: float
+) -> list[Entry | Sign]:
     """Return what the arrows and signs of layers mean; ppm: the points of a metre.
 
     The arrow of forces is always there, others where they are needed: that of impulses after a

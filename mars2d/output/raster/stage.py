@@ -108,6 +108,9 @@ PATIENCE = 0.012
 MAX_AGE = 0.25
 """Where it takes longer, the seconds for which a moving camera shows them shifted or enlarged."""
 
+NUMBERS = 48.0
+"""The room for the numbers of an axis, points."""
+
 MARGIN = 0.25
 """The margin that is drawn on all sides while the camera moves, as a share of the picture."""
 
@@ -153,7 +156,7 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect | None = None,
         *,
-        free: pygame.Rect | None = None,
+        free: Sequence[pygame.Rect] = (),
         beneath: Sequence[Shape] = (),
         marks: Sequence[Shape] = (),
         hurried: bool = False,
@@ -161,11 +164,11 @@ class Stage:
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
-        free: the part of the plot on which nothing else will be drawn, where legends go; by default
-        all of it. beneath, marks: shapes to draw below and above the bodies. selected: a body whose
-        name goes before others, an index of `Scenario.bodies`. hurried: whether the camera is
-        moving. If the layers that stand still took long to draw, the last picture of them is then
-        enlarged or shifted for a quarter of a second.
+        free: the parts of the plot on which nothing else will be drawn, where legends go, the
+        largest first; by default all of it. beneath, marks: shapes to draw below and above the
+        bodies. selected: a body whose name goes before others, an index of `Scenario.bodies`.
+        hurried: whether the camera is moving. If the layers that stand still took long to draw, the
+        last picture of them is then enlarged or shifted for a quarter of a second.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -177,21 +180,37 @@ class Stage:
         if layers.grid:
             bounds = grid_bounds(frame.scenario, camera, surface.get_size())
             surface.fblits(labels(plot, camera, bounds, self.painter))
-        self._draw_legends(shot, plot if free is None else free)
+        self._draw_legends(shot, free or [plot])
         surface.set_clip(before)
 
-    def _draw_legends(self, shot: _Shot, room: pygame.Rect) -> None:
-        """Draw legends from a picture that is kept until they change."""
+    def _draw_legends(self, shot: _Shot, free: Sequence[pygame.Rect]) -> None:
+        """Draw legends beside the workspace if there is room, from a picture that is kept."""
         (surface, frame, camera, layers, _), painter = shot, self.painter
-        of = (frame.scenario, layers.on, camera.scale, *room, painter.ui, painter.theme)
+        beside = [strip for room in free for strip in self._around(shot, room)]
+        of = (frame.scenario, layers.on, camera.scale, *map(tuple, (*beside, *free)), painter.ui,
+              painter.theme)  # fmt: skip
         if of != self._legend_of:
             shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
-            whole = pygame.Surface(room.size, pygame.SRCALPHA, 32)
-            draw_legends(whole, painter, camera, whole.get_rect(), shown)
+            whole = pygame.Surface(surface.get_size(), pygame.SRCALPHA, 32)
+            draw_legends(whole, painter, camera, free[0], shown, beside)
             place = whole.get_bounding_rect()
             self._legend_of, self._legend = of, (whole.subsurface(place).copy(), place.topleft)
-        image, (left, top) = self._legend
-        surface.blit(image, (room.left + left, room.top + top))
+        shot.surface.blit(*self._legend)
+
+    def _around(self, shot: _Shot, room: pygame.Rect) -> list[pygame.Rect]:
+        """Return the parts of a room beside the workspace and the numbers of its axes."""
+        xmin, xmax, ymin, ymax = shot.frame.scenario.bounds
+        corners = shot.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int)
+        (left, top), (right, bottom) = corners.tolist()
+        numbers = round(NUMBERS * self.painter.ui)
+        left, bottom = left - numbers, bottom + numbers // 2
+        sides = (
+            pygame.Rect(right, room.top, room.right - right, room.height),
+            pygame.Rect(room.left, room.top, left - room.left, room.height),
+            pygame.Rect(room.left, bottom, room.width, room.bottom - bottom),
+            pygame.Rect(room.left, room.top, room.width, top - room.top),
+        )
+        return [side.clip(room) for side in sides if min(side.size) > 0]
 
     def _paint_above(
         self, shot: _Shot, beneath: Sequence[Shape], marks: Sequence[Shape], selected: int | None
