@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from mars2d.addons.base import Addon
-from mars2d.core.plane import Point
 from mars2d.core.scene import (
     PALETTE,
     THEORY,
     Arrow,
     Circle,
     Line,
-    Polygon,
     Scene,
     Shape,
     faded,
@@ -28,11 +24,6 @@ from mars2d.output.layers.impulses import FRICTION, impulse_scale
 from mars2d.output.layers.messages import LOST_LINK
 from mars2d.output.layers.velocities import VELOCITY, speed_scale
 from mars2d.scenario.scenario import Scenario
-
-SIGNED = ("messages", "theory", "sensors")
-"""The layers whose signs have a legend in pictures without plates, too."""
-ROW = 16.0
-"""The height of a row of signs without a plate, points."""
 
 
 class Legend(NamedTuple):
@@ -60,37 +51,6 @@ def legends(scenario: Scenario) -> list[Legend]:
     if any(type(addon).theory is not Addon.theory for addon in scenario.addons):
         found.append(Legend("theory", (PREDICTED,)))
     return found
-
-
-def sign_rows(shown: Sequence[Legend], corner: Point, point: float) -> Scene:
-    """Return the signs of legends with their meanings, in rows above a corner (x, y) [m].
-
-    point: how long a point is, metres. For pictures without plates.
-    """
-    scene, signs = Scene(), [sign for legend in shown for sign in legend.signs]
-    column = max((sign.room for sign in signs), default=0.0)
-    for k, sign in enumerate(signs):
-        level = corner[1] + ROW * (k + 0.5) * point
-        middle = corner[0] + column / 2 * point, level
-        scene.extend(_moved(shape, middle, point) for shape in sign.scene.shapes)
-        place = corner[0] + (column + 2.0) * point, level
-        scene.text(place, sign.meaning, color=sign.color, anchor="left", halo="#ffffff")
-    return scene
-
-
-def _moved(shape: Shape, to: Point, point: float) -> Shape:
-    """Return a shape of a sign, which is in points round (0, 0), in metres round a point."""
-
-    def at(end: Point) -> Point:
-        return to[0] + point * end[0], to[1] + point * end[1]
-
-    if isinstance(shape, Circle):
-        return replace(shape, center=at(shape.center), radius=point * shape.radius)
-    if isinstance(shape, Line | Polygon):
-        return replace(shape, points=np.array(to) + point * shape.points)
-    if isinstance(shape, Arrow):
-        return replace(shape, tail=at(shape.tail), tip=at(shape.tip))
-    return shape
 
 
 def _of_sensors(scenario: Scenario) -> tuple[Sign, ...]:
