@@ -33,7 +33,7 @@ from mars2d.output.layers.arrows import Sign, has_cut
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.impulses import impulses
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.placement import Box, placed_names
+from mars2d.output.layers.placement import AVOIDED, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
@@ -333,6 +333,7 @@ def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | Non
     layers = layers or layers_of(scenario)
     _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
     scales, words = _scales(ax, scenario, look), sign_scale(look)
+    arrows: list[Shape] = []
     level = WORKSPACE  # the grid lies between this and the level of all later layers
     for layer in layers.seen(scenario.animation):
         if layer.name in ("edge", "obstacles"):
@@ -340,8 +341,11 @@ def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | Non
         if layer.shapes is None:
             continue
         shapes = layer.shapes(now).shapes
+        if layer.name in AVOIDED:
+            arrows += shapes
         if layer.name == "names":
-            shapes = _names_apart(Scene(shapes), ax, now, words, layers)
+            part, point = (*ax.get_xlim(), *ax.get_ylim()), words / points_per_metre(ax)
+            shapes = placed_names(Scene(shapes), now, point, part, arrows).shapes
         elif layer.name == "workspace":  # its edge is a layer of its own
             areas = [shape for shape in shapes if isinstance(shape, Polygon)]
             shapes = [replace(area, stroke=None) for area in areas]
@@ -356,18 +360,6 @@ def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | Non
         if layer.name == "workspace" and shapes:
             for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
                 line.set_clip_path(ax.patches[before])
-
-
-def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, layers: Layers) -> list[Shape]:
-    """Return the names of bodies, none over another or over a force that is drawn.
-
-    words: the factor for the size of text.
-    """
-    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
-    view = Box((xmin + xmax) / 2, (ymin + ymax) / 2, (xmax - xmin) / 2, (ymax - ymin) / 2)
-    scenes = [drawn(now) for name, drawn in ARROWS.items() if getattr(layers, name)]
-    others = [shape for scene in scenes for shape in scene.shapes]
-    return placed_names(names, now, words / points_per_metre(ax), view, others).shapes
 
 
 def layers_of(scenario: Scenario, *, paths: bool = False) -> Layers:

@@ -28,6 +28,9 @@ WAYS = [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0),
 PLACES = np.array([(ring, *way) for ring in range(RINGS) for way in WAYS])
 """All places (48, 3), the best first: the ring, and the way to it."""
 
+AVOIDED = ("velocities", "impulses", "forces")
+"""The layers whose arrows and numbers names don't cover."""
+
 SELECTED = 11.0
 """How far the ring of a selected body lies outside of it, points."""
 
@@ -49,7 +52,7 @@ def placed_names(
     names: Scene,
     frame: Frame,
     metres_per_point: float,
-    view: Box,
+    bounds: tuple[float, float, float, float],
     others: Sequence[Shape] = (),
     first: int | None = None,
     last: dict[int, int] | None = None,
@@ -58,10 +61,10 @@ def placed_names(
 
     names: a text for each body; anything else stays where it is. A name that has room above its
     body stands there; one that finds no room beside it has a thin line to it. metres_per_point: how
-    long a point of a text's height is. view: what is shown; names of bodies beyond stay as they
-    are. others: arrows and texts that are there already. first: the selected body, which has a
-    ring: its name is placed before all others. last: the places by body in the picture before,
-    which are kept where they are as good as others; it is updated.
+    long a point of a text's height is. bounds: (xmin, xmax, ymin, ymax) of what is shown, metres;
+    names of bodies beyond stay as they are. others: arrows and texts that are there already. first:
+    the selected body, which has a ring: its name is placed before all others. last: the places by
+    body in the picture before, which are kept where they are as good as others; it is updated.
     """
     bodies = [_bound(frame, i, metres_per_point) for i in range(len(frame.scenario.bodies))]
     ringed = [has_ring(frame.scenario, i) or i == first for i in range(len(bodies))]
@@ -74,6 +77,8 @@ def placed_names(
     half = [_half(label, metres_per_point) for label in labels]
     covering = [each for each in others if isinstance(each, (Arrow, Text))]
     fixed = np.array([_box_of(each, metres_per_point) for each in covering]).reshape(-1, 4)
+    xmin, xmax, ymin, ymax = bounds
+    view = Box((xmin + xmax) / 2, (ymin + ymax) / 2, (xmax - xmin) / 2, (ymax - ymin) / 2)
     discs, seen_part = np.array(bodies), np.array([view])
     above = _boxes(bodies, half, PLACES[:1])[:, 0]
     mutual = _overlaps(above, above)

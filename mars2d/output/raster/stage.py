@@ -11,12 +11,11 @@ from typing import NamedTuple
 
 import pygame
 
-from mars2d.core.scene import Scene, Shape
+from mars2d.core.scene import Shape
 from mars2d.output.layers.addons import sensors
 from mars2d.output.layers.bodies import starts
-from mars2d.output.layers.forces import forces as force_arrows
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.placement import Box, placed_names
+from mars2d.output.layers.placement import AVOIDED, placed_names
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
@@ -216,29 +215,25 @@ class Stage:
         self, shot: _Shot, beneath: Sequence[Shape], marks: Sequence[Shape], selected: int | None
     ) -> None:
         """Draw the layers above the kept ones, with `beneath` and `marks` around the bodies."""
-        surface, frame, camera, layers, _ = shot
+        surface, frame, camera, layers, plot = shot
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
+        arrows = [*marks]
         for layer in LAYERS[_place("sensors") + 1 :]:
             if layer.name == FIRST_BODIES:
                 self.painter.paint(surface, beneath, camera)
             if layer.name in seen and layer.shapes is not None:
                 scene = layer.shapes(frame)
+                if layer.name in AVOIDED:
+                    arrows += scene.shapes
                 if layer.name == "names":
-                    scene = self._names_apart(scene, shot, marks, selected)
+                    (xmin, ymin), (xmax, ymax) = camera.to_world([plot.bottomleft, plot.topright])
+                    bounds, point = (xmin, xmax, ymin, ymax), self.painter.ui / camera.scale
+                    scene = placed_names(
+                        scene, frame, point, bounds, arrows, selected, self._places
+                    )
                 self.painter.paint(surface, scene.shapes, camera)
             if layer.name == LAST_BODIES:
                 self.painter.paint(surface, marks, camera)
-
-    def _names_apart(
-        self, names: Scene, shot: _Shot, marks: Sequence[Shape], selected: int | None
-    ) -> Scene:
-        """Return the names of bodies, none over another, over a mark, or over a force."""
-        area, camera = shot.surface.get_clip(), shot.camera
-        ((x, y),) = camera.to_world([area.center]).tolist()
-        view = Box(x, y, area.width / (2 * camera.scale), area.height / (2 * camera.scale))
-        others = [*marks, *(force_arrows(shot.frame).shapes if shot.layers.forces else ())]
-        point = self.painter.ui / camera.scale
-        return placed_names(names, shot.frame, point, view, others, selected, self._places)
 
     # -- the kept layers ----------------------------------------------------------------------
 
