@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import Mars2dError
-from mars2d.output.figures.comparison import MODES, Drift
+from mars2d.output.figures.comparison import MODES, Drift, drifts
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame, between
 from mars2d.scenario.scenario import Scenario
@@ -131,7 +131,6 @@ class Trio:
         """The drift of the runs with "stop" and "ideal" so far from that with "contact"."""
         rows = [run.newest for run in self.runs.values()]
         if self._drifts[0] != rows:
-            first, *others = (self.runs[mode].recorded for mode in MODES)
-            drifts = [Drift.between(first, other) for other in others]
-            self._drifts = rows, dict(zip(MODES[1:], drifts, strict=True))
+            records = {mode: run.recorded for mode, run in self.runs.items()}
+            self._drifts = rows, drifts(records)
         return self._drifts[1]

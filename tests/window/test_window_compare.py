@@ -9,7 +9,7 @@ import pytest
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.core.errors import LawError
-from mars2d.output.figures.comparison import MODES, Comparison
+from mars2d.output.figures.comparison import MODES, drifts
 from mars2d.output.films.footage import Cut
 from mars2d.record.contact import met
 from mars2d.scenario.experiment import open_experiment
@@ -59,7 +59,7 @@ def test_the_runs_are_those_of_runs_alone_and_the_drift_is_that_of_the_compariso
         collisions = [alone.contacts["time"][met(alone.contacts)] <= time for time in (1.5, 3.0)]
         assert trio.collisions(1.5)[mode] == collisions[0].sum()
         assert trio.collisions(3.0)[mode] == collisions[1].sum() == alone.collisions
-    for mode, drift in Comparison(**records).drifts.items():
+    for mode, drift in drifts(records).items():
         np.testing.assert_array_equal(trio.drifts[mode].max, drift.max)
         np.testing.assert_array_equal(trio.drifts[mode].mean, drift.mean)
 

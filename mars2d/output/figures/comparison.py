@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import reduce
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, counted
-from mars2d.output.figures.extent import View, check_rows
+from mars2d.core.errors import counted
+from mars2d.output.figures.extent import View
 from mars2d.output.figures.figure import (
     INK,
     MUTED,
@@ -52,12 +53,6 @@ CURVES = (("max", "-", 2.2), ("mean", "--", 1.5))
 NO_DRIFT = 1e-6
 """The drift below which two runs agree, metres."""
 
-LOG_RATIO = 30.0
-"""The ratio of the two largest drifts from which the axis is logarithmic."""
-
-FOOT_ROOM = 0.01
-"""The start of a logarithmic axis, as a share of the smaller of the two largest drifts."""
-
 
 @dataclass(frozen=True, eq=False)
 class Drift:
@@ -83,43 +78,12 @@ class Drift:
         return cls(first.time[:rows], distance.max(axis=1), distance.mean(axis=1))
 
 
-@dataclass(frozen=True, eq=False)
-class Comparison:
-    """Three runs of an experiment with the same seed, which differ only in `Scenario.physics`.
+def drifts(records: Mapping[str, Rows]) -> dict[str, Drift]:
+    """Return the drift of the runs with "stop" and "ideal" from the run with "contact".
 
-    Raises InputError for runs without rows, or with different bodies or sampling times.
+    records: runs of an experiment with the same seed, by their physics.
     """
-
-    contact: Rows
-    stop: Rows
-    ideal: Rows
-
-    def __post_init__(self) -> None:
-        first = self.contact.scenario
-        for mode, record in self.records.items():
-            scenario = record.scenario
-            check_rows(record, f"compare with physics = {mode!r}")
-            if (len(scenario.robots), len(scenario.props)) != (len(first.robots), len(first.props)):
-                raise InputError(f"{mode}: expected the same bodies as in the run with contact")
-            if scenario.sampling_time != first.sampling_time:
-                raise InputError(f"{mode}: expected the sampling time of the run with contact")
-
-    @property
-    def records(self) -> dict[str, Rows]:
-        """The runs by their physics."""
-        return {mode: getattr(self, mode) for mode in MODES}
-
-    @cached_property
-    def drifts(self) -> dict[str, Drift]:
-        """The drift of the runs with "stop" and "ideal" from the run with "contact"."""
-        return {mode: Drift.between(self.contact, self.records[mode]) for mode in MODES[1:]}
-
-    def save_figure(self, path: str | Path) -> Path:
-        """Save the figure as .png, .pdf or .svg and return its path.
-
-        Raises InputError for another suffix or a path that can't be written.
-        """
-        return save_drawing(lambda: plot_comparison(self), path, trim=False)
+    return {mode: Drift.between(records["contact"], records[mode]) for mode in MODES[1:]}
 
 
 # -- the figure -----------------------------------------------------------------------------------
@@ -128,27 +92,37 @@ WIDTH, DRIFT = 11.0, 1.9
 """The width of the figure and the height of the drift, inches."""
 
 
-def plot_comparison(comparison: Comparison) -> Figure:
+def save_comparison(records: Mapping[str, Rows], path: str | Path) -> Path:
+    """Save the figure of a comparison as .png, .pdf or .svg and return its path.
+
+    Raises InputError for another suffix or a path that can't be written.
+    """
+    return save_drawing(lambda: plot_comparison(records), path, trim=False)
+
+
+def plot_comparison(records: Mapping[str, Rows]) -> Figure:
     """Draw the paths of the three runs side by side at one scale, and the drift below them.
 
-    Returns a matplotlib figure that pyplot does not know of.
+    records: runs of an experiment with the same seed, by their physics. Returns a matplotlib figure
+    that pyplot does not know of.
     """
-    views = [View.of(record, len(record) - 1) for record in comparison.records.values()]
+    views = [View.of(record, len(record) - 1) for record in records.values()]
     view = reduce(lambda a, b: a.union((b.xmin, b.xmax, b.ymin, b.ymax)), views)
     _, height = view.inches(3.2, 4.2)
     figure = new_figure(WIDTH, height + DRIFT + 2.6)
     places, heights = [[*MODES], ["drift"] * len(MODES)], [height, DRIFT]
     axes = figure.subplot_mosaic(places, height_ratios=heights)  # type: ignore[arg-type]
-    for mode, record in comparison.records.items():
+    for mode, record in records.items():
         dress(axes[mode], record.scenario, view)
         label(axes[mode], beside=mode == MODES[0])
         _title(axes[mode], mode, record)
-    plot_drift(comparison, axes["drift"])
-    title = textwrap.shorten(comparison.contact.scenario.title, 80, placeholder=" …")
-    seed = f"seed {comparison.contact.seed}"
+    plot_drift(records, axes["drift"])
+    first = records["contact"]
+    title = textwrap.shorten(first.scenario.title, 80, placeholder=" …")
+    seed = f"seed {first.seed}"
     figure.suptitle(f"{title}, {seed}", fontsize=15, color=INK, parse_math=False)
     figure.draw_without_rendering()  # the scale is known from the layout
-    for mode, record in comparison.records.items():
+    for mode, record in records.items():
         paint_frame(axes[mode], record.frame(-1))
     return figure
 
@@ -165,38 +139,29 @@ def _title(ax: Axes, mode: str, record: Rows) -> None:
     )  # fmt: skip
 
 
-def plot_drift(comparison: Comparison, ax: Axes) -> None:
-    """Draw the drift of "stop" and "ideal" from "contact" over time.
-
-    The scale is linear, unless one of the two would lie flat on the axis.
-    """
-    low, high = sorted(float(drift.max.max()) for drift in comparison.drifts.values())
+def plot_drift(records: Mapping[str, Rows], ax: Axes) -> None:
+    """Draw the drift of "stop" and "ideal" from "contact" over time."""
+    found = drifts(records)
+    most = max(float(drift.max.max()) for drift in found.values())
     frame_panel(ax, SCREEN, [1, 2, 5, 10])
-    end = max(float(record.time[-1]) for record in comparison.records.values())
+    end = max(float(record.time[-1]) for record in records.values())
     ax.set_xlim(0, end if end > 0 else 1)
     ax.set_xlabel("time [s]", color=INK, fontsize=SCREEN.label)
     caption(ax, "drift", "m", SCREEN)
-    ax.set_ylim(0, 1.06 * high if high >= NO_DRIFT else 1)
-    if low > NO_DRIFT and high > LOG_RATIO * low:
-        ax.set_yscale("log")
-        ax.yaxis.set_major_formatter("{x:g}")
-        ax.set_ylim(low * FOOT_ROOM, high * 2)
+    ax.set_ylim(0, 1.06 * most if most >= NO_DRIFT else 1)
     entries = []
-    for mode, drift in comparison.drifts.items():
+    for mode, drift in found.items():
         for name, dash, width in CURVES:
             entries.append(Entry(f"{mode}, {name}", COLORS[mode], dash, width))
-            values = getattr(drift, name)
             ax.plot(
-                drift.time, np.where(values < ax.get_ylim()[0], np.nan, values),
-                color=COLORS[mode], linestyle=dash, linewidth=width,
-                clip_on=False, marker="o", markersize=6.5, markeredgecolor="white",
+                drift.time, getattr(drift, name), color=COLORS[mode], linestyle=dash,
+                linewidth=width, clip_on=False, marker="o", markersize=6.5, markeredgecolor="white",
                 markeredgewidth=0.8, markevery=[-1], zorder=3, label=f"{mode}, {name}",
             )  # fmt: skip
-    scenario = comparison.contact.scenario
-    body = "robot or prop" if scenario.props else "robot"
+    body = "robot or prop" if records["contact"].scenario.props else "robot"
     title = f"How far each {body} is from where contact puts it"
     ax.set_title(title, loc="left", fontsize=11, color=INK, pad=8)
     place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0)}
     add_legend(ax, entries, SCREEN, ncols=len(entries), **place)
-    if high < NO_DRIFT:
+    if most < NO_DRIFT:
         say(ax, "no drift: the three runs agree", SCREEN)
