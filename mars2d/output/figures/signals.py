@@ -240,8 +240,6 @@ def _flags(
     ax: Axes, record: Rows, times: Float, signal: Signal, values: Float, look: Style
 ) -> None:
     """Draw bars where flags (T, rows) are True, one row each, the first on top."""
-    from matplotlib.collections import PolyCollection
-
     count = values.shape[1]
     each = count // max(1, len(signal.bodies))
     step = record.scenario.sampling_time
@@ -253,10 +251,9 @@ def _flags(
         edges = np.diff(np.concatenate([[False], values[:, k], [False]]).astype(np.int8))
         first, last = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
         begin, end = spans(times[first], times[last] + step, least)
-        low, high = count - 1 - k + 0.15, count - k - 0.15
-        bars = [[(b, low), (e, low), (e, high), (b, high)] for b, e in zip(begin, end, strict=True)]
         color = look.colors(record.scenario)[body]
-        ax.add_collection(PolyCollection(bars, facecolor=color, linewidth=0, zorder=3))
+        bars = list(zip(begin.tolist(), (end - begin).tolist(), strict=True))
+        ax.broken_barh(bars, (count - 0.85 - k, 0.7), facecolor=color, linewidth=0, zorder=3)
     caption(ax, signal.name, "", look)
     name_rows(ax, [plain_name(n) for n in names] if count <= look.rows else [], count)
     if not values.any():
