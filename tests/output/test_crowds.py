@@ -114,7 +114,7 @@ def test_a_crowd_is_coloured_by_name_law_drive_and_size():
 
 
 def meanings(scenario):
-    return {each.layer: [sign.meaning for sign in each.signs] for each in legends(scenario)}
+    return {each.layer: [sign.name for sign in each.signs] for each in legends(scenario)}
 
 
 def test_messages_theory_and_sensors_have_legends_where_they_are_drawn():

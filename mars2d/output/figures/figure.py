@@ -472,8 +472,7 @@ def legend_size(entries: Sequence[Entry | Sign], look: Style) -> tuple[float, fl
     """Return the approximate width and height of a legend, inches."""
     if not entries:
         return 0.0, 0.0
-    names = [each.meaning if isinstance(each, Sign) else each.name for each in entries]
-    letters = 0.075 * max(map(len, names)) * look.small / SCREEN.small
+    letters = 0.075 * max(len(each.name) for each in entries) * look.small / SCREEN.small
     wide = letters + (column_width(entries, look) + 1.3 * look.small) / 72
     return wide, len(entries) * 1.5 * look.small / 72
 

@@ -96,14 +96,14 @@ def usual_length(scenario: Scenario, diameters: float, share: float) -> float:
 
 
 class Sign(NamedTuple):
-    """A sign and its meaning. scene: round (0, 0), in points. room: its width, points.
+    """A sign in a legend, and its name. scene: round (0, 0), in points. room: its width, points.
 
     length: of an arrow to scale, metres.
     """
 
     scene: Scene
     room: float
-    meaning: str
+    name: str
     length: float = 0.0
 
 
