@@ -325,7 +325,7 @@ class Scenario(Description):
         found = self.surfaces[:-1] if walled else self.surfaces
         return tuple(obstacle.outline for obstacle in found)
 
-    @property
+    @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
         """(xmin, xmax, ymin, ymax) of the workspace [m]; without one, of robots and obstacles."""
         if self.workspace is not None:

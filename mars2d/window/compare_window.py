@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import pygame
 
-from mars2d.core.errors import Mars2dError
-from mars2d.output.figures.comparison import MODES
-from mars2d.output.films.triptych import TITLE_HEIGHT, Arena
+from mars2d.core.errors import Mars2dError, counted
+from mars2d.output.figures.comparison import COLORS, MEANINGS, MODES
+from mars2d.output.films.footage import Cut
 from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.picture import summary
-from mars2d.output.raster.stage import MEMORY
+from mars2d.output.raster.stage import MEMORY, Stage
+from mars2d.record.frame import Frame
 from mars2d.window.driftplot import DriftPlot
 from mars2d.window.run import keys
 from mars2d.window.run.ending import Ending
@@ -24,10 +25,13 @@ from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.trio import Trio
 from mars2d.window.widgets.actions import Action
+from mars2d.world.timeline import Timeline
 
 Pixel = tuple[int, int]
 
 HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))
+TITLE_HEIGHT = 74.0
+"""The height of the title above an arena, points."""
 PLOT_SHARE, MIN_PLOT = 0.34, 150.0
 """The largest part of the height for the plot, and its least height, points."""
 
@@ -37,7 +41,7 @@ class CompareWindow(PlayerWindow):
 
     The keys of time and of looks are those of the run window; a click or drag in the plot is one on
     the time bar. The camera is the same for all three arenas. speed, size, preferences: as for
-    `Window`.
+    `Window`. plots: where the arenas are, by the physics.
     """
 
     def __init__(
@@ -48,33 +52,54 @@ class CompareWindow(PlayerWindow):
         preferences: Preferences | None = None,
     ) -> None:
         """Prepare; the window opens with `run`."""
-        name = trio.scenario.title
-        title, stem = f"{name}, compared", f"{name} compared"
-        super().__init__(
-            trio, speed, size, preferences, title=title, stem=stem, marked=trio.contact
-        )
+        title, stem = (f"{trio.scenario.title}{word}" for word in (", compared", " compared"))
+        marked = trio.runs["contact"]
+        super().__init__(trio, speed, size, preferences, title=title, stem=stem, marked=marked)
         self.trio, self.plot = trio, DriftPlot()
-        self.arenas = [Arena(mode, self.looks.painter, MEMORY // len(MODES)) for mode in MODES]
+        self._stages = {mode: Stage(self.looks.painter, MEMORY // len(MODES)) for mode in MODES}
         self._ending = Ending(self.player)
         self._dragged: Callable[[Pixel], None] | None = None
-        self.viewpoint = Viewpoint(trio.scenario, self._arranged(size))
+        self.viewpoint = Viewpoint(trio.scenario, self._arrange(self.looks.layout(size)))
         self.toolbar = Toolbar(self._actions, self._is_on, live=True)
 
     def _calls(self) -> object:
-        return [each.world.simulation.calls for each in self.trio.timelines.values()]
+        runs = self.trio.runs.values()
+        return [run.world.simulation.calls for run in runs if isinstance(run, Timeline)]
 
     def _pass_time(self, seconds: float) -> None:
         self.player.pass_time(seconds)
 
     # -- drawing --------------------------------------------------------------------------------
 
-    def _arranged(self, size: tuple[int, int]) -> Layout:
+    def film(self, cut: Cut, size: tuple[int, int], status: str) -> Iterator[pygame.Surface]:
+        """Yield the pictures of a film of a part of the runs, all on one surface of `size` pixels.
+
+        status: the text beside the time.
+        """
+        surface, step = pygame.Surface(size, 0, 32), self.trio.scenario.sampling_time
+        for moment in cut.moments.tolist():
+            while step * self.trio.row < moment - 1e-9 and not self.trio.over:
+                self.trio.advance()
+            self._draw_runs(surface, self.looks.layout(size, 0.0), moment, Status(status))
+            yield surface
+
+    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
+        """Draw the window on a surface; the layout follows its size."""
+        painter, banner = self.looks.painter, self._ending.banner()
+        size, frame, pointer = surface.get_size(), self.player.frame, self._pointer
+        foot = footer_height(banner, size, painter, self.looks.text, self.looks.scale)
+        layout = self.looks.layout(size, foot, controls=True)
+        self._draw_runs(surface, layout, frame.time, Status(*self.player.status()))
+        self._controls.draw(surface, layout, painter, pointer, lambda drag: self._dragged == drag)
+        draw_footer(surface, layout, painter, banner, summary(frame), HINTS)
+        self.toolbar.draw(surface, layout, painter, pointer)
+        if notes:
+            self.notes.draw(surface, layout.plot, painter, time.monotonic())
+        self.help.draw(surface, layout, painter, self._help())
+
+    def _arrange(self, layout: Layout) -> Layout:
         """Give arenas and plot their places; return a layout whose picture is the first arena."""
-        banner = self._ending.banner()
-        painter, text, scale = self.looks.painter, self.looks.text, self.looks.scale
-        foot = footer_height(banner, size, painter, text, scale)
-        whole = self.looks.layout(size, foot, controls=True)
-        painter.ui, ui, room = whole.ui, whole.ui, whole.plot
+        ui, room = layout.ui, layout.plot
         top = room.top + round(TITLE_HEIGHT * ui)
         low = round(min(max(PLOT_SHARE * room.height, MIN_PLOT * ui), 0.5 * room.height))
         xmin, xmax, ymin, ymax = self.trio.scenario.bounds
@@ -82,44 +107,59 @@ class CompareWindow(PlayerWindow):
         wanted = round(max(wide, 1.0) * (ymax - ymin) / (xmax - xmin) + 36 * ui)
         high = max(1, min(wanted, room.bottom - low - top))
         edges = [room.left + round(k * room.width / 3) for k in range(4)]
-        for arena, left, right in zip(self.arenas, edges, edges[1:], strict=False):
-            arena.plot = pygame.Rect(left, top, right - left, high)
+        self.plots = {
+            mode: pygame.Rect(left, top, right - left, high)
+            for mode, left, right in zip(MODES, edges, edges[1:], strict=False)
+        }
         self._plot_place = pygame.Rect(room.left, top + high, room.width, room.bottom - top - high)
-        self._whole = whole
-        return replace(whole, plot=self.arenas[0].plot)
+        return replace(layout, plot=self.plots[MODES[0]])
 
-    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
-        """Draw the window on a surface; the layout follows its size."""
-        layout, painter, trio = self._arranged(surface.get_size()), self.looks.painter, self.trio
-        ui, whole = layout.ui, self._whole
-        self.viewpoint.arrange(layout, trio.scenario)
-        frame = self.player.frame
-        surface.fill(painter.theme.page)
-        first, counts = self.arenas[0].plot, trio.collisions
-        frames = trio.frames(frame.time)
+    def _draw_runs(
+        self, surface: pygame.Surface, layout: Layout, moment: float, status: Status
+    ) -> None:
+        """Draw the header, the arenas and the plot at a time [s]."""
+        painter, trio = self.looks.painter, self.trio
+        theme, painter.ui = painter.theme, layout.ui
+        self.viewpoint.arrange(self._arrange(layout), trio.scenario)
+        surface.fill(theme.page)
+        frames, counts = trio.frames(moment), trio.collisions(moment)
         layers = self.layers if self.player.error is None else self._own_layers()
-        for arena in self.arenas:
-            camera = self.viewpoint.camera.panned(arena.plot.left - first.left, 0)
-            arena.paint(
-                surface, frames[arena.mode], camera, layers, counts[arena.mode],
+        first = self.plots[MODES[0]]
+        for mode, plot in self.plots.items():
+            camera = self.viewpoint.camera.panned(plot.left - first.left, 0)
+            self._stages[mode].draw(
+                surface, frames[mode], camera, layers, plot,
+                free=[pygame.Rect(plot.topleft, (0, 0))],  # legends would cover the robots
                 hurried=self.viewpoint.hurried,
             )  # fmt: skip
-            if arena is not self.arenas[0]:
-                surface.fill(
-                    painter.theme.edge, (arena.plot.left, whole.plot.top, round(ui), first.bottom)
-                )
-        step = trio.scenario.sampling_time
-        times = step, frame.time, step * trio.newest
-        self.plot.draw(surface, self._plot_place, painter, trio.drifts, *times)
-        text, kind = self.player.status()
-        draw_header(surface, whole, painter, frame, Status(text, kind))
-        pointer = self._pointer
-        self._controls.draw(surface, whole, painter, pointer, lambda drag: self._dragged == drag)
-        draw_footer(surface, whole, painter, self._ending.banner(), summary(frame), HINTS)
-        self.toolbar.draw(surface, whole, painter, pointer)
-        if notes:
-            self.notes.draw(surface, whole.plot, painter, time.monotonic())
-        self.help.draw(surface, whole, painter, self._help())
+            self._draw_title(surface, mode, frames[mode], counts[mode])
+            if plot is not first:
+                surface.fill(theme.edge, (plot.left, layout.plot.top, 1, plot.bottom))
+        end = trio.scenario.sampling_time * trio.newest
+        self.plot.draw(surface, self._plot_place, painter, trio.drifts, moment, end)
+        latest = max(frames.values(), key=lambda frame: frame.time)
+        draw_header(surface, layout, painter, latest, status)
+
+    def _draw_title(
+        self, surface: pygame.Surface, mode: str, frame: Frame, collisions: int
+    ) -> None:
+        """Write the physics and the number of collisions above an arena, and what it means."""
+        painter, plot = self.looks.painter, self.plots[mode]
+        ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+        left, right = plot.left + round(44 * ui), plot.right - round(20 * ui)
+        level, done = plot.top - round(TITLE_HEIGHT * ui), counted(collisions, "collision")
+        place = painter.write(
+            surface, mode, 21 * ui, theme.shade(COLORS[mode]), bold=True,
+            midleft=(left, level + 20 * ui),
+        )  # fmt: skip
+        if right - place.right >= fonts.width(done, 17 * ui) + 10 * ui:
+            painter.write(surface, done, 17 * ui, theme.ink, midright=(right, level + 21 * ui))
+        text, color = MEANINGS[mode], theme.muted
+        if frame.over_message:
+            text, color = frame.over_message, theme.text
+        for k, line in enumerate(fonts.wrap(text, 13.5 * ui, right - left, 2)):
+            at = left, level + (43 + 17 * k) * ui
+            painter.write(surface, line, 13.5 * ui, color, midleft=at)
 
     def _help(self) -> list[tuple[str, list[Action]]]:
         """Return the keys that do something here, in their groups."""
@@ -137,11 +177,10 @@ class CompareWindow(PlayerWindow):
     def _point(self, event: pygame.Event) -> None:
         """Handle the mouse on the arenas, the plot and the bars."""
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            handles = [*self._controls.handles, (self.plot.hit, self._scrub)]
+            on_arena = lambda pixel: self._arena_at(pixel) is not None  # noqa: E731
+            handles = [*self._controls.handles, (self.plot.hit, self._scrub), (on_arena, self._pan)]
             self._dragged = next((drag for hit, drag in handles if hit(event.pos)), None)
-            if self._dragged is None and self._arena_at(event.pos) is not None:
-                self._dragged = self._pan
-            elif self._dragged is not None:
+            if self._dragged is not None and self._dragged != self._pan:
                 self._dragged(event.pos)
         elif event.type == pygame.MOUSEBUTTONUP:
             self._dragged = None
@@ -153,13 +192,13 @@ class CompareWindow(PlayerWindow):
             x, y = pygame.mouse.get_pos()
             arena = self._arena_at((x, y))
             if arena is not None:
-                shift = arena.plot.left - self.arenas[0].plot.left
+                shift = arena.left - self.plots[MODES[0]].left
                 self.viewpoint.zoom(wheel_notches(event), (x - shift, y))
 
-    def _arena_at(self, pixel: Pixel) -> Arena | None:
+    def _arena_at(self, pixel: Pixel) -> pygame.Rect | None:
         if self.help.is_open or self.toolbar.covers(pixel):
             return None
-        return next((each for each in self.arenas if each.plot.collidepoint(pixel)), None)
+        return next((plot for plot in self.plots.values() if plot.collidepoint(pixel)), None)
 
     def _pan(self, pixel: Pixel) -> None:
         """Move the pictures; `_point` does it by how far the mouse has moved."""
@@ -181,9 +220,8 @@ class CompareWindow(PlayerWindow):
 
     def _save_picture(self) -> None:
         """Save a picture of the three arenas and the plot."""
-        surface = pygame.Surface(self._whole.size, 0, 32)
-        self.draw(surface, notes=False)
-        plot, head = self._whole.plot, self._whole.header
-        self.saver.picture(
-            surface.subsurface((plot.left, 0, plot.width, head.height + plot.height))
-        )
+        size = self.layout.size
+        surface = pygame.Surface(size, 0, 32)
+        time, status = self.player.frame.time, Status(*self.player.status())
+        self._draw_runs(surface, self.looks.layout(size, 0.0), time, status)
+        self.saver.picture(surface)

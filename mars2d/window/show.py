@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.interrupt import interrupts
+from mars2d.output.figures.comparison import MODES
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.controllers import ByHand
 from mars2d.scenario.examples import examples
@@ -123,9 +124,9 @@ def show_comparison(
     from mars2d.window.screen.memory import Memory
     from mars2d.window.trio import Trio
 
-    memory, trio = Memory(), Trio(opened)
-    CompareWindow(trio, speed, memory.size, preferences or memory.preferences()).run()
-    return trio.records
+    memory, runs = Memory(), {mode: Timeline(opened(mode)) for mode in MODES}
+    CompareWindow(Trio(runs), speed, memory.size, preferences or memory.preferences()).run()
+    return {mode: run.record for mode, run in runs.items()}
 
 
 def _remember(memory: Memory, experiment: Experiment, window: Window) -> None:

@@ -1,18 +1,18 @@
-"""Three runs of an experiment in step, one with each physics, and how far apart they get."""
+"""Three runs of an experiment in step, one with each physics."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import Mars2dError
-from mars2d.output.figures.comparison import MODES
+from mars2d.output.figures.comparison import MODES, Drift, drifts
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame, between
-from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
+from mars2d.window.screen.source import Playback
 from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline
 
@@ -20,30 +20,28 @@ Float = NDArray[np.float64]
 
 
 class Trio:
-    """A source of three timelines that go on and back together.
+    """A source of three runs, live or recorded, that go on and back together.
 
     A run that has ended earlier stands still while others go on. What the source shows is the run
-    with contact, or the longest one where that goes on without it.
-
-    opened: returns the experiment of a physics, with laws that share nothing with the others'.
+    with contact, or the longest one where that goes on without it. runs: by their physics; laws of
+    live ones share nothing.
     """
 
-    def __init__(self, opened: Callable[[str], Experiment]) -> None:
-        """Build the three worlds; no law has been asked yet."""
-        self.timelines: Mapping[str, Timeline] = {mode: Timeline(opened(mode)) for mode in MODES}
+    def __init__(self, runs: Mapping[str, Timeline | Playback]) -> None:
+        self.runs = runs
+        self._begin()
+
+    def _begin(self) -> None:
+        """Begin at the first row, with nothing measured."""
         self.row = 0
         self._before: dict[str, Frame] = {}  # the frames a row earlier, after going on by one
-        self._measure_anew()
+        self._met = {mode: (0, np.zeros(0)) for mode in MODES}  # contacts read, times of collisions
+        self._drifts: tuple[list[int], dict[str, Drift]] = [], {}  # of how many rows
 
     @property
-    def contact(self) -> Timeline:
-        """The run with contact."""
-        return self.timelines["contact"]
-
-    @property
-    def _leading(self) -> Timeline:
+    def _leading(self) -> Timeline | Playback:
         """The run that has got farthest, the one with contact before all others."""
-        return max(self.timelines.values(), key=lambda timeline: timeline.newest)
+        return max(self.runs.values(), key=lambda run: run.newest)
 
     # -- a source -----------------------------------------------------------------------------
 
@@ -60,7 +58,7 @@ class Trio:
     @property
     def contacts(self) -> NDArray[np.void]:
         """The contacts of the run with contact."""
-        return self.contact.contacts
+        return self.runs["contact"].contacts
 
     @property
     def recorded(self) -> Record:
@@ -75,24 +73,21 @@ class Trio:
     @property
     def over(self) -> bool:
         """Whether all runs have come to their ends."""
-        return self.row == self.newest and all(each.over for each in self.timelines.values())
+        return self.row == self.newest and all(run.over for run in self.runs.values())
 
     def advance(self) -> None:
         """Go on by one row in all runs; an error of one is raised after the others have gone on."""
         if self.over:
             return
-        newest = self.newest
-        self._before = {mode: timeline.frame for mode, timeline in self.timelines.items()}
+        self._before = {mode: run.frame for mode, run in self.runs.items()}
         failed: Mars2dError | None = None
-        for mode, timeline in self.timelines.items():
+        for mode, run in self.runs.items():
             try:
-                timeline.advance()
+                run.advance()
             except Mars2dError as error:
                 error.where = ": ".join(filter(None, [f"physics = {mode!r}", error.where]))
                 failed = failed or error
         self.row = min(self.row + 1, self.newest)
-        if self.newest > newest:
-            self._measure()
         if failed is not None:
             raise failed
 
@@ -100,63 +95,42 @@ class Trio:
         """Look at a row, or the nearest one that there is; at the last one of shorter runs."""
         self.row = min(max(row, 0), self.newest)
         self._before = {}
-        for timeline in self.timelines.values():
-            timeline.go(self.row)
+        for run in self.runs.values():
+            run.go(self.row)
 
     def restart(self) -> None:
         """Begin all runs again, with the experiment's file as it is now."""
-        self.row, self._before = 0, {}
-        for timeline in self.timelines.values():
-            timeline.restart()
-        self._measure_anew()
+        for run in self.runs.values():
+            run.restart()
+        self._begin()
 
     # -- side by side -------------------------------------------------------------------------
 
     def frames(self, time: float) -> dict[str, Frame]:
         """Return the frame of each run at a time [s] since the row before the present one."""
-        frames = {}
-        for mode, timeline in self.timelines.items():
-            now, before = timeline.frame, self._before.get(mode)
-            frames[mode] = now if before is None else between(before, now, time)
-        return frames
+        return {
+            mode: between(self._before.get(mode, run.frame), run.frame, time)
+            for mode, run in self.runs.items()
+        }
+
+    def collisions(self, time: float) -> dict[str, int]:
+        """Return how many times two bodies had begun to touch up to a time [s], by physics."""
+        for mode, run in self.runs.items():
+            read, times = self._met[mode]
+            contacts = run.contacts
+            new = contacts[read:]
+            times = np.append(times, np.sort(new["time"][met(new)]))
+            self._met[mode] = len(contacts), times
+        return {
+            mode: int(times.searchsorted(time, side="right"))
+            for mode, (_, times) in self._met.items()
+        }
 
     @property
-    def records(self) -> dict[str, Record]:
-        """The records of the runs so far."""
-        return {mode: timeline.record for mode, timeline in self.timelines.items()}
-
-    @property
-    def collisions(self) -> dict[str, int]:
-        """How many times two bodies had begun to touch up to the present row, by physics."""
-        return {mode: counts[min(self.row, len(counts) - 1)] for mode, counts in self._met.items()}
-
-    @property
-    def drifts(self) -> dict[str, Float]:
-        """The largest and the mean distance of a body from where contact puts it, (T, 2) metres.
-
-        By the physics "stop" and "ideal", at the rows that both runs have.
-        """
-        return {mode: np.array(rows).reshape(-1, 2) for mode, rows in self._drifts.items()}
-
-    def _measure_anew(self) -> None:
-        self._met: dict[str, list[int]] = {mode: [] for mode in MODES}
-        self._drifts: dict[str, list[tuple[float, float]]] = {mode: [] for mode in MODES[1:]}
-        self._measure()
-
-    def _measure(self) -> None:
-        """Count the collisions, and measure how far the runs are apart, at a row that is new."""
-        for mode, timeline in self.timelines.items():
-            counts, began = self._met[mode], int(met(timeline.frame.contacts).sum())
-            if timeline.newest == self.row:
-                counts.append(sum(counts[-1:]) + began)
-        here = _places(self.contact.frame)
-        for mode, rows in self._drifts.items():
-            both = min(self.contact.newest, self.timelines[mode].newest)
-            if len(rows) == self.row <= both:
-                apart = np.hypot(*(_places(self.timelines[mode].frame) - here))
-                rows.append((float(apart.max()), float(apart.mean())))
-
-
-def _places(frame: Frame) -> Float:
-    """Return where the bodies of a frame are, robots first, (2, k) metres."""
-    return np.hstack([frame.pose[:2], frame.prop_pose[:2]])
+    def drifts(self) -> dict[str, Drift]:
+        """The drift of the runs with "stop" and "ideal" so far from that with "contact"."""
+        rows = [run.newest for run in self.runs.values()]
+        if self._drifts[0] != rows:
+            records = {mode: run.recorded for mode, run in self.runs.items()}
+            self._drifts = rows, drifts(records)
+        return self._drifts[1]

@@ -1,33 +1,24 @@
-"""Comparisons: the drift in numbers, the picture and the film."""
+"""Comparisons: the drift in numbers, and the picture."""
 
 from __future__ import annotations
 
 import dataclasses
-import math
 
 import numpy as np
 import pytest
 from matplotlib.text import Text
-from PIL import Image
 
 import mars2d
-from mars2d import InputError, Record, Robot, Scenario
+from mars2d import Record, Robot, Scenario
 from mars2d.output.figures.comparison import (
     COLORS,
     MODES,
-    Comparison,
     Drift,
+    drifts,
     plot_comparison,
     plot_drift,
 )
-from mars2d.output.films.film import save_pictures
-from mars2d.output.films.footage import Footage
-from mars2d.output.films.triptych import triptych
 from mars2d.record.rows import COLUMNS
-from mars2d.scenario.experiment import Experiment
-from mars2d.world.loop import simulate
-
-SIZE = (640, 360)
 
 
 def scenario(**changes):
@@ -56,60 +47,31 @@ def moved(record: Record, shift) -> Record:
     return dataclasses.replace(record, pose=pose)
 
 
+def of(*records: Record) -> dict[str, Record]:
+    return dict(zip(MODES, records, strict=True))
+
+
 @pytest.fixture(scope="module")
-def comparison() -> Comparison:
-    return Comparison(run(0.5), run(0.25), cut(run(1.0), 5))
+def comparison():
+    return of(run(0.5), run(0.25), cut(run(1.0), 5))
 
 
 # -- the drift --------------------------------------------------------------------------------
 
 
-def test_the_drift_is_the_distance_of_each_robot_from_itself():
+def test_the_drift_is_the_distance_of_each_body_from_itself_as_long_as_both_runs_last():
     first = run(0.5)
     shift = np.zeros((len(first), 2, 2))
     shift[:, 0, 0] = 0.75 * first.time
     shift[:, 0, 1], shift[:, 1, 1] = 3.0, 4.0
-    drift = Drift.between(first, moved(first, shift))
-    np.testing.assert_array_equal(drift.time, np.arange(9) * 0.5)
-    np.testing.assert_allclose(drift.distance[:, 0], 0.75 * first.time, atol=1e-12)
-    np.testing.assert_allclose(drift.distance[:, 1], 5.0, atol=1e-12)
+    drift = Drift.between(first, cut(moved(first, shift), 5))
+    np.testing.assert_array_equal(drift.time, [0.0, 0.5, 1.0, 1.5, 2.0])
     np.testing.assert_allclose(drift.max, 5.0, atol=1e-12)
-    np.testing.assert_allclose(drift.mean, 2.5 + 0.375 * first.time, atol=1e-12)
-
-
-def test_the_drift_of_robots_at_two_speeds_grows_by_the_difference(comparison):
-    drift = comparison.drifts["stop"]
-    np.testing.assert_allclose(drift.max, 0.25 * drift.time, atol=1e-9)
-    np.testing.assert_allclose(drift.mean, 0.25 * drift.time, atol=1e-9)
-
-
-def test_the_drift_ends_with_the_run_that_ends_first(comparison):
-    assert comparison.drifts["ideal"].time.tolist() == [0.0, 0.5, 1.0, 1.5, 2.0]
-    assert comparison.drifts["ideal"].distance.shape == (5, 2)
-    assert len(comparison.drifts["stop"].time) == 9
-    assert comparison.end == 4.0
-
-
-def test_the_drift_counts_props_after_the_robots():
-    first = run(0.5)
+    np.testing.assert_allclose(drift.mean, 2.5 + 0.375 * drift.time, atol=1e-12)
     prop = np.zeros((len(first), 3, 1))
     here = dataclasses.replace(first, prop_pose=prop)
     there = dataclasses.replace(first, prop_pose=np.add(prop, [[3.0], [4.0], [0.0]]))
-    drift = Drift.between(here, there)
-    assert drift.distance.shape == (9, 3)
-    np.testing.assert_array_equal(drift.distance, [[0.0, 0.0, 5.0]] * 9)
-    np.testing.assert_allclose(drift.mean, 5 / 3)
-
-
-def test_what_can_not_be_compared_is_told():
-    first = run(0.5)
-    other = mars2d.run(scenario(robots=1), control=lambda world: [[0.5], [0.0]])
-    with pytest.raises(InputError, match="stop: expected the same bodies"):
-        Comparison(first, other, first)
-    with pytest.raises(InputError, match="ideal: expected the sampling time"):
-        Comparison(first, first, run(0.5, sampling_time=0.25))
-    with pytest.raises(InputError, match="stop: the record has no rows"):
-        Comparison(first, cut(first, 0), first)
+    np.testing.assert_allclose(Drift.between(here, there).mean, 5 / 3)
 
 
 # -- the picture ------------------------------------------------------------------------------
@@ -146,7 +108,7 @@ def test_the_curves_are_the_drift_in_the_colours_of_the_titles(comparison):
     assert list(lines) == ["stop, max", "stop, mean", "ideal, max", "ideal, mean"]
     for name, line in lines.items():
         mode, _, kind = name.partition(", ")
-        drift = comparison.drifts[mode]
+        drift = drifts(comparison)[mode]
         np.testing.assert_array_equal(line.get_xdata(), drift.time)
         np.testing.assert_array_equal(line.get_ydata(), getattr(drift, kind))
         assert line.get_color() == colors[mode] == COLORS[mode]
@@ -159,69 +121,8 @@ def axes():
     return Figure().add_subplot()
 
 
-def test_the_scale_is_logarithmic_only_where_a_curve_would_lie_flat():
-    first = run(0.5)
-    slowly = np.broadcast_to(first.time[:, None, None], (9, 2, 2))
-    tiny, near, far = (moved(first, size * slowly) for size in (1e-5, 0.1, 10))
-    for stop, ideal, scale in (
-        (near, near, "linear"), (near, far, "log"), (tiny, far, "log"), (first, far, "linear")
-    ):  # fmt: skip
-        ax = axes()
-        plot_drift(Comparison(first, stop, ideal), ax)
-        assert ax.get_yscale() == scale
-        low, high = ax.get_ylim()
-        for line in ax.lines:
-            assert low <= line.get_ydata()[-1] < high
-
-
 def test_runs_that_agree_say_so():
     first, ax = run(0.5), axes()
-    plot_drift(Comparison(first, first, first), ax)
+    plot_drift(of(first, first, first), ax)
     assert [text.get_text() for text in ax.texts] == ["no drift: the three runs agree"]
     assert ax.get_ylim() == (0, 1)
-
-
-# -- the film ---------------------------------------------------------------------------------
-
-
-def takes(*, speed=2.0, fps=10, steps=(8, 8, 4)):
-    """Return a comparison of three live runs and what a film of it needs."""
-    records, reels = [], {}
-    for mode, last in zip(MODES, steps, strict=True):
-        experiment = Experiment(scenario(stop_time=last * 0.5), straight(0.1 * last))
-        footage = Footage(experiment.scenario, speed, fps)
-        world = simulate(experiment, watchers=[footage])
-        records.append(world.record)
-        reels[mode] = footage, world.frame
-    return Comparison(*records), reels
-
-
-def test_a_film_lasts_as_long_as_the_longest_run(tmp_path):
-    comparison, reels = takes()
-    counts = []
-    save_pictures(triptych(comparison, reels, SIZE), tmp_path / "a.gif", 10, counts.append)
-    frames = 1 + math.ceil(4.0 / 2.0 * 10) + 1  # the first, those after, and the end
-    assert counts == list(range(1, frames + 1))
-    with Image.open(tmp_path / "a.gif") as film:
-        assert film.size == SIZE
-        duration = 0
-        for k in range(film.n_frames):
-            film.seek(k)
-            duration += film.info["duration"]
-    assert duration == 100 * frames
-
-
-def pixels(surface):
-    from pygame.surfarray import array3d
-
-    return array3d(surface).astype(int)
-
-
-def test_a_run_that_ended_earlier_stands_still():
-    comparison, reels = takes()
-    early, late = (
-        pixels(each) for k, each in enumerate(triptych(comparison, reels)) if k in (14, 18)
-    )
-    third, first = np.s_[2 * 1280 // 3 + 1 :, 60:], np.s_[: 1280 // 3, 60:]
-    assert (early[third] == late[third]).all()
-    assert (early[first] != late[first]).any()

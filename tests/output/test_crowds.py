@@ -16,7 +16,7 @@ from mars2d.output.figures.figure import plot_paths, save_drawing
 from mars2d.output.figures.signals import plot_signals
 from mars2d.output.layers import bodies
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.placement import Box, placed_names
+from mars2d.output.layers.placement import placed_names
 from mars2d.output.layers.rings import RING, place_ring
 from mars2d.output.layers.table import of_bodies
 from mars2d.scenario.controllers import ByHand
@@ -68,7 +68,7 @@ def test_names_share_nothing_with_each_other_whoever_is_selected(count, first):
     frame = frame_of(Scenario(robots=robots, workspace=None))
     first = None if first is None else min(first, count - 1)
     scene = placed_names(
-        of_bodies(bodies.draw_name)(frame), frame, 0.012, Box(2, 2, 9, 9), (), first
+        of_bodies(bodies.draw_name)(frame), frame, 0.012, (-7, 11, -7, 11), (), first
     )
     found = list(boxes(scene, 0.012))
     assert len(found) == count
@@ -82,7 +82,7 @@ def test_a_name_stays_at_its_place_as_long_as_that_is_as_good():
     for shift in np.linspace(0, 0.02, 5):  # two robots that pass each other slowly
         robots = [Robot(pose=(0, 0, 0)), Robot(pose=(0.31 + shift, 0, 0))]
         frame = frame_of(Scenario(robots=robots, workspace=None))
-        placed_names(of_bodies(bodies.draw_name)(frame), frame, 0.02, Box(0, 0, 9, 9), last=last)
+        placed_names(of_bodies(bodies.draw_name)(frame), frame, 0.02, (-9, 9, -9, 9), last=last)
         places.append(dict(last))
     assert places[0]
     assert all(place == places[0] for place in places)
@@ -114,7 +114,7 @@ def test_a_crowd_is_coloured_by_name_law_drive_and_size():
 
 
 def meanings(scenario):
-    return {each.layer: [sign.meaning for sign in each.signs] for each in legends(scenario)}
+    return {each.layer: [sign.name for sign in each.signs] for each in legends(scenario)}
 
 
 def test_messages_theory_and_sensors_have_legends_where_they_are_drawn():

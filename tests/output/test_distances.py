@@ -119,25 +119,27 @@ def test_few_pairs_have_a_curve_each_and_the_nearest_obstacle_one():
     record = run(robots=robots, addons=[Map([[(-1, -1), (3, -1)]])])
     ax = record.plot_distances()
     legend = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert legend == [
-        "a \N{EN DASH} b",
-        "a \N{EN DASH} c",
-        "b \N{EN DASH} c",
-        "nearest robot to an obstacle",
-    ]
+    dash = "\N{EN DASH}"
+    assert legend == [f"a {dash} b", f"a {dash} c", f"b {dash} c", "nearest robot to an obstacle"]
     curves = [line for line in ax.lines if len(line.get_xdata()) == len(record)]
     np.testing.assert_allclose([line.get_ydata()[0] for line in curves], [0.7, 1.7, 0.7, 0.85])
+    printed = record.plot_distances(style="print").lines[:4]
+    assert len({(line.get_color(), line.get_linestyle()) for line in printed}) == 4
     assert ax.get_ylabel() == "clearance\n[m]"
     assert ax.get_ylim()[0] < 0 < 1.7 < ax.get_ylim()[1]
 
 
-def test_of_many_there_is_a_band_from_the_least_to_the_most():
+def test_of_many_the_least_the_mean_and_the_most_have_a_curve():
     robots = [Robot(pose=(x * x, 0, 0)) for x in range(1, 6)]  # gaps 3, 5, 7, 9 less 0.3
     record = run(robots=robots)
     nearest = nearest_body(clearances(record), 5)
     np.testing.assert_allclose(nearest[0], np.array([3, 3, 5, 7, 9]) - 0.3)
-    ax = record.plot_distances()
-    least, mean = ax.lines[:2]
-    np.testing.assert_allclose([least.get_ydata()[0], mean.get_ydata()[0]], [2.7, 5.1])
-    (band,) = ax.collections
-    assert band.get_paths()[0].vertices[:, 1].max() == pytest.approx(8.7)
+    first = [line.get_ydata()[0] for line in record.plot_distances().lines[:3]]
+    np.testing.assert_allclose(first, [2.7, 5.1, 8.7])
+
+
+def test_of_a_long_run_some_rows_are_drawn_and_the_axis_says_so(monkeypatch):
+    monkeypatch.setattr("mars2d.output.figures.distances.MAX_DISC_GAPS", 4)
+    ax = run(robots=[Robot(), Robot(pose=(1, 0, 0))], sampling_time=0.1).plot_distances()
+    assert len(ax.lines[0].get_xdata()) == 4
+    assert ax.get_ylabel().endswith("[m, every 3rd row]")

@@ -166,7 +166,7 @@ def test_one_rule_shortens_all_long_arrows_and_the_legend_says_from_where_on():
     for layer in ("forces", "impulses", "velocities"):
         legend = found[layer]
         bound = legend.ruler.in_words(legend.ruler.longest / legend.ruler.unit)
-        assert legend.signs[0].meaning == f"over {bound}"
+        assert legend.signs[0].name == f"over {bound}"
         assert has_cut(legend.signs[0].scene)
         for point in (1e-4, 0.01, 1.0, 100.0):
             assert legend.ruler.sign(point).length <= legend.ruler.longest, "it is not cut itself"

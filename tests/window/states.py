@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pygame
 
+from mars2d.output.figures.comparison import MODES
 from mars2d.output.layers.table import LAYERS
 from mars2d.scenario import save_scenario
 from mars2d.scenario.animation import Animation
@@ -55,8 +56,8 @@ def made_window(
     """
     look = Preferences(dark=dark, text=text)
     if compare is not None:
-        trio = Trio(lambda mode: open_experiment(compare, {"physics": mode}))
-        return CompareWindow(trio, speed, (800, 600), look)
+        runs = {mode: Timeline(open_experiment(compare, {"physics": mode})) for mode in MODES}
+        return CompareWindow(Trio(runs), speed, (800, 600), look)
     made = Quiet(_source(options), speed, (800, 600), look)
     made.silent, made.asks = silent, asks
     if people is not None:
@@ -209,15 +210,15 @@ def of_comparison(window):
     return {
         "time": round(player.frame.time, 3),
         "row": trio.row,
-        "rows": {mode: timeline.row for mode, timeline in trio.timelines.items()},
+        "rows": {mode: run.row for mode, run in trio.runs.items()},
         "newest": trio.newest,
         "playing": player.playing,
         "over": player.over,
-        "collisions": trio.collisions,
+        "collisions": trio.collisions(player.frame.time),
         "scale": round(window.viewpoint.camera.scale, 3),
         "bar": [round(bar.x_of(0), 1), round(bar.x_of(trio.newest), 1), bar._line.centery],
         "span": [*bar.span],
-        "arenas": {arena.mode: arena.plot.center for arena in window.arenas},
+        "arenas": {mode: plot.center for mode, plot in window.plots.items()},
         "graph": [*window.plot.area],
         "buttons": {name: place.center for name, place in window.toolbar.places.items()},
         "dark": window.looks.painter.theme.dark,

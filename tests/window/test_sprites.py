@@ -154,7 +154,7 @@ def test_what_stays_between_two_pictures_is_not_drawn_again(record, monkeypatch)
     def refuse(*arguments, **options):
         raise AssertionError("a shape was drawn again")
 
-    monkeypatch.setattr("mars2d.output.raster.brushes.draw_on", refuse)
+    monkeypatch.setattr("mars2d.output.raster.brushes.layer", refuse)
     assert np.array_equal(pixels(viewer.draw()), pixels(before))
 
 

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import numpy as np
+import pygame
 import pytest
 
+import mars2d
+from mars2d import Robot, Scenario
 from mars2d.core.errors import LawError
-from mars2d.output.figures.comparison import MODES, Comparison
+from mars2d.output.figures.comparison import MODES, drifts
+from mars2d.output.films.footage import Cut
+from mars2d.record.contact import met
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.source import Playback
 from mars2d.window.trio import Trio
+from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.person import differing
 from tests.window.written import Written
@@ -29,7 +36,9 @@ def control(world):
 
 
 def trio_of(source, **options):
-    return Trio(lambda mode: open_experiment(source, options | {"physics": mode}))
+    return Trio(
+        {mode: Timeline(open_experiment(source, options | {"physics": mode})) for mode in MODES}
+    )
 
 
 def to_the_end(trio):
@@ -43,48 +52,31 @@ def to_the_end(trio):
 
 def test_the_runs_are_those_of_runs_alone_and_the_drift_is_that_of_the_comparison():
     trio = to_the_end(trio_of("push_box", stop_time=3))
-    records = trio.records
-    for mode in MODES:
-        alone = open_experiment("push_box", {"physics": mode, "stop_time": 3})
-        import mars2d
-
-        assert mars2d.run(alone.scenario, control=alone.control).digest == records[mode].digest
-    comparison = Comparison(**records)
-    for mode, drift in comparison.drifts.items():
-        rows = len(trio.drifts[mode])
-        assert rows == len(drift.max)
-        np.testing.assert_allclose(trio.drifts[mode][:, 0], drift.max, atol=1e-12)
-        np.testing.assert_allclose(trio.drifts[mode][:, 1], drift.mean, atol=1e-12)
-    assert trio.collisions == {mode: record.collisions for mode, record in records.items()}
+    records = {mode: run.record for mode, run in trio.runs.items()}
+    for mode, record in records.items():
+        alone = mars2d.run("push_box", options={"physics": mode, "stop_time": 3})
+        assert alone.digest == record.digest
+        collisions = [alone.contacts["time"][met(alone.contacts)] <= time for time in (1.5, 3.0)]
+        assert trio.collisions(1.5)[mode] == collisions[0].sum()
+        assert trio.collisions(3.0)[mode] == collisions[1].sum() == alone.collisions
+    for mode, drift in drifts(records).items():
+        np.testing.assert_array_equal(trio.drifts[mode].max, drift.max)
+        np.testing.assert_array_equal(trio.drifts[mode].mean, drift.mean)
 
 
 def test_a_run_that_ends_earlier_stands_still_and_the_others_go_on():
     trio = to_the_end(trio_of("head_on"))
-    rows = {mode: timeline.newest for mode, timeline in trio.timelines.items()}
+    rows = {mode: run.newest for mode, run in trio.runs.items()}
     assert rows["ideal"] < rows["contact"] == trio.row == trio.newest
-    assert len(trio.drifts["ideal"]) == rows["ideal"] + 1
+    assert len(trio.drifts["ideal"].time) == rows["ideal"] + 1
     trio.go(rows["ideal"] - 5)
-    assert {timeline.row for timeline in trio.timelines.values()} == {rows["ideal"] - 5}
+    assert {run.row for run in trio.runs.values()} == {rows["ideal"] - 5}
     trio.go(10**9)
-    assert {mode: timeline.row for mode, timeline in trio.timelines.items()} == rows
+    assert {mode: run.row for mode, run in trio.runs.items()} == rows
     assert trio.over
-
-
-def test_going_back_and_on_measures_nothing_twice_and_all_stay_in_step():
-    trio = trio_of("push_box", stop_time=3)
-    for _ in range(10):
-        trio.advance()
-    before = {mode: drift.copy() for mode, drift in trio.drifts.items()}
-    trio.go(4)
-    for _ in range(6):
-        trio.advance()
-    for mode, drift in trio.drifts.items():
-        np.testing.assert_array_equal(drift, before[mode])
-    trio.advance()
-    assert len(trio.drifts["stop"]) == 12
     trio.restart()
-    assert trio.row == trio.newest == 0
-    assert len(trio.drifts["stop"]) == 1
+    assert trio.row == trio.newest == len(trio.drifts["stop"].time) == 0
+    assert trio.collisions(0.0) == dict.fromkeys(MODES, 0)
 
 
 def test_an_error_names_the_physics_and_the_others_have_gone_on(tmp_path):
@@ -92,7 +84,30 @@ def test_an_error_names_the_physics_and_the_others_have_gone_on(tmp_path):
     trio = trio_of(tmp_path / "mine.py")
     with pytest.raises(LawError, match=r"physics = 'ideal': mine.py, line 9.*too ideal"):
         to_the_end(trio)
-    assert trio.contact.newest == trio.timelines["stop"].newest == 6
+    assert trio.runs["contact"].newest == trio.runs["stop"].newest == 6
+
+
+# -- the film ---------------------------------------------------------------------------------
+
+
+def test_a_film_has_a_picture_for_each_moment_and_a_run_that_ended_stands_still():
+    scenario = Scenario(
+        robots=[Robot(pose=(-2, 0, 0), diameter=0.4)], sampling_time=0.5, stop_time=4.0
+    )
+    records = {
+        mode: mars2d.run(scenario.replace(stop_time=last), control=lambda _: [[0.5], [0.0]])
+        for mode, last in zip(MODES, (4.0, 4.0, 2.0), strict=True)
+    }
+    window = CompareWindow(Trio({mode: Playback(record) for mode, record in records.items()}))
+    pictures = window.film(Cut.of(4.0, 2.0, 10), (1280, 720), "2x")
+    seen = [pygame.surfarray.array3d(picture).astype(int) for picture in pictures]
+    assert len(seen) == 1 + 4.0 / 2.0 * 10 + 1  # the first, those after, and the end
+    plots = window.plots
+    early, late = seen[14], seen[18]
+    for mode, moves in (("contact", True), ("ideal", False)):
+        left, top, width, height = plots[mode]
+        part = np.s_[left + 2 : left + width, top : top + height]
+        assert (early[part] != late[part]).any() == moves
 
 
 # -- the plot -------------------------------------------------------------------------------------
@@ -103,7 +118,7 @@ def test_an_error_names_the_physics_and_the_others_have_gone_on(tmp_path):
 def test_the_arenas_have_the_same_width_and_lie_above_the_plot(size, text):
     window = CompareWindow(trio_of("push_box"), 1, size, Preferences(text=text))
     window.draw(Written(size))
-    plots = [arena.plot for arena in window.arenas]
+    plots = [*window.plots.values()]
     assert max(plot.width for plot in plots) - min(plot.width for plot in plots) <= 1
     assert all(plot.height >= 0.1 * size[1] for plot in plots)
     assert all(plot.bottom <= window._plot_place.top for plot in plots)

@@ -6,15 +6,16 @@ import argparse
 import dataclasses
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import closing
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mars2d.cli.arguments import options_of, preferences_of, shared
 from mars2d.cli.outputs import (
     FPS,
+    SIZE,
     conclude,
     film_speed,
     outcome,
@@ -25,12 +26,11 @@ from mars2d.cli.runs import has_display, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import aligned, tell
-from mars2d.output.figures.comparison import MODES, Comparison
+from mars2d.output.figures.comparison import MODES, Drift, save_comparison
+from mars2d.output.films.footage import Cut
 from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.window.screen.source import Playback
 from mars2d.world.record import Record
-
-if TYPE_CHECKING:
-    from mars2d.output.films.triptych import Reel
 
 FOLDER = Path("mars2d_compare")
 
@@ -54,19 +54,18 @@ def execute(arguments: argparse.Namespace) -> None:
             _show(arguments, opened)
             return
         picture_and_film(arguments, FOLDER, opened("contact").scenario.stop_time)
-    reels: dict[str, Reel] = {}
-    comparison = Comparison(**{mode: _run(opened(mode), mode, arguments, reels) for mode in MODES})
+    records = {mode: _run(opened(mode), mode) for mode in MODES}
     if not arguments.json:
-        tell(_as_table(comparison))
+        tell(_as_table(records))
     makers = {
-        "figure": lambda: comparison.save_figure(arguments.figure),
-        "video": lambda: _save_film(comparison, reels, arguments.video),
+        "figure": lambda: save_comparison(records, arguments.figure),
+        "video": lambda: _save_film(records, arguments),
     }
     made, troubles = produced(arguments, makers)
     if arguments.json:
-        found = {"title": comparison.contact.scenario.title, "seed": comparison.contact.seed}
+        found = {"title": records["contact"].scenario.title, "seed": records["contact"].seed}
         found |= {name: str(path) for name, path in made.items()}
-        found |= {"runs": _outcomes(comparison), "wall_s": round(time.perf_counter() - start, 6)}
+        found |= {"runs": _outcomes(records), "wall_s": round(time.perf_counter() - start, 6)}
         tell(json.dumps(found))
     conclude({} if arguments.json else made, troubles)
 
@@ -90,55 +89,50 @@ def _show(arguments: argparse.Namespace, opened: Callable[[str], Experiment]) ->
     speed = own if arguments.speed is None else arguments.speed
     records = show_comparison(opened, speed, preferences_of(arguments))
     if all(len(record) for record in records.values()):
-        tell(_as_table(Comparison(**records)))
+        tell(_as_table(records))
 
 
-def _run(
-    experiment: Experiment, mode: str, arguments: argparse.Namespace, reels: dict[str, Reel]
-) -> Record:
-    """Run with a physics, which errors name; keep the frames of a film that is wanted."""
-    from mars2d.output.films.footage import Footage
-
-    speed = film_speed(experiment.scenario, arguments.speed)
-    footage = Footage(experiment.scenario, speed, FPS) if arguments.video else None
+def _run(experiment: Experiment, mode: str) -> Record:
+    """Run with a physics, which errors name."""
     try:
-        world = run_headless(experiment, [footage] if footage else [])
+        return run_headless(experiment).record
     except Mars2dError as error:
         error.where = ": ".join(filter(None, [f"physics = {mode!r}", error.where]))
         raise
-    if footage:
-        reels[mode] = footage, world.frame
-    return world.record
 
 
-def _save_film(comparison: Comparison, reels: dict[str, Reel], path: Path) -> None:
+def _save_film(records: dict[str, Record], arguments: argparse.Namespace) -> None:
     from mars2d.output.films.film import save_pictures
-    from mars2d.output.films.triptych import triptych
+    from mars2d.window.compare_window import CompareWindow
+    from mars2d.window.trio import Trio
 
-    count = max(footage.count(last) for footage, last in reels.values())
-    with closing(Progress(count, "frames")) as bar:
-        save_pictures(triptych(comparison, reels), path, FPS, bar.update)
+    speed = film_speed(records["contact"].scenario, arguments.speed)
+    cut = Cut.of(max(float(record.time[-1]) for record in records.values()), speed, FPS)
+    window = CompareWindow(Trio({mode: Playback(record) for mode, record in records.items()}))
+    with closing(Progress(cut.count, "frames")) as bar:
+        pictures = window.film(cut, SIZE, f"{speed:.3g}x")
+        save_pictures(pictures, arguments.video, FPS, bar.update)
 
 
-def _outcomes(comparison: Comparison) -> list[dict[str, Any]]:
+def _outcomes(records: Mapping[str, Record]) -> list[dict[str, Any]]:
     """Return how the runs went, with the final drift from the run with contact, metres."""
     found = []
-    for mode, record in comparison.records.items():
-        drift = comparison.drifts.get(mode)
-        most, mean = (0.0, 0.0) if drift is None else (drift.max[-1], drift.mean[-1])
-        drifted = {"drift_max": float(most), "drift_mean": float(mean)}
+    for mode, record in records.items():
+        drift = Drift.between(records["contact"], record)
+        drifted = {"drift_max": float(drift.max[-1]), "drift_mean": float(drift.mean[-1])}
         found.append({"physics": mode, **drifted, **outcome(record)})
     return found
 
 
-def _as_table(comparison: Comparison) -> str:
+def _as_table(records: Mapping[str, Record]) -> str:
     lines, ends = [("physics", "steps", "collisions", "drift max", "drift mean")], ["ended"]
-    for run in _outcomes(comparison):
+    for run in _outcomes(records):
         apart = ["-", "-"]
-        if run["physics"] in comparison.drifts:  # less than a micrometre is rounding
+        if run["physics"] != "contact":  # less than a micrometre is rounding
             apart = [f"{round(run[name], 6):.3g} m" for name in ("drift_max", "drift_mean")]
         lines.append((run["physics"], f"{run['ticks']}", f"{run['collisions']}", *apart))
         ends.append(run["message"])
-    title = f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}"
+    first = records["contact"]
+    title = f"{first.scenario.title}, seed {first.seed}"
     rows = zip(aligned(lines, left=1), ends, strict=True)
     return "\n".join([title, *("  ".join(row) for row in rows)])

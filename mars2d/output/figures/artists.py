@@ -42,17 +42,20 @@ MARKS: dict[str, tuple[Any, bool, float]] = {
 }
 
 
-def paint(scene: Scene, ax: Axes, *, scale: float = 1.0, level: float = SHAPES) -> None:
+def paint(
+    scene: Scene, ax: Axes, *, scale: float = 1.0, words: float | None = None, level: float = SHAPES
+) -> None:
     """Paint the shapes of a scene on matplotlib axes, in metres, the first one lowest.
 
-    scale: a factor for line widths, marks and text heights [points]. level: the zorder of all
-    shapes. A circle's `pixels` are points of the page. If it also has a radius, they are converted
-    to metres with the present limits of the axes, so set the limits first.
+    scale: a factor for line widths and marks [points]. words: that for the heights of texts, by
+    default the same. level: the zorder of all shapes. A circle's `pixels` are points of the page.
+    If it also has a radius, they are converted to metres with the present limits of the axes, so
+    set the limits first.
     """
     ppm = points_per_metre(ax)
     for shape in scene.shapes:
         if isinstance(shape, Text):
-            _write(shape, ax, scale, level)
+            _write(shape, ax, scale if words is None else words, level)
         elif isinstance(shape, Image):
             _show(shape, ax, level)
         else:

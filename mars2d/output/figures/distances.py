@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations, pairwise
+from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,31 +15,20 @@ from mars2d.core.plane import lines_and_areas
 from mars2d.geometry.shapes import Piece
 from mars2d.output.figures.contacts import pair_name
 from mars2d.output.figures.extent import check_rows
-from mars2d.output.figures.legend import Entry
-from mars2d.output.figures.panels import (
-    caption,
-    curve,
-    name_curves,
-    panels,
-    say,
-    set_span,
-    width_of,
-)
-from mars2d.output.figures.style import Style, style_of
+from mars2d.output.figures.panels import name_curves, panels, say
+from mars2d.output.figures.signals import draw_signals
+from mars2d.output.figures.style import style_of
+from mars2d.output.signals import Signal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from mars2d.record.rows import Rows
-    from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
 
 MAX_CURVES = 6
 """The most pairs with a curve each; for more, a band is drawn."""
-
-MIN_SPAN = 0.05
-"""The least end of the axis, metres: bodies that rest against each other overlap slightly."""
 
 MAX_DISC_GAPS, MAX_PIECE_GAPS = 2e7, 1e6
 """The most distances to compute, between discs and between other shapes; beyond, rows are skipped.
@@ -49,12 +39,12 @@ One takes about 20 ns and 2 us."""
 class Clearances:
     """The gaps between surfaces over time, metres: 0 in contact, negative in overlap.
 
-    rows: (T',), the rows of the record at which they were computed. pairs: (p, 2), bodies, at least
-    one of them a robot. pair: (T', p), the gaps of the pairs. obstacle: (T', n), the gap of each
-    robot to the nearest obstacle or wall, or None if there are none.
+    every: the distance of the rows of the record at which they were computed. pairs: (p, 2),
+    bodies, at least one of them a robot. pair: (T', p), the gaps of the pairs. obstacle: (T', n),
+    the gap of each robot to the nearest obstacle or wall, or None if there are none.
     """
 
-    rows: NDArray[np.intp]
+    every: int
     pairs: NDArray[np.intp]
     pair: Float
     obstacle: Float | None
@@ -68,27 +58,25 @@ def clearances(record: Rows) -> Clearances:
     rounded pieces. Bodies joined by a hinge are left out, since they don't collide. If a run is so
     long that computing all rows would take minutes, only every k-th row is used.
     """
-    scenario = record.scenario
-    n, bodies = len(scenario.robots), scenario.bodies
+    n, bodies = len(record.scenario.robots), record.scenario.bodies
     pairs = [
         (a, b)
         for a, b in combinations(range(len(bodies)), 2)
-        if a < n and (a, b) not in scenario.joined
+        if a < n and (a, b) not in record.scenario.joined
     ]
     is_disc = [all(len(p.vertices) == 1 for p in body.shape.pieces) for body in bodies]
     discs = sum(is_disc[a] and is_disc[b] for a, b in pairs)
-    obstacles = bool(_surfaces(record))
+    scenarios = [record.scenario, *(change.scenario for change in record.changes)]
+    obstacles = any(scenario.surfaces for scenario in scenarios)
     others = len(pairs) - discs + (n if obstacles else 0)
-    stride = max(1.0, len(record) * discs / MAX_DISC_GAPS, len(record) * others / MAX_PIECE_GAPS)
-    rows = np.arange(0, len(record), int(np.ceil(stride)))
-    if rows[-1] != len(record) - 1:
-        rows = np.append(rows, len(record) - 1)
+    every = ceil(len(record) * max(discs / MAX_DISC_GAPS, others / MAX_PIECE_GAPS, 1 / len(record)))
+    rows = np.arange(0, len(record), every)
     placed = _Placed(record, rows)
     gaps = np.empty((len(rows), len(pairs)))
     for k, (a, b) in enumerate(pairs):
         gaps[:, k] = placed.between(a, b)
     to_obstacles = _to_obstacles(record, placed, rows) if obstacles else None
-    return Clearances(rows, np.array(pairs, dtype=np.intp).reshape(-1, 2), gaps, to_obstacles)
+    return Clearances(every, np.array(pairs, dtype=np.intp).reshape(-1, 2), gaps, to_obstacles)
 
 
 class _Placed:
@@ -134,12 +122,6 @@ class _Placed:
         return np.asarray(np.min(gaps, axis=0))
 
 
-def _surfaces(record: Rows) -> list[Scenario]:
-    """Return the scenarios of a run, changes included, that have obstacles or a wall."""
-    scenarios = [record.scenario, *(change.scenario for change in record.changes)]
-    return [scenario for scenario in scenarios if scenario.surfaces]
-
-
 def _to_obstacles(record: Rows, placed: _Placed, rows: NDArray[np.intp]) -> Float:
     """Return the clearance of each robot to its nearest obstacle, (T', n) metres; nan if none."""
     import shapely
@@ -174,7 +156,7 @@ def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen
     """Draw clearances over time: the distances between surfaces, 0 in contact.
 
     Up to six pairs (of robots, or a robot and a prop) have a curve each. For more, the figure shows
-    the minimum, mean and maximum over the robots of the clearance to their nearest body. One more
+    the least, mean and greatest over the robots of the clearance to their nearest body. One more
     curve shows the clearance of the robot nearest to an obstacle or wall. For the definition see
     `clearances`.
 
@@ -183,82 +165,37 @@ def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen
     """
     look = style_of(style)
     check_rows(record)
-    found = clearances(record)
-    few, time = len(found.pairs) <= MAX_CURVES, record.time[found.rows]
+    found, scenario = clearances(record), record.scenario
+    drawn: dict[str, Float] = {}
+    if 0 < len(found.pairs) <= MAX_CURVES:
+        names = [pair_name(scenario, a, b) for a, b in found.pairs.tolist()]
+        drawn = dict(zip(names, found.pair.T, strict=True))
+    elif len(found.pairs):
+        nearest = nearest_body(found, len(scenario.robots))
+        for word, of in (("least", np.min), ("mean", np.mean), ("most", np.max)):
+            drawn[f"to the nearest body, {word}"] = of(nearest, axis=1)
+    if found.obstacle is not None:
+        whose = "nearest robot" if len(scenario.robots) > 1 else "robot"
+        drawn[f"{whose} to an obstacle"] = np.fmin.reduce(found.obstacle, axis=1)
+    unit = "m" if found.every == 1 else f"m, every {ordinal(found.every)} row"
     with look.fonts():
         (ax,) = panels(record, None if ax is None else [ax], ["clearance"], look, [2.2])
-        caption(ax, "clearance", "m", look)
-        curves = _pair_curves if few else _band
-        entries, drawn = curves(ax, record, found, look)
-        if found.obstacle is not None:
-            drawn.append(_least(found.obstacle))
-            whose = "nearest robot" if len(record.scenario.robots) > 1 else "robot"
-            dash = "-." if few and look.greys else "--"
-            grey = "#808080" if look.greys else look.muted
-            entries.append(Entry(f"{whose} to an obstacle", grey, dash, width_of(1, look)))
-        for entry, values in zip(entries[-len(drawn) :], drawn, strict=True):
-            level = 3.0 if entry.dash == "-" else 3.1
-            curve(ax, time, values, entry, many=len(drawn), level=level)
-        if drawn:
-            every = np.concatenate([np.ravel(each) for each in (*drawn, found.pair)])
-            high = max(values[np.isfinite(values)].max(initial=MIN_SPAN) for values in drawn)
-            set_span(ax, every[np.isfinite(every)].min(initial=0.0), high)
-            ax.axhline(0.0, color=look.ink, linewidth=0.8 * look.stroke, zorder=2.5)
-        else:
-            say(ax, "no distances: there is one body and no obstacle", look)
-        title = record.scenario.title
-        if len(found.rows) > 1 and found.rows[1] > 1:
-            title += f", every {ordinal(int(found.rows[1]))} row"
-        name_curves(ax, title, entries, look)
+    if drawn:
+        values = np.stack(list(drawn.values()), axis=1)
+        signal = Signal("clearance", unit, values, (), curves=tuple(drawn))
+        draw_signals(record, [signal], [ax], rows=slice(None, None, found.every), style=style)
+        ax.axhline(0.0, color=look.ink, linewidth=0.8 * look.stroke, zorder=2.5)
+    else:
+        say(ax, "no distances: there is one body and no obstacle", look)
+        name_curves(ax, scenario.title, [], look)
     return ax
-
-
-def _least(gaps: Float) -> Float:
-    """Return the minimum of each row, nan for a row without numbers."""
-    least = np.where(np.isnan(gaps), np.inf, gaps).min(axis=1)
-    return np.where(np.isfinite(least), least, np.nan)
-
-
-def _pair_curves(
-    ax: Axes,  # noqa: ARG001
-    record: Rows,
-    found: Clearances,
-    look: Style,
-) -> tuple[list[Entry], list[Float]]:
-    """Return a curve for each pair."""
-    entries = []
-    for k, (a, b) in enumerate(found.pairs.tolist()):
-        color, dash = look.curve(k)
-        if not look.greys and k % 2:  # so that curves that coincide can both be seen
-            dash = "--"
-        name = pair_name(record.scenario, a, b)
-        entries.append(Entry(name, color, dash, width_of(1, look)))
-    return entries, list(found.pair.T)
 
 
 def nearest_body(found: Clearances, robots: int) -> Float:
     """Return the clearance of each robot to its nearest body, (T', n) metres."""
-    nearest = np.full((len(found.rows), robots), np.inf)
+    nearest = np.full((len(found.pair), robots), np.inf)
     for k, (a, b) in enumerate(found.pairs.tolist()):
         for body in (a, b):
             if body < robots:
                 np.minimum(nearest[:, body], found.pair[:, k], out=nearest[:, body])
     return np.where(np.isfinite(nearest), nearest, np.nan)
-
-
-def _band(
-    ax: Axes, record: Rows, found: Clearances, look: Style
-) -> tuple[list[Entry], list[Float]]:
-    """Draw a band from minimum to maximum; return the legend, and the minimum and the mean."""
-    nearest = nearest_body(found, len(record.scenario.robots))
-    low, mean, high = nearest.min(axis=1), nearest.mean(axis=1), nearest.max(axis=1)
-    color = look.curve(0)[0]
-    pale = "#e0e0e0" if look.greys else "#cfe3f1"
-    ax.fill_between(record.time[found.rows], low, high, color=pale, linewidth=0, zorder=2)
-    width = width_of(1, look)
-    entries = [
-        Entry("robots to their nearest body", pale, "-", 5 * look.stroke),
-        Entry("least of them", color, "-", width),
-        Entry("mean of them", color, ":", width),
-    ]
-    return entries, [low, mean]

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.errors import InputError, shown
 from mars2d.core.files import atomic_write
 from mars2d.core.plane import grid_step
-from mars2d.core.scene import Circle, Line, Polygon, Scene, Shape, Text, faded
+from mars2d.core.scene import Circle, Line, Polygon, Scene, Shape, faded
 from mars2d.output.figures.artists import SHAPES, paint, points_per_metre
 from mars2d.output.figures.extent import View, rows_at
 from mars2d.output.figures.legend import (
@@ -33,7 +33,7 @@ from mars2d.output.layers.arrows import Sign, has_cut
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.impulses import impulses
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.placement import Box, placed_names
+from mars2d.output.layers.placement import AVOIDED, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
@@ -91,54 +91,18 @@ def plot_paths(
     >>> ax.get_xlabel(), ax.get_title()
     ('x [m]', 'Random movements, t = 10 s')
     """
-    look = style_of(style)
-    view = View.of(record, len(record) - 1)
-    record = look.restyled(record)
+    look, last = style_of(style), len(record) - 1
+    view = View.of(record, last)
     layers = layers or layers_of(record.scenario, paths=True)
-    own, last = ax is None, record.frame(len(record) - 1)
     with look.fonts():
-        if ax is None:
-            entries = _entries([last], layers, look, _ppm(look, view))
-            ax = new_figure(*_page(look, view, legend_size(entries, look))).add_subplot()
-            dress(ax, record.scenario, view, look, layers)
-        else:
-            check_axes(ax)
-            if ax.has_data():  # a second record on top of a first one
-                view = view.union((*ax.get_xlim(), *ax.get_ylim()))
-            dress(ax, record.scenario, view, look, layers)
-            entries = _entries([last], layers, look, points_per_metre(ax))
-        label(ax, look=look)
-        _set_title(ax, f"{record.scenario.title}, {_time(float(record.time[-1]))}", look)
-        add_legend(ax, entries, look, **BESIDE)
-        if own:
-            ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
-            show_in_notebooks(ax)
-        paint_frame(ax, last, look, layers)
+        if own := ax is None:
+            ax = new_figure(*_page(look, view)).add_subplot()
+        check_axes(ax)
+        if ax.has_data():  # a second record on top of a first one
+            view = view.union((*ax.get_xlim(), *ax.get_ylim()))
+        title = f"{record.scenario.title}, {_time(float(record.time[-1]))}"
+        _draw([ax], look.restyled(record), [last], view, look, layers, title=title, own=own)
     return ax
-
-
-def _page(
-    look: Style, view: View, legend: tuple[float, float], cols: int = 1, lines: int = 1
-) -> tuple[float, float]:
-    """Return the size of a figure with drawings in columns and lines, and a legend, inches."""
-    if look.page is not None:
-        return look.page
-    one, beside = cols * lines == 1, 0.8 * look.label / SCREEN.label + legend[0]
-    fixed = look.single if one else look.full
-    if fixed is None:
-        room = (5.2, 4.8) if one else (min(3.2, 9.6 / cols),) * 2
-        width, height = view.inches(*room)
-        gap = (0.0, 0.0) if one else (0.25, 0.4)
-        wide, tall = cols * (width + gap[0]), lines * (height + gap[1])
-        return wide + beside, max(tall, legend[1]) + 0.9
-    _, height = view.inches((fixed - beside) / cols - 0.1, 1.5 * fixed)
-    return fixed, max(lines * (height + 0.25), legend[1]) + 0.4
-
-
-def _ppm(look: Style, view: View, cols: int = 1, lines: int = 1) -> float:
-    """Return the points of a metre, approximately, in drawings of a new figure."""
-    wide, tall = _page(look, view, (0.0, 0.0), cols, lines)
-    return 72 * view.inches(0.8 * wide / cols, 0.8 * tall / lines)[0] / view.width
 
 
 def plot_snapshots(
@@ -155,42 +119,85 @@ def plot_snapshots(
     a matplotlib figure to draw on, by default a new one. style, layers: as in `plot_paths`. Returns
     the figure. Raises InputError for a time outside the record, and if the record has no rows.
     """
-    look = style_of(style)
-    rows = rows_at(record, times)
-    with look.fonts():
-        return _snapshots(look.restyled(record), rows, figure, look, layers)
-
-
-def _snapshots(
-    record: Rows, rows: list[int], figure: Figure | None, look: Style, layers: Layers | None
-) -> Figure:
-    scenario = record.scenario
-    view = View.of(record, max(rows))
-    ratio = view.width / view.height
-    cols = _columns(len(rows), ratio, look.page)
+    look, rows = style_of(style), rows_at(record, times)
+    view, layers = View.of(record, max(rows)), layers or layers_of(record.scenario)
+    cols = _columns(len(rows), view.width / view.height, look.page)
     lines = ceil(len(rows) / cols)
-    own, frames = figure is None, [record.frame(row) for row in rows]
-    layers = layers or layers_of(scenario)
-    entries = _entries(frames, layers, look, _ppm(look, view, cols, lines))
-    if figure is None:
-        figure = new_figure(*_page(look, view, legend_size(entries, look), cols, lines))
-    panels = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
-    for unused in panels[len(rows) :]:
-        unused.remove()
-    for k, (ax, row) in enumerate(zip(panels, rows, strict=False)):
-        dress(ax, scenario, view, look, layers)
-        label(ax, below=k + cols >= len(rows), beside=k % cols == 0, look=look)
-        ax.set_title(_time(float(record.time[row])), fontsize=look.label, color=look.ink)
-    add_legend(panels[min(cols, len(rows)) - 1], entries, look, **BESIDE)
-    if look.title:
-        heading = _wrapped(scenario.title, figure.bbox.width / figure.dpi, look)
-        figure.suptitle(heading, fontsize=look.title, color=look.ink, parse_math=False)
-    if own:
-        figure.draw_without_rendering()
-        figure.__dict__["_repr_png_"] = partial(_png, figure)
-    for ax, frame in zip(panels, frames, strict=False):
-        paint_frame(ax, frame, look, layers)
+    with look.fonts():
+        if own := figure is None:
+            figure = new_figure(*_page(look, view, cols=cols, lines=lines))
+        axes = figure.subplots(lines, cols, squeeze=False).ravel().tolist()
+        for unused in axes[len(rows) :]:
+            unused.remove()
+        _draw(axes[: len(rows)], look.restyled(record), rows, view, look, layers, cols, own=own)
     return figure
+
+
+def _draw(
+    axes: Sequence[Axes],
+    record: Rows,
+    rows: Sequence[int],
+    view: View,
+    look: Style,
+    layers: Layers,
+    cols: int = 1,
+    *,
+    title: str = "",
+    own: bool,
+) -> None:
+    """Draw rows on axes in columns, with a legend beside the first line of them.
+
+    title: of the only axes; without it each has its time, and the figure the scenario's title. own:
+    whether the figure is a new one, which is made as large as the legend needs.
+    """
+    figure: Any = axes[0].get_figure()
+    for k, ax in enumerate(axes):
+        dress(ax, record.scenario, view, look, layers)
+        label(ax, below=k + cols >= len(axes), beside=k % cols == 0, look=look)
+    frames = [record.frame(row) for row in rows]
+    entries = _entries(frames, layers, look, points_per_metre(axes[0]))
+    add_legend(axes[min(cols, len(axes)) - 1], entries, look, **BESIDE)
+    if own:
+        lines = ceil(len(axes) / cols)
+        figure.set_size_inches(_page(look, view, legend_size(entries, look), cols, lines))
+    if title and look.title:
+        axes[0].apply_aspect()
+        room = 1.25 * axes[0].get_window_extent().width / figure.dpi
+        heading = _wrapped(title, room, look)
+        axes[0].set_title(heading, fontsize=look.title, color=look.ink, parse_math=False)
+    elif not title:
+        for ax, frame in zip(axes, frames, strict=True):
+            ax.set_title(_time(frame.time), fontsize=look.label, color=look.ink)
+        if look.title:
+            heading = _wrapped(record.scenario.title, figure.bbox.width / figure.dpi, look)
+            figure.suptitle(heading, fontsize=look.title, color=look.ink, parse_math=False)
+    if own:
+        figure.draw_without_rendering()  # the scale is known from the layout
+        show_in_notebooks(axes[0])
+    for ax, frame in zip(axes, frames, strict=True):
+        paint_frame(ax, frame, look, layers)
+
+
+def _page(
+    look: Style,
+    view: View,
+    legend: tuple[float, float] = (0.0, 0.0),
+    cols: int = 1,
+    lines: int = 1,
+) -> tuple[float, float]:
+    """Return the size of a figure with drawings in columns and lines, and a legend, inches."""
+    if look.page is not None:
+        return look.page
+    one, beside = cols * lines == 1, 0.8 * look.label / SCREEN.label + legend[0]
+    fixed = look.single if one else look.full
+    if fixed is None:
+        room = (5.2, 4.8) if one else (min(3.2, 9.6 / cols),) * 2
+        width, height = view.inches(*room)
+        gap = (0.0, 0.0) if one else (0.25, 0.4)
+        wide, tall = cols * (width + gap[0]), lines * (height + gap[1])
+        return wide + beside, max(tall, legend[1]) + 0.9
+    _, height = view.inches((fixed - beside) / cols - 0.1, 1.5 * fixed)
+    return fixed, max(lines * (height + 0.25), legend[1]) + 0.4
 
 
 def save_figure(
@@ -232,11 +239,8 @@ def save_drawing(
     # Without the date, and with ids that are not random.
     dates = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "pdf.fonttype": 42}):
-        figure, made = (
-            draw(),
-            BytesIO(),
-        )  # in memory: on a full disk, errors of matplotlib would hide the cause
-        figure.savefig(
+        made = BytesIO()  # on a full disk, errors of matplotlib would hide the cause
+        draw().savefig(
             made, format=suffix[1:], dpi=dpi, bbox_inches="tight" if trim else None,
             pad_inches=0.1, metadata=dates.get(suffix),
         )  # fmt: skip
@@ -325,48 +329,37 @@ def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SC
 
 def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | None = None) -> None:
     """Paint the layers of a frame; layers: the switches, as in `plot_paths`."""
-    animation = now.scenario.animation
-    layers = layers or layers_of(now.scenario)
+    scenario = now.scenario
+    layers = layers or layers_of(scenario)
     _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
-    scales = _scales(ax, now.scenario, look)
-    words = 0.65 * look.small / SCREEN.small
+    scales, words = _scales(ax, scenario, look), sign_scale(look)
+    arrows: list[Shape] = []
     level = WORKSPACE  # the grid lies between this and the level of all later layers
-    for layer in layers.seen(animation):
+    for layer in layers.seen(scenario.animation):
         if layer.name in ("edge", "obstacles"):
             level = SHAPES
         if layer.shapes is None:
             continue
-        scene = layer.shapes(now)
+        shapes = layer.shapes(now).shapes
+        if layer.name in AVOIDED:
+            arrows += shapes
         if layer.name == "names":
-            scene = _names_apart(scene, ax, now, words, layers)
-        if layer.name == "workspace":  # its edge is a layer of its own
-            scene = Scene([_without_edge(shape) for shape in scene.shapes])
+            part, point = (*ax.get_xlim(), *ax.get_ylim()), words / points_per_metre(ax)
+            shapes = placed_names(Scene(shapes), now, point, part, arrows).shapes
+        elif layer.name == "workspace":  # its edge is a layer of its own
+            areas = [shape for shape in shapes if isinstance(shape, Polygon)]
+            shapes = [replace(area, stroke=None) for area in areas]
         elif layer.name == "trails":
-            scene = _told_apart(now, look)
+            shapes = _told_apart(now, look)
         elif layer.name == "sensors":
-            scene = Scene([_faint(shape) for shape in scene.shapes])
+            shapes = [_faint(shape) for shape in shapes]
         scale = scales.get(layer.name, scales["bodies"])
         texts = scale if layer.name in ("floor", "addons", "theory") else words
         before = len(ax.patches)
-        lines: list[Shape] = [each for each in scene.shapes if not isinstance(each, Text)]
-        paint(Scene(lines), ax, scale=scale, level=level)
-        letters: list[Shape] = [each for each in scene.shapes if isinstance(each, Text)]
-        paint(Scene(letters), ax, scale=texts, level=level)
-        if layer.name == "workspace" and scene.shapes:
+        paint(Scene(shapes), ax, scale=scale, words=texts, level=level)
+        if layer.name == "workspace" and shapes:
             for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
                 line.set_clip_path(ax.patches[before])
-
-
-def _names_apart(names: Scene, ax: Axes, now: Frame, words: float, layers: Layers) -> Scene:
-    """Return the names of bodies, none over another or over a force that is drawn.
-
-    words: the factor for the size of text.
-    """
-    (xmin, xmax), (ymin, ymax) = ax.get_xlim(), ax.get_ylim()
-    view = Box((xmin + xmax) / 2, (ymin + ymax) / 2, (xmax - xmin) / 2, (ymax - ymin) / 2)
-    scenes = [drawn(now) for name, drawn in ARROWS.items() if getattr(layers, name)]
-    others = [shape for scene in scenes for shape in scene.shapes]
-    return placed_names(names, now, words / points_per_metre(ax), view, others)
 
 
 def layers_of(scenario: Scenario, *, paths: bool = False) -> Layers:
@@ -407,41 +400,21 @@ def _scales(ax: Axes, scenario: Scenario, look: Style) -> dict[str, float]:
     return {name: scale * look.stroke for name, scale in scales.items()}
 
 
-def _told_apart(now: Frame, look: Style) -> Scene:
+def _told_apart(now: Frame, look: Style) -> list[Shape]:
     """Return the paths: without colours with a line style for each robot, and paler for many."""
     scenario, styles = now.scenario, None
     if look.greys and scenario.animation.wake_style == "-":
         styles = [look.dash(k) for k in range(len(scenario.robots))]
-    paths = trails(now, styles)
-    if len(scenario.robots) > LEGEND_LIMIT:
-        paths = Scene([_paler(shape) for shape in paths.shapes])
-    return paths
-
-
-def _paler(shape: Shape) -> Shape:
-    """Return a fainter line, so that robots stand out from their paths."""
-    return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
-
-
-def _without_edge(shape: Shape) -> Shape:
-    """Return a polygon's area alone."""
-    return replace(shape, stroke=None) if isinstance(shape, Polygon) else shape
+    paths = trails(now, styles).shapes
+    return paths if len(scenario.robots) <= LEGEND_LIMIT else [_faint(shape) for shape in paths]
 
 
 def _faint(shape: Shape) -> Shape:
-    """Return a sensor's shape with faint lines and areas, so that paths stand out."""
+    """Return a shape with fainter lines and areas, so that what matters more stands out."""
     if isinstance(shape, (Circle, Polygon)) and shape.fill and len(shape.fill) > len("#rrggbb"):
         opacity = int(shape.fill[7:], 16) / 255
         return replace(shape, fill=faded(shape.fill, min(opacity, FAINT_AREA)))
-    return _paler(shape)
-
-
-def _set_title(ax: Axes, title: str, look: Style) -> None:
-    if not look.title:
-        return
-    ax.apply_aspect()
-    room = 1.25 * ax.get_window_extent().width / ax.get_figure().dpi  # type: ignore[union-attr]
-    ax.set_title(_wrapped(title, room, look), fontsize=look.title, color=look.ink, parse_math=False)
+    return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
 
 
 def _wrapped(title: str, room: float, look: Style) -> str:
@@ -499,8 +472,7 @@ def legend_size(entries: Sequence[Entry | Sign], look: Style) -> tuple[float, fl
     """Return the approximate width and height of a legend, inches."""
     if not entries:
         return 0.0, 0.0
-    names = [each.meaning if isinstance(each, Sign) else each.name for each in entries]
-    letters = 0.075 * max(map(len, names)) * look.small / SCREEN.small
+    letters = 0.075 * max(len(each.name) for each in entries) * look.small / SCREEN.small
     wide = letters + (column_width(entries, look) + 1.3 * look.small) / 72
     return wide, len(entries) * 1.5 * look.small / 72
 

@@ -41,12 +41,12 @@ class ToScale(Polygon):
 
     def __init__(self, sign: Sign, scale: float) -> None:
         """Take a sign whose scene is one arrow, and the factor for its size."""
-        super().__init__(np.zeros((1, 2)), facecolor=sign.color, linewidth=0.0)
-        self.sign, self.scale = sign, scale
+        (self.arrow,) = sign.scene.shapes
+        super().__init__(np.zeros((1, 2)), facecolor=self.arrow.fill, linewidth=0.0)  # type: ignore[union-attr]
+        self.length, self.scale = sign.length, scale
 
     def draw(self, renderer: Any) -> None:
         """Draw it at the present scale of the axes."""
-        axes, (shape,) = self.axes, self.sign.scene.shapes
-        half = points_per_metre(axes) * self.sign.length / 2 / self.scale  # type: ignore[arg-type]
-        self.set_xy(arrow_outline((-half, 0.0), (half, 0.0), shape.width))  # type: ignore[union-attr]
+        half = points_per_metre(self.axes) * self.length / 2 / self.scale  # type: ignore[arg-type]
+        self.set_xy(arrow_outline((-half, 0.0), (half, 0.0), self.arrow.width))  # type: ignore[union-attr]
         super().draw(renderer)

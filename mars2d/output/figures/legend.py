@@ -41,7 +41,7 @@ def add_legend(ax: Axes, entries: Sequence[Entry | Sign], look: Style, **place: 
         entry
         if isinstance(entry, Sign)
         else Line2D(
-            [], [], color=entry.color, linestyle=dash_of(entry), linewidth=entry.width,
+            [], [], color=entry.color, linestyle=_dash_of(entry), linewidth=entry.width,
             marker=entry.marker, markersize=0.67 * look.small,
             markerfacecolor="white" if entry.hollow else entry.color,
             markeredgewidth=entry.width if entry.hollow else 0.0,
@@ -49,7 +49,7 @@ def add_legend(ax: Axes, entries: Sequence[Entry | Sign], look: Style, **place: 
         for entry in entries
     ]  # fmt: skip
     legend = ax.legend(
-        handles, ["entry"] * len(entries), frameon=False, fontsize=look.small,
+        handles, [entry.name for entry in entries], frameon=False, fontsize=look.small,
         labelcolor=look.ink, handlelength=column_width(entries, look) / look.small,
         columnspacing=1.2, handletextpad=0.5, labelspacing=0.3,
         handler_map={Sign: SignHandler(sign_scale(look))},
@@ -57,13 +57,11 @@ def add_legend(ax: Axes, entries: Sequence[Entry | Sign], look: Style, **place: 
     )  # fmt: skip
     ax.add_artist(legend)  # a further one of these axes would take its place
     legend.set_clip_on(False)
-    for text, entry in zip(legend.get_texts(), entries, strict=True):
+    for text in legend.get_texts():
         text.set_parse_math(False)
-        # Only now: a legend leaves out labels that begin with "_".
-        text.set_text(entry.meaning if isinstance(entry, Sign) else entry.name)
 
 
-def dash_of(entry: Entry) -> Any:
+def _dash_of(entry: Entry) -> Any:
     """Return an entry's line style, which Matlab and matplotlib name alike."""
     return entry.dash or "none"
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from mars2d.addons.maps import Drawing
 from mars2d.core.scene import PALETTE
 from mars2d.output.figures.extent import View
@@ -71,29 +69,16 @@ def plot_map(drawing: Drawing) -> Figure:
 def _paint(ax: Axes, drawing: Drawing, layer: str, color: str) -> None:
     """Paint the pieces of one layer."""
     import shapely
-    from matplotlib.collections import LineCollection, PathCollection
-    from matplotlib.path import Path as Outline
+    from shapely.plotting import plot_line, plot_polygon
 
-    walls, areas = [], []
-    for piece in drawing.pieces:
-        if piece.layer != layer:
-            continue
-        if piece.geometry.geom_type == "Polygon":
-            rings = [shapely.get_coordinates(r) for r in shapely.get_rings(piece.geometry)]
-            closed = [Outline(ring, closed=True) for ring in rings]
-            areas.append(Outline.make_compound_path(*closed))
-        else:
-            walls.append(np.asarray(shapely.get_coordinates(piece.geometry)))
-    ax.add_collection(
-        PathCollection(
-            areas, facecolor=color, edgecolor=color, linewidth=0.3, alpha=0.85, zorder=2
-        ),
-        autolim=False,
-    )
-    ax.add_collection(
-        LineCollection(walls, colors=color, linewidth=1.2, capstyle="round", zorder=2),
-        autolim=False,
-    )
+    pieces = [piece.geometry for piece in drawing.pieces if piece.layer == layer]
+    areas = [piece for piece in pieces if piece.geom_type == "Polygon"]
+    walls = [piece for piece in pieces if piece.geom_type != "Polygon"]
+    look = {"ax": ax, "add_points": False, "color": color, "zorder": 2}
+    if areas:
+        plot_polygon(shapely.MultiPolygon(areas), linewidth=0.3, alpha=0.85, **look)
+    if walls:
+        plot_line(shapely.MultiLineString(walls), linewidth=1.2, capstyle="round", **look)
 
 
 def _short(name: str) -> str:

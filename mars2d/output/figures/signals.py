@@ -39,6 +39,9 @@ Float = NDArray[np.float64]
 
 DEFAULT = ("x", "y", "theta", "command")
 
+LEAST_SPANS = {"effort": (0.0, 1.0), "speed": (0.0, 0.0), "clearance": (0.0, 0.05)}
+"""The values that the axis of a column has at least; bodies at rest overlap slightly."""
+
 MAX_MARKS = 100
 """The most interventions that are marked."""
 
@@ -170,12 +173,15 @@ def _draw(ax: Axes, record: Rows, rows: slice, signal: Signal, look: Style) -> N
     add_legend(ax, entries, look, **BESIDE)
     entries = entries or [_entry(record, signal.bodies[k // each], look, many) for k in range(many)]
     for k, entry in enumerate(entries):
-        curve(ax, times, values[:, k], entry, held=signal.held, many=many, wraps=signal.wraps)
+        level = 3.0 if entry.dash == "-" else 3.1
+        curve(
+            ax, times, values[:, k], entry, held=signal.held, many=many, wraps=signal.wraps,
+            level=level,
+        )  # fmt: skip
     finite = values[np.isfinite(values)]
     if not len(finite):
         say(ax, "nothing was measured", look)
-    low = 0.0 if signal.name.split(".")[-1] in ("effort", "speed") else np.inf
-    high = 1.0 if signal.name == "effort" else -np.inf
+    low, high = LEAST_SPANS.get(signal.name.split(".")[-1], (np.inf, -np.inf))
     set_span(ax, min(low, finite.min(initial=np.inf)), max(high, finite.max(initial=-np.inf)))
 
 
@@ -194,9 +200,11 @@ def _entry(record: Rows, body: int, look: Style, many: int) -> Entry:
 def _own_entries(signal: Signal, look: Style) -> list[Entry]:
     """Return the styles and names of the curves of a signal that belong to no body."""
     width = width_of(len(signal.curves), look, LEGEND_LIMIT)
-    first = [Entry(name, look.ink, "-", width) for name in signal.curves[:1]]
-    rest = enumerate(signal.curves[1:])
-    return first + [Entry(name, *look.curve(k), width) for k, name in rest]
+    looks = [look.curve(k) for k in range(len(signal.curves))]
+    if not look.greys:  # dashes, so that curves that coincide can both be seen
+        colors = [look.ink, *(color for color, _ in looks)]
+        looks = [(color, "--" if k % 2 else "-") for k, color in enumerate(colors)]
+    return [Entry(name, *each, width) for name, each in zip(signal.curves, looks, strict=False)]
 
 
 def _entries(
@@ -232,8 +240,6 @@ def _flags(
     ax: Axes, record: Rows, times: Float, signal: Signal, values: Float, look: Style
 ) -> None:
     """Draw bars where flags (T, rows) are True, one row each, the first on top."""
-    from matplotlib.collections import PolyCollection
-
     count = values.shape[1]
     each = count // max(1, len(signal.bodies))
     step = record.scenario.sampling_time
@@ -245,10 +251,9 @@ def _flags(
         edges = np.diff(np.concatenate([[False], values[:, k], [False]]).astype(np.int8))
         first, last = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
         begin, end = spans(times[first], times[last] + step, least)
-        low, high = count - 1 - k + 0.15, count - k - 0.15
-        bars = [[(b, low), (e, low), (e, high), (b, high)] for b, e in zip(begin, end, strict=True)]
         color = look.colors(record.scenario)[body]
-        ax.add_collection(PolyCollection(bars, facecolor=color, linewidth=0, zorder=3))
+        bars = list(zip(begin.tolist(), (end - begin).tolist(), strict=True))
+        ax.broken_barh(bars, (count - 0.85 - k, 0.7), facecolor=color, linewidth=0, zorder=3)
     caption(ax, signal.name, "", look)
     name_rows(ax, [plain_name(n) for n in names] if count <= look.rows else [], count)
     if not values.any():

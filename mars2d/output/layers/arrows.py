@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.scene import INK, Anchor, Line, Scene
+from mars2d.core.scene import Anchor, Line, Scene
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -96,15 +96,14 @@ def usual_length(scenario: Scenario, diameters: float, share: float) -> float:
 
 
 class Sign(NamedTuple):
-    """A sign and its meaning. scene: round (0, 0), in points. room: its width, points.
+    """A sign in a legend, and its name. scene: round (0, 0), in points. room: its width, points.
 
-    color: of the words, where they are not on a plate. length: of an arrow to scale, metres.
+    length: of an arrow to scale, metres.
     """
 
     scene: Scene
     room: float
-    meaning: str
-    color: str = INK
+    name: str
     length: float = 0.0
 
 
@@ -136,14 +135,14 @@ class Ruler(NamedTuple):
         metres, scene = number * self.unit, Scene()
         start, way = np.array([-0.5, 0.0]) * metres / point, np.array([metres / point, 0.0])
         arrow(scene, start, way, fill=self.color, width=self.width)
-        return Sign(scene, metres / point, self.in_words(number), self.color, metres)
+        return Sign(scene, metres / point, self.in_words(number), metres)
 
     @property
     def limit(self) -> Sign:
         """The sign of an arrow that is drawn shorter than it is, as it stands for too much."""
         scene, way = Scene(), np.array([32.0, 0.0])
         arrow(scene, -way / 2, way, fill=self.color, width=self.width, shortened=True)
-        return Sign(scene, 36.0, f"over {self.in_words(self.longest / self.unit)}", self.color)
+        return Sign(scene, 36.0, f"over {self.in_words(self.longest / self.unit)}")
 
 
 def round_force(most: float) -> float:

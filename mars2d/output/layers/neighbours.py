@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from mars2d.core.scene import Line, Scene
 from mars2d.core.usercode import called
 from mars2d.record.frame import Frame
-from mars2d.scenario.neighbours import Everyone, Neighbourhood
+from mars2d.scenario.neighbours import Everyone
 
 LINK = "#aab1b9"
 """The colour of a link, opaque: hundreds of long faint lines would be slow to draw."""
@@ -29,17 +29,11 @@ class Links:
 
     def __call__(self, frame: Frame) -> Scene:
         """Return the links of a frame."""
-        ends = frame.pose[:2].T[self._pairs_of(frame)]  # (k, 2, 2)
-        return Scene([Line(pair, LINK) for pair in ends])
-
-    def _pairs_of(self, frame: Frame) -> NDArray[np.int_]:
-        """Return the pairs (k, 2) that are linked."""
         asked = self._asked  # replaced as a whole: frames may be drawn in several threads
-        if asked is not None and _same_neighbours(asked[0], frame):
-            return asked[1]
-        found = _linked(frame.scenario.neighbours, _sensed(frame)[:2])
-        self._asked = frame, found
-        return found
+        if asked is None or not _same_neighbours(asked[0], frame):
+            self._asked = asked = frame, _linked(frame)
+        ends = frame.pose[:2].T[asked[1]]  # (k, 2, 2)
+        return Scene([Line(pair, LINK) for pair in ends])
 
 
 def _sensed(frame: Frame) -> NDArray[np.float64]:
@@ -49,18 +43,16 @@ def _sensed(frame: Frame) -> NDArray[np.float64]:
 
 def _same_neighbours(one: Frame, other: Frame) -> bool:
     """Return whether two frames show the same control step of a run, or a graph that is fixed."""
-    if one.scenario is not other.scenario:
-        return False
     same_step = _sensed(one) is _sensed(other) and len(one.path) == len(other.path)
-    return one.scenario.neighbours.fixed or same_step
+    return one.scenario is other.scenario and (one.scenario.neighbours.fixed or same_step)
 
 
-def _linked(rule: Neighbourhood, position: NDArray[np.float64]) -> NDArray[np.int_]:
-    """Return the pairs (k, 2) of neighbours at positions (2, n)."""
-    pairs: set[tuple[int, int]] = set()
+def _linked(frame: Frame) -> NDArray[np.int_]:
+    """Return the pairs (k, 2) of neighbours at the last control step."""
+    rule, pairs = frame.scenario.neighbours, set()
     if not isinstance(rule, Everyone):
         with called("Scenario.neighbours", rule.of):
-            found = rule.of(position)
+            found = rule.of(_sensed(frame)[:2])
         pairs = {(min(i, j), max(i, j)) for i, row in enumerate(found) for j in row}
     return np.array(sorted(pairs)[:MAX_LINKS], dtype=int).reshape(-1, 2)
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.scene import INK, Arrow, Scene, Shape, Text
 from mars2d.output.layers.rings import RING, has_ring
@@ -27,6 +27,9 @@ WAYS = [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0),
 
 PLACES = np.array([(ring, *way) for ring in range(RINGS) for way in WAYS])
 """All places (48, 3), the best first: the ring, and the way to it."""
+
+AVOIDED = ("velocities", "impulses", "forces")
+"""The layers whose arrows and numbers names don't cover."""
 
 SELECTED = 11.0
 """How far the ring of a selected body lies outside of it, points."""
@@ -49,7 +52,7 @@ def placed_names(
     names: Scene,
     frame: Frame,
     metres_per_point: float,
-    view: Box,
+    bounds: tuple[float, float, float, float],
     others: Sequence[Shape] = (),
     first: int | None = None,
     last: dict[int, int] | None = None,
@@ -58,10 +61,10 @@ def placed_names(
 
     names: a text for each body; anything else stays where it is. A name that has room above its
     body stands there; one that finds no room beside it has a thin line to it. metres_per_point: how
-    long a point of a text's height is. view: what is shown; names of bodies beyond stay as they
-    are. others: arrows and texts that are there already. first: the selected body, which has a
-    ring: its name is placed before all others. last: the places by body in the picture before,
-    which are kept where they are as good as others; it is updated.
+    long a point of a text's height is. bounds: (xmin, xmax, ymin, ymax) of what is shown, metres;
+    names of bodies beyond stay as they are. others: arrows and texts that are there already. first:
+    the selected body, which has a ring: its name is placed before all others. last: the places by
+    body in the picture before, which are kept where they are as good as others; it is updated.
     """
     bodies = [_bound(frame, i, metres_per_point) for i in range(len(frame.scenario.bodies))]
     ringed = [has_ring(frame.scenario, i) or i == first for i in range(len(bodies))]
@@ -72,25 +75,30 @@ def placed_names(
     if not bodies or len(labels) != len(bodies):
         return names
     half = [_half(label, metres_per_point) for label in labels]
+    covering = [each for each in others if isinstance(each, (Arrow, Text))]
+    fixed = np.array([_box_of(each, metres_per_point) for each in covering]).reshape(-1, 4)
+    xmin, xmax, ymin, ymax = bounds
+    view = Box((xmin + xmax) / 2, (ymin + ymax) / 2, (xmax - xmin) / 2, (ymax - ymin) / 2)
+    discs, seen_part = np.array(bodies), np.array([view])
     above = _boxes(bodies, half, PLACES[:1])[:, 0]
-    fixed = [_box_of(each, metres_per_point) for each in others if isinstance(each, (Arrow, Text))]
-    discs, frame_of = np.array(bodies), np.array([view])
-    chosen = np.zeros(len(bodies), dtype=int)
-    seen = (abs(discs[:, 0] - view.x) <= view.wide) & (abs(discs[:, 1] - view.y) <= view.high)
-    free = _is_free(above, discs, fixed, view)
+    mutual = _overlaps(above, above)
+    np.fill_diagonal(mutual, 0.0)
+    cost = mutual.sum(axis=1) + _cost(above, fixed, discs, seen_part)
+    free = cost <= CLEAR * 4 * above[:, 2] * above[:, 3]
     if first is not None:
         free[first] = True
-    crowded = [i for i in np.flatnonzero(seen & ~free).tolist() if i != first]
-    taken = [Box(*box) for box in above[seen & free].tolist()] + fixed
-    for i in crowded:
-        boxes = _boxes([bodies[i]], [half[i]], PLACES)[0]
-        cost = _cost(boxes, np.array(taken).reshape(-1, 4), discs, frame_of)
-        wide, high = half[i]
-        kept = None if last is None else last.get(i)
-        if kept is not None:
-            cost[kept] -= STAYS * 4 * wide * high
+    seen = (abs(discs[:, 0] - view.x) <= view.wide) & (abs(discs[:, 1] - view.y) <= view.high)
+    crowded = np.flatnonzero(seen & ~free).tolist()
+    chosen = np.zeros(len(bodies), dtype=int)
+    taken = np.vstack([above[seen & free], fixed])
+    for i, boxes in zip(
+        crowded, _boxes(discs[crowded], np.array(half)[crowded], PLACES), strict=True
+    ):
+        cost = _cost(boxes, taken, discs, seen_part)
+        if last is not None and i in last:
+            cost[last[i]] -= STAYS * 4 * half[i][0] * half[i][1]
         chosen[i] = int(np.argmin(cost))
-        taken.append(Box(*boxes[chosen[i]].tolist()))
+        taken = np.vstack([taken, boxes[chosen[i]]])
     if last is not None:
         last.clear()
         last.update({i: int(chosen[i]) for i in crowded})
@@ -148,10 +156,10 @@ def _bound(frame: Frame, body: int, metres_per_point: float) -> Box:
     return Box(x + ahead * c - left * s, y + ahead * s + left * c, radius, radius)
 
 
-def _boxes(bodies: Iterable[Box], half: Iterable[tuple[float, float]], places: Float) -> Float:
-    """Return the boxes (n, k, 4) of names at k places beside their bodies."""
-    x, y, far, _ = np.array(list(bodies)).T[:, :, None]
-    wide, high = np.array(list(half)).T[:, :, None]
+def _boxes(bodies: ArrayLike, half: ArrayLike, places: Float) -> Float:
+    """Return the boxes (n, k, 4) of names at k places beside their bodies (n, 4)."""
+    x, y, far, _ = np.asarray(bodies).T[:, :, None]
+    wide, high = np.asarray(half).T[:, :, None]
     ring, across, up = places.T[:, None]
     gap = (2 * ring + 0.3) * high
     made = (x + across * (far + gap + wide), y + up * (far + gap + high), wide, high)
@@ -163,19 +171,7 @@ def _overlaps(boxes: Float, others: Float) -> Float:
     (x, y, wide, high), (u, v, w, h) = boxes.T[:, :, None], others.T[:, None]
     across = np.minimum(x + wide, u + w) - np.maximum(x - wide, u - w)
     along = np.minimum(y + high, v + h) - np.maximum(y - high, v - h)
-    return np.asarray(np.clip(across, 0, None) * np.clip(along, 0, None))
-
-
-def _is_free(boxes: Float, bodies: Float, fixed: Sequence[Box], view: Box) -> NDArray[np.bool_]:
-    """Return which boxes (n, 4) share nothing with each other, bodies or others, and are seen."""
-    mutual = _overlaps(boxes, boxes)
-    np.fill_diagonal(mutual, 0.0)
-    shared = mutual.sum(axis=1) + _overlaps(boxes, bodies).sum(axis=1)
-    if fixed:
-        shared += _overlaps(boxes, np.array(fixed)).sum(axis=1)
-    area = 4 * boxes[:, 2] * boxes[:, 3]
-    outside = area - _overlaps(boxes, np.array([view]))[:, 0]
-    return np.asarray(shared + outside <= CLEAR * area)
+    return np.asarray(np.maximum(across, 0.0) * np.maximum(along, 0.0))
 
 
 def _cost(boxes: Float, taken: Float, bodies: Float, view: Float) -> Float:

@@ -13,7 +13,6 @@ from mars2d.output.raster.layout import FOOTER, Layout, interface_scale
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Tone
 from mars2d.record.frame import Frame
-from mars2d.scenario.scenario import Scenario
 
 Kind = Literal["running", "waiting", "past", "hand", "error"]
 
@@ -66,56 +65,30 @@ def draw_header(
     ui, bar, fonts, theme = layout.ui, layout.header, painter.fonts, painter.theme
     surface.fill(theme.bar, bar)
     surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
-    pad, gap = round(20 * ui), round(24 * ui)
-    right = bar.right - pad
+    pad, gap, space = round(20 * ui), round(24 * ui), round(8 * ui)
+    right, scenario, title = bar.right - pad, frame.scenario, frame.scenario.title
     if status is not None:
         right = _chip(surface, painter, status, right, bar, ui) - gap
-    digits = decimals(frame.scenario)
-    longest = f"{frame.scenario.stop_time:.{digits}f} s"
+    step = scenario.sampling_time  # two of which the decimals tell apart
+    digits = next((k for k in (1, 2) if abs(round(step, k) - step) < 1e-9), 3)
+    longest = f"{scenario.stop_time:.{digits}f} s"
     longest = longest if len(longest) < 12 else "00000.00 s"
-    time = _Figure("time", f"{frame.time:.{digits}f} s", longest)
-    longest = "0" * len(str(frame.scenario.last_iteration))
-    step = _Figure("step", str(frame.iteration), longest)
-    title_width = fonts.width(frame.scenario.title, 20 * ui, bold=True)
-    needed = time.width(painter, ui) + min(MIN_TITLE_WIDTH * ui, title_width) + 2 * gap + pad
-    if right - step.width(painter, ui) >= needed:
-        right = step.draw(surface, painter, right, bar, ui) - gap
-    right = time.draw(surface, painter, right, bar, ui)
-    room = right - pad - gap
-    title = fonts.shorten(frame.scenario.title, 20 * ui, room, bold=True)
-    if len(title) > 3 or title == frame.scenario.title:
-        painter.write(surface, title, 20 * ui, theme.ink, bold=True, midleft=(pad, bar.centery))
-
-
-def decimals(scenario: Scenario) -> int:
-    """Return the number of decimals that tell two sampling times apart: 1 to 3."""
-    step = scenario.sampling_time
-    return next((k for k in (1, 2) if abs(round(step, k) - step) < 1e-9), 3)
-
-
-@dataclass(frozen=True, slots=True)
-class _Figure:
-    """A name and its value; longest: the widest value, which keeps the name in one place."""
-
-    name: str
-    value: str
-    longest: str
-
-    def width(self, painter: Painter, ui: float) -> int:
-        fonts = painter.fonts
-        value = max(fonts.width(text, 18 * ui) for text in (self.value, self.longest))
-        return value + round(8 * ui) + fonts.width(self.name, 14 * ui)
-
-    def draw(
-        self, surface: pygame.Surface, painter: Painter, right: int, bar: pygame.Rect, ui: float
-    ) -> int:
-        """Draw it and return its left end."""
-        theme = painter.theme
-        place = right, bar.centery
-        left = painter.write(surface, self.value, 18 * ui, theme.ink, midright=place).left
-        left = min(left, right - painter.fonts.width(self.longest, 18 * ui)) - round(8 * ui)
-        place = left, bar.centery + round(ui)
-        return painter.write(surface, self.name, 14 * ui, theme.muted, midright=place).left
+    values = {  # each with the widest one, which keeps the name in its place
+        "time": (f"{frame.time:.{digits}f} s", longest),
+        "step": (str(frame.iteration), "0" * len(str(scenario.last_iteration))),
+    }
+    widest = {key: max(fonts.width(text, 18 * ui) for text in two) for key, two in values.items()}
+    wide = sum(each + space + fonts.width(name, 14 * ui) for name, each in widest.items())
+    least = min(MIN_TITLE_WIDTH * ui, fonts.width(title, 20 * ui, bold=True))
+    if right < wide + least + 2 * gap + pad:
+        del values["step"]
+    for name, (value, _) in reversed(values.items()):
+        painter.write(surface, value, 18 * ui, theme.ink, midright=(right, bar.centery))
+        place = right - widest[name] - space, bar.centery + round(ui)
+        right = painter.write(surface, name, 14 * ui, theme.muted, midright=place).left - gap
+    shown = fonts.shorten(title, 20 * ui, right - pad, bold=True)
+    if len(shown) > 3 or shown == title:
+        painter.write(surface, shown, 20 * ui, theme.ink, bold=True, midleft=(pad, bar.centery))
 
 
 def _chip(

@@ -1,4 +1,4 @@
-"""Brushes: functions that draw shapes, in pixels, several times enlarged.
+"""Shapes drawn with smooth edges, in pixels.
 
 A shape that is drawn enlarged on a surface of its own and averaged by `smoothscale` has exact
 coverage, for any shape, width and opacity.
@@ -6,7 +6,7 @@ coverage, for any shape, width and opacity.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from math import ceil, floor
 
@@ -18,8 +18,6 @@ from mars2d.output.raster.strokes import clip_lines, hairlines
 
 Float = NDArray[np.float64]
 Rgba = tuple[int, int, int, int]
-Draw = Callable[[pygame.Surface, float, float, float, Rgba], None]
-"""Draws on a surface that is enlarged by `factor`, with its corner at (left, top)."""
 LARGE_AREA = 40_000
 """The area from which lines are drawn without enlargement, pixels."""
 
@@ -48,6 +46,61 @@ def extent_of(points: Float, margin: float) -> pygame.Rect:
     return pygame.Rect(left, top, right - left, bottom - top)
 
 
+class Enlarged:
+    """A surface on which shapes are drawn `factor` times larger, with its corner at (left, top)."""
+
+    def __init__(self, surface: pygame.Surface, left: float, top: float, factor: float) -> None:
+        self.surface, self.corner, self.factor = surface, (left, top), factor
+
+    def _placed(self, points: Float) -> list[tuple[float, float]]:
+        """Return points on the enlarged surface; pygame's pixel centres are whole numbers."""
+        placed: list[tuple[float, float]] = ((points - self.corner) * self.factor - 0.5).tolist()
+        return placed
+
+    def disc(self, color: Rgba, x: float, y: float, radius: float, width: float = 0.0) -> None:
+        """Draw a disc, or with a width a ring within the radius."""
+        # Unlike lines and polygons, circles are centred on the corners between pixels.
+        left, top = self.corner
+        center = round((x - left) * self.factor), round((y - top) * self.factor)
+        # A width of 0 would fill the ring.
+        thick = max(1, round(width * self.factor)) if width > 0 else 0
+        pygame.draw.circle(self.surface, color, center, max(radius * self.factor, 0.5), thick)
+
+    def polygon(self, color: Rgba, points: Float) -> None:
+        """Fill a polygon (k, 2)."""
+        if len(points) > 2:
+            pygame.draw.polygon(self.surface, color, self._placed(points))
+
+    def box(self, color: Rgba, box: pygame.Rect, radius: float) -> None:
+        """Fill a box with round corners."""
+        (left, top), factor = self.corner, self.factor
+        place = pygame.Rect(
+            (box.left - left) * factor, (box.top - top) * factor,
+            box.width * factor, box.height * factor,
+        )  # fmt: skip
+        pygame.draw.rect(self.surface, color, place, border_radius=round(radius * factor))
+
+    def lines(self, color: Rgba, pieces: Sequence[Float], width: float) -> None:
+        """Draw polylines (k, 2) with round joints and ends."""
+        thick = max(1, round(width * self.factor))
+        for piece in pieces:
+            points = self._placed(piece)
+            if len(points) > 1:
+                pygame.draw.lines(self.surface, color, False, points, thick)
+            if thick > 2:
+                for x, y in points:  # round joints and ends
+                    center = round(x + 0.5), round(y + 0.5)
+                    pygame.draw.circle(self.surface, color, center, thick / 2)
+
+    def hairlines(self, color: Rgba, pieces: Sequence[Float], width: float) -> None:
+        """Draw polylines that span much of the picture, without enlargement."""
+        for piece in pieces:
+            hairlines(self.surface, color, (piece - self.corner) * self.factor - 0.5, width)
+
+
+Draw = Callable[[Enlarged], object]
+
+
 def cover(
     surface: pygame.Surface, color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0
 ) -> None:
@@ -60,28 +113,15 @@ def cover(
 def layer(color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 0) -> pygame.Surface:
     """Return a transparent surface of the size of `box`, with a drawing on it.
 
-    factor: the scale at which it is drawn before it is averaged; 0 chooses by the size.
+    color: of its edge, so that averaging changes the opacity alone. factor: the scale at which it
+    is drawn before it is averaged; 0 chooses by the size.
     """
     if factor == 0:
         factor = 4 if box.width * box.height < 250_000 else 2
     large = pygame.Surface((box.width * factor, box.height * factor), pygame.SRCALPHA, 32)
-    draw_on(large, color, box, draw, factor)
-    return large if factor == 1 else pygame.transform.smoothscale(large, box.size)
-
-
-def draw_on(
-    large: pygame.Surface, color: Rgba, box: pygame.Rect, draw: Draw, factor: int = 1
-) -> None:
-    """Draw within `box` on a surface that is `factor` times larger."""
-    # The colour without opacity, so that averaging changes the opacity alone.
     large.fill((*color[:3], 0))
-    draw(large, box.left, box.top, factor, color)
-
-
-def scaled(points: Float, left: float, top: float, factor: float) -> list[tuple[float, float]]:
-    """Return points on the enlarged surface; pygame's pixel centres are whole numbers."""
-    large: list[tuple[float, float]] = ((points - (left, top)) * factor - 0.5).tolist()
-    return large
+    draw(Enlarged(large, box.left, box.top, factor))
+    return large if factor == 1 else pygame.transform.smoothscale(large, box.size)
 
 
 def in_sight(surface: pygame.Surface) -> tuple[float, float, float, float]:
@@ -96,76 +136,16 @@ def ring(x: float, y: float, radius: float) -> Float:
     return np.column_stack([x + radius * np.cos(angles), y + radius * np.sin(angles)])
 
 
-def disc(x: float, y: float, radius: float, width: float = 0.0) -> Draw:
-    """Return a brush for a disc, or with a width for a ring within the radius."""
-
-    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
-        # Unlike lines and polygons, circles are centred on the corners between pixels.
-        center = (round((x - left) * factor), round((y - top) * factor))
-        # A width of 0 would fill the ring.
-        thick = max(1, round(width * factor)) if width > 0 else 0
-        pygame.draw.circle(large, color, center, max(radius * factor, 0.5), thick)
-
-    return draw
-
-
-def filled(points: Float) -> Draw:
-    """Return a brush for a filled polygon (k, 2)."""
-
-    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
-        outline = scaled(points, left, top, factor)
-        if len(outline) > 2:
-            pygame.draw.polygon(large, color, outline)
-
-    return draw
-
-
-def edged(points: Float, fill: Rgba, edge: float) -> Draw:
-    """Return a brush for a polygon (k, 2), filled over an edge in the ink."""
-    ring = np.vstack([points, points[:1]])
-    around, inside = stroked([ring], 2 * edge), filled(points)
-
-    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
-        if edge:
-            around(large, left, top, factor, color)
-        inside(large, left, top, factor, fill)
-
-    return draw
-
-
-def outlined(points: Float, fill: Rgba, width: float) -> Draw:
-    """Return a brush for a filled polygon (k, 2) with its edge on top in the ink."""
-    inside, around = filled(points), stroked([np.vstack([points, points[:1]])], width)
-
-    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
-        inside(large, left, top, factor, fill)
-        around(large, left, top, factor, color)
-
-    return draw
-
-
-def rounded(box: pygame.Rect, radius: float) -> Draw:
-    """Return a brush for a filled box with round corners."""
-
-    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
-        place = pygame.Rect(
-            (box.left - left) * factor, (box.top - top) * factor,
-            box.width * factor, box.height * factor,
-        )  # fmt: skip
-        pygame.draw.rect(large, color, place, border_radius=round(radius * factor))
-
-    return draw
-
-
 def stroke(surface: pygame.Surface, color: Rgba, pieces: list[Float], width: float) -> None:
     """Draw polylines as one shape: where they cross, their opacity does not add up."""
     box = in_sight(surface)
     pieces = [part for piece in pieces for part in clip_lines(piece, box) if len(part)]
     if pieces:
         extent = extent_of(np.vstack(pieces), width / 2 + 1)
-        large = extent.width * extent.height > LARGE_AREA
-        draw = drawn_finely(pieces, width) if large else stroked(pieces, width)
-        cover(surface, color, extent, draw, factor=1 if large else 0)
+        if extent.width * extent.height > LARGE_AREA:
+            cover(surface, color, extent, lambda on: on.hairlines(color, pieces, width), factor=1)
+        else:
+            cover(surface, color, extent, lambda on: on.lines(color, pieces, width))
 
 
 def hairline(
@@ -186,38 +166,15 @@ def hairline(
         surface.blit(patch, box)
 
 
-def stroked(pieces: list[Float], width: float) -> Draw:
-    """Return a brush for polylines (k, 2) with round joints and ends."""
-
-    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
-        thick = max(1, round(width * factor))
-        for piece in pieces:
-            points = scaled(piece, left, top, factor)
-            if len(points) > 1:
-                pygame.draw.lines(large, color, False, points, thick)
-            if thick > 2:
-                for x, y in points:  # round joints and ends
-                    pygame.draw.circle(large, color, (round(x + 0.5), round(y + 0.5)), thick / 2)
-
-    return draw
-
-
-def drawn_finely(pieces: list[Float], width: float) -> Draw:
-    """Return a brush for polylines without enlargement, for those that span much of the picture."""
-
-    def draw(large: pygame.Surface, left: float, top: float, factor: float, color: Rgba) -> None:
-        for piece in pieces:
-            hairlines(large, color, (piece - (left, top)) * factor - 0.5, width)
-
-    return draw
-
-
-def mark(marker: str, x: float, y: float, ui: float, width: float) -> tuple[Draw, float]:
-    """Return a brush for one of the marks ``. o x + * s``, and its radius, pixels."""
+def mark(
+    marker: str, color: Rgba, x: float, y: float, ui: float, width: float
+) -> tuple[Draw, float]:
+    """Return what draws one of the marks ``. o x + * s``, and its radius, pixels."""
     if marker == ".":
-        return disc(x, y, 2.2 * ui), 2.2 * ui
+        return lambda on: on.disc(color, x, y, 2.2 * ui), 2.2 * ui
     if marker == "o":
-        return disc(x, y, 3.2 * ui + width / 2, width), 3.2 * ui + width
+        reach = 3.2 * ui + width
+        return lambda on: on.disc(color, x, y, reach - width / 2, width), reach
     r = 3.2 * ui
     spokes = {
         "x": [(-r, -r, r, r), (-r, r, r, -r)],
@@ -227,4 +184,4 @@ def mark(marker: str, x: float, y: float, ui: float, width: float) -> tuple[Draw
         "s": [(-r, -r, r, -r), (r, -r, r, r), (r, r, -r, r), (-r, r, -r, -r)],
     }[marker]  # fmt: skip
     pieces = [np.array([(x + a, y + b), (x + c, y + d)]) for a, b, c, d in spokes]
-    return stroked(pieces, width), r + width
+    return lambda on: on.lines(color, pieces, width), r + width

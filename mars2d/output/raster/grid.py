@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.plane import grid_step
 from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.fonts import Fonts
+from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 
 Bounds = tuple[float, float, float, float]
@@ -37,15 +37,14 @@ def label(value: float, step: float) -> str:
     return text.replace("-", "\N{MINUS SIGN}") if float(text) != 0 else text.lstrip("-")
 
 
-def draw_grid(
-    surface: pygame.Surface, camera: Camera, bounds: Bounds, ui: float, theme: Theme
-) -> None:
+def draw_grid(surface: pygame.Surface, camera: Camera, bounds: Bounds, painter: Painter) -> None:
     """Draw lines one pixel wide within bounds (xmin, xmax, ymin, ymax), metres."""
+    theme = painter.theme
     shown = _visible(surface.get_clip(), camera, bounds)
     if shown is None:
         return
     left, top, right, bottom = shown
-    step = grid_step(MIN_SPACING * ui / camera.scale)
+    step = grid_step(MIN_SPACING * painter.ui / camera.scale)
     xmin, xmax, ymin, ymax = _metres(camera, *shown)
     for x in ticks(xmin, xmax, step).tolist():
         px = round(camera.x + camera.scale * x)
@@ -58,12 +57,13 @@ def draw_grid(
 
 
 def labels(
-    clip: pygame.Rect, camera: Camera, bounds: Bounds, fonts: Fonts, ui: float, theme: Theme
+    clip: pygame.Rect, camera: Camera, bounds: Bounds, painter: Painter
 ) -> list[tuple[pygame.Surface, tuple[int, int]]]:
     """Return the labels in metres, as images and their places.
 
     They lie along the left and lower side of the part of `bounds` that is visible in `clip`.
     """
+    fonts, theme, ui = painter.fonts, painter.theme, painter.ui
     size, gap = 12 * ui, round(7 * ui)
     step = grid_step(MIN_SPACING * ui / camera.scale)
     shown = _visible(clip, camera, bounds)

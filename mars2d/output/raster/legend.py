@@ -50,7 +50,7 @@ def _placed(
     for legend in legends:
         ruler = [legend.ruler.sign(ui / camera.scale)] if legend.ruler else []
         signs = [*ruler, *legend.signs]
-        text = max(painter.fonts.width(sign.meaning, TEXT_SIZE * ui) for sign in signs)
+        text = max(painter.fonts.width(sign.name, TEXT_SIZE * ui) for sign in signs)
         column = max(sign.room for sign in signs)
         width = round((2 * PAD + GAP + column) * ui + text)
         height = round((len(signs) * ROW_HEIGHT + GAP) * ui)
@@ -74,6 +74,6 @@ def _drawn(
     left, middle = plate.left + PAD * ui, plate.top + 4 * ui + row / 2
     for k, sign in enumerate(signs):
         place = left + column + GAP * ui, middle + k * row
-        painter.write(surface, sign.meaning, TEXT_SIZE * ui, theme.text, midleft=place)
+        painter.write(surface, sign.name, TEXT_SIZE * ui, theme.text, midleft=place)
         at = Camera(ui, left + column / 2, middle + k * row)
         painter.paint(surface, sign.scene.shapes, at)

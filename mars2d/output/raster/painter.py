@@ -26,7 +26,7 @@ from mars2d.core.scene import (
 )
 from mars2d.output.lines import DASHES, MARK_SPACING, arrow_outline, spaced
 from mars2d.output.raster import brushes
-from mars2d.output.raster.brushes import Draw, Rgba, rgba
+from mars2d.output.raster.brushes import Draw, Enlarged, Rgba, rgba
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.strokes import (
@@ -38,7 +38,7 @@ from mars2d.output.raster.theme import LIGHT, Theme
 
 Float = NDArray[np.float64]
 Layer = tuple[Rgba, Draw, int]
-"""One colour of a sprite: its ink, its brush, and the factor of enlargement, 0 for the default."""
+"""One colour of a sprite: its ink, what draws it, and the factor of enlargement or 0."""
 
 PHASES = 4
 BROAD_RADIUS = 20.0
@@ -56,8 +56,6 @@ LARGE_AREA = 2_500
 """The area from which a fill counts as large, pixels."""
 EDGE_TOLERANCE = 0.3
 """The error allowed for the edge of a large faint fill, pixels."""
-MAX_LABELS = 2000
-"""The most texts with halos in the cache."""
 
 
 Sprite = tuple[pygame.Surface, int, int]
@@ -107,7 +105,6 @@ class Painter:
         self.theme = theme
         self._shade: Callable[[str], str] = theme.shade
         self._sprites = Sprites(kept)
-        self._labels: dict[Hashable, pygame.Surface] = {}
 
     def paint(
         self,
@@ -186,36 +183,32 @@ class Painter:
         points = camera.to_pixels(shape.points)
         if len(points) == 0:
             return
-        width = shape.width * self.ui
+        width, ring = shape.width * self.ui, np.vstack([points, points[:1]])
         fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
-        if fill and stroke and self._small_polygon(surface, points, fill, stroke, width):
-            return
+        if fill and stroke and fill[3] == stroke[3] == 255:
+            box = brushes.extent_of(points, width / 2 + 1)
+            if box.width * box.height <= SMALL_AREA:  # both together, which is quicker
+
+                def draw(on: Enlarged) -> None:
+                    on.polygon(fill, points)
+                    on.lines(stroke, [ring], width)
+
+                brushes.cover(surface, stroke, box, draw, factor=4)
+                return
         if fill:
             self._fill(surface, points, fill)
         if stroke:
-            ring = np.vstack([points, points[:1]])
             brushes.stroke(surface, stroke, [ring], width)
-
-    def _small_polygon(
-        self, surface: pygame.Surface, points: Float, fill: Rgba, stroke: Rgba, width: float
-    ) -> bool:
-        """Draw fill and edge together, which is quicker; return False if not small and opaque."""
-        box = brushes.extent_of(points, width / 2 + 1)
-        if fill[3] < 255 or stroke[3] < 255 or box.width * box.height > SMALL_AREA:
-            return False
-        brushes.cover(surface, stroke, box, brushes.outlined(points, fill, width), factor=4)
-        return True
 
     def _fill(self, surface: pygame.Surface, points: Float, color: Rgba) -> None:
         visible = clip_polygon(points, brushes.in_sight(surface))
         if len(visible) < 3:
             return
         box = brushes.extent_of(visible, 1.0)
+        factor = 0
         if color[3] < FAINT_OPACITY and box.width * box.height > LARGE_AREA:
-            draw = brushes.filled(simplified(visible, EDGE_TOLERANCE))
-            brushes.cover(surface, color, box, draw, factor=1)
-        else:
-            brushes.cover(surface, color, box, brushes.filled(visible))
+            factor, visible = 1, simplified(visible, EDGE_TOLERANCE)
+        brushes.cover(surface, color, box, lambda on: on.polygon(color, visible), factor)
 
     # -- lines --------------------------------------------------------------------------------
 
@@ -265,7 +258,7 @@ class Painter:
         def made(fx: float, fy: float) -> tuple[pygame.Rect, list[Layer]]:
             points = np.array([(fx, fy), (fx + dx, fy + dy)])
             box = brushes.extent_of(points, width / 2 + 1)
-            return box, [(color, brushes.stroked([points], width), 0)]
+            return box, [(color, lambda on: on.lines(color, [points], width), 0)]
 
         self._stamp(surface, x, y, (color, width, dx, dy), made)
 
@@ -284,8 +277,14 @@ class Painter:
 
         def made(fx: float, fy: float) -> tuple[pygame.Rect, list[Layer]]:
             points = arrow_outline((fx, fy), (fx + dx, fy + dy), width)
+            rim = [np.vstack([points, points[:1]])] if edge else []
             box = brushes.extent_of(points, edge + 1)
-            return box, [(ink, brushes.edged(points, fill, edge), 4)]
+
+            def draw(on: Enlarged) -> None:
+                on.lines(ink, rim, 2 * edge)
+                on.polygon(fill, points)
+
+            return box, [(ink, draw, 4)]
 
         if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE:
             box, ((_, draw, _),) = made(x, y)
@@ -318,7 +317,7 @@ class Painter:
         sprite = self._sprites.get(key)
         if sprite is None:
             x, y = (quarter / PHASES for quarter in divmod(phase, PHASES))
-            draw, reach = brushes.mark(marker, x, y, self.ui, width)
+            draw, reach = brushes.mark(marker, rgba(color), x, y, self.ui, width)
             sprite = self._keep(key, brushes.box_round(x, y, reach), [(rgba(color), draw, 0)])
         return sprite
 
@@ -349,10 +348,8 @@ class Painter:
             return self.fonts.render(text, size, color)
         halo = self._shade(shape.halo)
         key = text, size, color, halo
-        label = self._labels.get(key)
-        if label is None:
-            if len(self._labels) >= MAX_LABELS:
-                self._labels.clear()
+        sprite = self._sprites.get(key)
+        if sprite is None:
             letters = self.fonts.render(text, size, color)
             box = letters.get_rect().inflate(2 * reach, 2 * reach)
             label = pygame.Surface(box.size, pygame.SRCALPHA)
@@ -360,8 +357,9 @@ class Painter:
             rim, steps = self.fonts.render(text, size, halo), (0, reach, 2 * reach)
             label.fblits((rim, (dx, dy)) for dx in steps for dy in steps)
             label.blit(letters, (reach, reach))
-            self._labels[key] = label
-        return label
+            sprite = label, 0, 0
+            self._sprites.keep(key, sprite)
+        return sprite[0]
 
     # -- images -------------------------------------------------------------------------------
 
@@ -409,9 +407,10 @@ class Painter:
         sprite = self._sprites.get(key)
         if sprite is None:
             box = pygame.Rect(0, 0, *rect.size)
-            layers = [(rgba(stroke or fill), brushes.rounded(box, radius), 0)]
+            within, outer, inner = box.inflate(-2, -2), rgba(stroke or fill), rgba(fill)
+            layers: list[Layer] = [(outer, lambda on: on.box(outer, box, radius), 0)]
             if stroke:
-                layers.append((rgba(fill), brushes.rounded(box.inflate(-2, -2), radius - 1), 0))
+                layers.append((inner, lambda on: on.box(inner, within, radius - 1), 0))
             sprite = self._keep(key, box, layers)
         surface.blit(sprite[0], rect.topleft)
 
@@ -481,10 +480,10 @@ def _disc_layers(
     if fill:
         # The ring will cover the edge.
         factor = 0 if not broad else 1 if fill[3] < FAINT_OPACITY else 2
-        layers.append((fill, brushes.disc(x, y, radius), factor))
-    if stroke:
-        draw = brushes.disc(x, y, radius + width / 2, width)
-        if broad:
-            draw = brushes.drawn_finely([brushes.ring(x, y, radius)], width)
-        layers.append((stroke, draw, 1 if broad else 0))
+        layers.append((fill, lambda on: on.disc(fill, x, y, radius), factor))
+    if stroke and broad:
+        rim = [brushes.ring(x, y, radius)]
+        layers.append((stroke, lambda on: on.hairlines(stroke, rim, width), 1))
+    elif stroke:
+        layers.append((stroke, lambda on: on.disc(stroke, x, y, radius + width / 2, width), 0))
     return layers

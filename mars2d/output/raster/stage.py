@@ -11,12 +11,11 @@ from typing import NamedTuple
 
 import pygame
 
-from mars2d.core.scene import Scene, Shape
+from mars2d.core.scene import Shape
 from mars2d.output.layers.addons import sensors
 from mars2d.output.layers.bodies import starts
-from mars2d.output.layers.forces import forces as force_arrows
-from mars2d.output.layers.legend import Legend, legends
-from mars2d.output.layers.placement import Box, placed_names
+from mars2d.output.layers.legend import legends
+from mars2d.output.layers.placement import AVOIDED, placed_names
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
@@ -59,7 +58,7 @@ class Canvas:
         for layer in takewhile(standing().__contains__, layers.seen(scenario.animation)):
             if layer.shapes is None:
                 bounds = grid_bounds(scenario, camera, size)
-                draw_grid(self.still, camera, bounds, painter.ui, painter.theme)
+                draw_grid(self.still, camera, bounds, painter)
             else:
                 painter.paint(self.still, layer.shapes(frame).shapes, camera)
         self.wakes: Wakes | None = None
@@ -145,7 +144,6 @@ class Stage:
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
         self._places: dict[int, int] = {}  # of the names in the last picture
-        self._legends: tuple[Scenario, list[Legend]] | None = None
         self._legend = pygame.Surface((0, 0)), (0, 0)
         self._legend_of: tuple[object, ...] = ()
 
@@ -179,23 +177,20 @@ class Stage:
         (self._spread if canvas.shows(camera, plot) else self._enlarge)(shot, canvas)
         self._paint_above(shot, beneath, marks, selected)
         if layers.grid:
-            bounds, painter = grid_bounds(frame.scenario, camera, surface.get_size()), self.painter
-            numbers = labels(plot, camera, bounds, painter.fonts, painter.ui, painter.theme)
-            surface.fblits(numbers)
-        shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
-        self._draw_legends(shot, shown, free or [plot])
+            bounds = grid_bounds(frame.scenario, camera, surface.get_size())
+            surface.fblits(labels(plot, camera, bounds, self.painter))
+        self._draw_legends(shot, free or [plot])
         surface.set_clip(before)
 
-    def _draw_legends(
-        self, shot: _Shot, shown: Sequence[Legend], free: Sequence[pygame.Rect]
-    ) -> None:
+    def _draw_legends(self, shot: _Shot, free: Sequence[pygame.Rect]) -> None:
         """Draw legends beside the workspace if there is room, from a picture that is kept."""
-        painter, camera, names = self.painter, shot.camera, [legend.layer for legend in shown]
+        (surface, frame, camera, layers, _), painter = shot, self.painter
         beside = [strip for room in free for strip in self._around(shot, room)]
-        of = (self._scenario, *names, camera.scale, *map(tuple, (*beside, *free)), painter.ui,
+        of = (frame.scenario, layers.on, camera.scale, *map(tuple, (*beside, *free)), painter.ui,
               painter.theme)  # fmt: skip
         if of != self._legend_of:
-            whole = pygame.Surface(shot.surface.get_size(), pygame.SRCALPHA, 32)
+            shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
+            whole = pygame.Surface(surface.get_size(), pygame.SRCALPHA, 32)
             draw_legends(whole, painter, camera, free[0], shown, beside)
             place = whole.get_bounding_rect()
             self._legend_of, self._legend = of, (whole.subsurface(place).copy(), place.topleft)
@@ -216,39 +211,29 @@ class Stage:
         )
         return [side.clip(room) for side in sides if min(side.size) > 0]
 
-    def _legends_of(self, scenario: Scenario) -> list[Legend]:
-        """Return the legends of a scenario, made once for as long as it is the same."""
-        if self._legends is None or self._legends[0] is not scenario:
-            self._legends = scenario, legends(scenario)
-        return self._legends[1]
-
     def _paint_above(
         self, shot: _Shot, beneath: Sequence[Shape], marks: Sequence[Shape], selected: int | None
     ) -> None:
         """Draw the layers above the kept ones, with `beneath` and `marks` around the bodies."""
-        surface, frame, camera, layers, _ = shot
+        surface, frame, camera, layers, plot = shot
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
+        arrows = [*marks]
         for layer in LAYERS[_place("sensors") + 1 :]:
             if layer.name == FIRST_BODIES:
                 self.painter.paint(surface, beneath, camera)
             if layer.name in seen and layer.shapes is not None:
                 scene = layer.shapes(frame)
+                if layer.name in AVOIDED:
+                    arrows += scene.shapes
                 if layer.name == "names":
-                    scene = self._names_apart(scene, shot, marks, selected)
+                    (xmin, ymin), (xmax, ymax) = camera.to_world([plot.bottomleft, plot.topright])
+                    bounds, point = (xmin, xmax, ymin, ymax), self.painter.ui / camera.scale
+                    scene = placed_names(
+                        scene, frame, point, bounds, arrows, selected, self._places
+                    )
                 self.painter.paint(surface, scene.shapes, camera)
             if layer.name == LAST_BODIES:
                 self.painter.paint(surface, marks, camera)
-
-    def _names_apart(
-        self, names: Scene, shot: _Shot, marks: Sequence[Shape], selected: int | None
-    ) -> Scene:
-        """Return the names of bodies, none over another, over a mark, or over a force."""
-        area, camera = shot.surface.get_clip(), shot.camera
-        ((x, y),) = camera.to_world([area.center]).tolist()
-        view = Box(x, y, area.width / (2 * camera.scale), area.height / (2 * camera.scale))
-        others = [*marks, *(force_arrows(shot.frame).shapes if shot.layers.forces else ())]
-        point = self.painter.ui / camera.scale
-        return placed_names(names, shot.frame, point, view, others, selected, self._places)
 
     # -- the kept layers ----------------------------------------------------------------------
 

@@ -417,7 +417,7 @@ def _legend(legend: Legend) -> dict[str, Any]:
         "arrow": ruler and ["arrow", ruler.color, None, ruler.width],
         "lengths": ruler.lengths if ruler else [],
         "signs": [
-            {"room": sign.room, "meaning": sign.meaning, "shapes": shapes_of(sign.scene)}
+            {"room": sign.room, "meaning": sign.name, "shapes": shapes_of(sign.scene)}
             for sign in legend.signs
         ],
     }
