@@ -11,7 +11,8 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.core.errors import InputError, Mars2dError, likely, one_line, shown
+from mars2d.core.errors import InputError, Mars2dError, one_line, shown
+from mars2d.core.files import file_beside
 from mars2d.output.formats.guard import check_limit, reading
 from mars2d.record.rows import Rows
 
@@ -69,13 +70,7 @@ def load(path: str | Path, largest: float) -> Rows:
     source = _path(path)
     limit = check_limit(largest)
     with reading(source):
-        if source.is_dir():
-            raise InputError(f"{source}: a folder; expected a record, as run.npz")
-        if not source.exists():
-            beside = [str(p) for p in source.parent.glob("*") if p.suffix.lower() in SUFFIXES]
-            raise InputError(f"{source}: there is no such file{likely(source, beside)}")
-        if not source.is_file():  # a pipe, for example, may never end
-            raise InputError(f"{source}: not a file; expected a record, as run.npz")
+        file_beside(source, None, "a record", SUFFIXES)
     module = _module(source)
     if source.suffix.lower() in EXPORTS:
         raise InputError(
