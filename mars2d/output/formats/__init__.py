@@ -70,6 +70,8 @@ def load(path: str | Path, largest: float) -> Rows:
     source = _path(path)
     limit = check_limit(largest)
     with reading(source):
+        if source.is_fifo():  # it may never end
+            raise InputError(f"{source}: not a file; expected a record, as run.npz")
         file_beside(source, None, "a record", SUFFIXES)
     module = _module(source)
     if source.suffix.lower() in EXPORTS:
