@@ -280,7 +280,13 @@ def test_the_checks_stand_in_the_json(roll, capsys):
     assert text.count("\n") == 1
     first, second, third = json.loads(text)["checks"]
     assert first.pop("measured") == pytest.approx(0.5, abs=1e-9)
-    assert first == {"name": "path", "predicted": 0.5, "tolerance": 1e-9, "ok": True}
+    assert first == {
+        "name": "path",
+        "predicted": 0.5,
+        "tolerance": 1e-9,
+        "bound": "equal",
+        "ok": True,
+    }
     assert second["ok"] is False
     assert third["measured"] is None
     assert third["ok"] is False
