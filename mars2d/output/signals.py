@@ -141,9 +141,7 @@ def _named(record: Rows, name: object, bodies: tuple[int, ...]) -> list[Signal]:
         raise InputError(f"columns: {name!r}: {head} has no parts; expected {head!r}")
     columns = list(bodies)
     if head in (*POSE_UNITS, SPEED):
-        robots_alone = max(bodies, default=0) < len(record.scenario.robots)
-        pose = record.pose if robots_alone else _poses(record)
-        return [_of_poses(record, head, head, pose, bodies, 0)]
+        return [_of_poses(record, head, head, bodies)]
     if head == "command":
         return _command(record, name, part, _those_that_drive(record, name, bodies))
     if head == "effort":
@@ -186,23 +184,18 @@ def _those_that_drive(record: Rows, name: str, bodies: tuple[int, ...]) -> tuple
     return robots
 
 
-def _of_poses(
-    record: Rows, name: str, what: str, pose: Float, which: Sequence[int], first: int
-) -> Signal:
-    """Return a coordinate or the speed of some poses; column k belongs to body `first + k`."""
-    columns = list(which)
-    numbers = tuple(first + k for k in columns)
+def _of_poses(record: Rows, name: str, what: str, bodies: Sequence[int]) -> Signal:
+    """Return a coordinate or the speed of some bodies."""
+    pose, bodies = _poses(record)[:, :, list(bodies)], tuple(bodies)
     if what in POSE_UNITS:
-        return Signal(
-            name, POSE_UNITS[what], pose[:, list(POSE_UNITS).index(what), columns], numbers
-        )
-    speed = np.full((len(pose), len(columns)), np.nan)
-    step = np.diff(pose[:, :2, columns], axis=0)
+        return Signal(name, POSE_UNITS[what], pose[:, list(POSE_UNITS).index(what)], bodies)
+    speed = np.full((len(pose), len(bodies)), np.nan)
+    step = np.diff(pose[:, :2], axis=0)
     speed[1:] = np.hypot(step[:, 0], step[:, 1]) / record.scenario.sampling_time
     for row, body in _put_elsewhere(record):
-        if body in numbers and row < len(speed):  # it did not drive there
-            speed[row, numbers.index(body)] = np.nan
-    return Signal(name, "m/s", speed, numbers, "pre")
+        if body in bodies and row < len(speed):  # it did not drive there
+            speed[row, bodies.index(body)] = np.nan
+    return Signal(name, "m/s", speed, bodies, "pre")
 
 
 def _put_elsewhere(record: Rows) -> Iterator[tuple[int, int]]:
@@ -262,8 +255,8 @@ def _prop(record: Rows, name: str, part: str) -> Signal:
         expected = ", ".join(f"'prop.{each}'" for each in known)
         hint = likely(part, known)
         raise InputError(f"columns: there is no {name!r}: expected one of {expected}{hint}")
-    which, first = range(len(record.scenario.props)), len(record.scenario.robots)
-    return _of_poses(record, name, part, record.prop_pose, which, first)
+    props = range(len(record.scenario.robots), len(record.scenario.bodies))
+    return _of_poses(record, name, part, props)
 
 
 # -- readings of sensors --------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from mars2d.core.scene import Circle, Scene
 from mars2d.output.figures.figure import plot_paths
 from mars2d.output.layers import rings
 from mars2d.output.layers.table import LAYERS, Layer, Layers
-from mars2d.output.pages.notebook import draw
+from mars2d.output.pages.notebook import drawn, svg_of
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
@@ -235,7 +235,7 @@ def test_each_layer_of_the_scene_is_seen_in_window_notebook_and_replay(record, m
     row = drawn_at_the_end(record)
     frame = record.frame(row)
     content, columns = held(mars2d.output.pages.replay.page(record))
-    full, text = window(record, row), draw(frame, "", everything())
+    full, text = window(record, row), svg_of(drawn(frame, "", everything()))
     for layer in list(LAYERS):
         if layer.shapes is None:
             continue
@@ -246,7 +246,7 @@ def test_each_layer_of_the_scene_is_seen_in_window_notebook_and_replay(record, m
             Stage(Painter()).draw(surface, frame, Camera(70.0, 450.0, 450.0), without)
             seen = pygame.surfarray.array3d(surface).swapaxes(0, 1)
             assert (seen != full).any(), layer.name
-            assert draw(frame, "", without) != text, layer.name
+            assert svg_of(drawn(frame, "", without)) != text, layer.name
         if layer.name != "trails":  # the page draws paths of its poses
             assert len(columns[f"{layer.name}:rows"]) > 0, layer.name
     assert [layer["name"] for layer in content["layers"]] == [layer.name for layer in LAYERS]

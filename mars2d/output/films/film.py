@@ -28,7 +28,7 @@ MIN_SIZE, MAX_SIZE = (64, 64), (3840, 2160)
 
 MIN_FPS = 0.1
 MAX_FPS = {".gif": 50, ".mp4": 240}
-"""The limits of frames per second."""
+"""The limits of frames per second; no program shows more in a GIF."""
 
 
 def film_record(
@@ -82,8 +82,7 @@ def check_film(path: str | os.PathLike[str], size: tuple[int, int], fps: float =
 
     Raises InputError and MissingExtraError as `film_record`.
     """
-    suffix = _suffix(Path(path))
-    _check_fps(fps, suffix)
+    suffix = _checked(Path(path), fps)
     expected = "(width, height) in pixels, {} x {} to {} x {}".format(*MIN_SIZE, *MAX_SIZE)
     if not (
         isinstance(size, (tuple, list))
@@ -93,11 +92,9 @@ def check_film(path: str | os.PathLike[str], size: tuple[int, int], fps: float =
     ):
         raise wrong("size", size, expected)
     width, height = size
-    if suffix == ".mp4":
-        if width % 2 or height % 2:
-            even = f"{width + width % 2} x {height + height % 2}"
-            raise wrong("size", size, f"even numbers of pixels for .mp4, such as {even}")
-        require_av(Path(path))
+    if suffix == ".mp4" and (width % 2 or height % 2):
+        even = f"{width + width % 2} x {height + height % 2}"
+        raise wrong("size", size, f"even numbers of pixels for .mp4, such as {even}")
     require_pygame("a film")
 
 
@@ -121,7 +118,7 @@ def save_film(
 ) -> None:
     """Draw frames as the window draws them, and write them as .gif or .mp4.
 
-    fps: frames per second, at most 50 in a GIF. size: pixels; made even for .mp4. status: the text
+    fps: frames per second, at most 50 in a GIF. size: pixels, even for .mp4. status: the text
     beside the time, for example "10x". progress: called with the number of frames written so far.
     The file appears under its name when it is complete.
 
@@ -132,8 +129,6 @@ def save_film(
 
     from mars2d.output.raster.picture import Artist
 
-    if Path(path).suffix.lower() == ".mp4":
-        size = (size[0] + size[0] % 2, size[1] + size[1] % 2)
     artist, surface = Artist(size, sensors=sensors, status=status), pygame.Surface(size, 0, 32)
     save_pictures((artist.paint(frame, surface) for frame in frames), path, fps, progress)
 
@@ -149,10 +144,7 @@ def save_pictures(
     All may be drawn on one surface. Raises InputError and MissingExtraError as `save_film`.
     """
     target = Path(path)
-    suffix = _suffix(target)
-    _check_fps(fps, suffix)
-    if suffix == ".mp4":
-        require_av(target)
+    suffix = _checked(target, fps)
     count = 0
     with atomic_write(target) as file:
         with Encoding(file, suffix, fps) as encoding:
@@ -164,18 +156,13 @@ def save_pictures(
             raise InputError(f"{target}: a film needs at least one frame")
 
 
-def _suffix(target: Path) -> str:
+def _checked(target: Path, fps: float) -> str:
+    """Return the suffix of a film. Raises InputError and MissingExtraError as `film_record`."""
     suffix = target.suffix.lower()
     if suffix not in ENCODERS:
         raise InputError(f"{target}: expected a film's name to end in {' or '.join(ENCODERS)}")
+    if not MIN_FPS <= real("fps", fps, "a number > 0") <= MAX_FPS[suffix]:
+        raise wrong("fps", fps, f"{MIN_FPS} to {MAX_FPS[suffix]} frames per second in a {suffix}")
+    if suffix == ".mp4":
+        require_av(target)
     return suffix
-
-
-def _check_fps(fps: float, suffix: str) -> None:
-    if real("fps", fps, "a number > 0") <= 0:
-        raise wrong("fps", fps, "a number > 0")
-    if fps > MAX_FPS[suffix]:
-        more = ", more a GIF can't show" if suffix == ".gif" else " in an MP4"
-        raise InputError(f"fps = {fps:g}: expected at most {MAX_FPS[suffix]}{more}")
-    if fps < MIN_FPS:
-        raise InputError(f"fps = {fps:g}: expected at least {MIN_FPS}")

@@ -52,13 +52,13 @@ class Cut:
         first = 0.0 if start is None else real("start", start, "seconds")
         stop = last if end is None else real("end", end, "seconds")
         slack = 1e-9 * max(1.0, last)
+        part = (
+            f"a film from {first:g} s on" if end is None else f"a film from {first:g} to {stop:g} s"
+        )
         if not (0 <= first <= last + slack and stop <= last + slack):
-            part = f"from {first:g} s on" if end is None else f"from {first:g} to {stop:g} s"
-            raise InputError(f"a film {part}: {what} goes from 0 to {last:g} s")
+            raise InputError(f"{part}: {what} goes from 0 to {last:g} s")
         if stop < first or (stop == first and not (start is None and end is None)):
-            raise InputError(
-                f"a film from {first:g} to {stop:g} s: expected an end after its start"
-            )
+            raise InputError(f"{part}: expected an end after its start")
         cut = cls(first, min(stop, last), speed / fps)
         if not (cut.end - cut.start) / cut.step <= MAX_FRAMES:
             raise InputError(

@@ -1,6 +1,7 @@
 """Animated GIFs: one palette for all frames, and of each frame only the part that has changed.
 
-Pillow compresses the parts. Its own writer of animations keeps all frames in memory until the end.
+Pillow finds the nearest colours and compresses the parts. Its own writer of animations keeps all
+frames in memory until the end.
 """
 
 from __future__ import annotations
@@ -41,22 +42,32 @@ class Gif:
         """Begin; `file` stays open at the end."""
         self._file, self._fps = file, fps
         self._count = self._written = 0  # frames; hundredths of a second
-        self._shown: Pixels | None = None
+        self._last: Pixels | None = None
         self._pending: tuple[Entries, tuple[int, int]] | None = None
 
     def add(self, picture: pygame.Surface) -> None:
-        """Add a picture; one that is equal to the one before prolongs its frame."""
+        """Add a picture; one that looks like the one before prolongs its frame."""
         import pygame
 
         pixels: Pixels = pygame.surfarray.pixels2d(picture).T.copy()
-        if self._shown is None:
+        if self._last is None:
             self._begin(pixels)
             changed = np.arange(pixels.size)
         else:
-            changed = np.flatnonzero(pixels != self._shown)
-        self._change(pixels, changed)
-        self._shown = pixels
-        self._count += 1
+            changed = np.flatnonzero(pixels != self._last)
+        entries, shown = self._nearest[_codes(pixels.ravel()[changed])], self._shown.reshape(-1)
+        differs = entries != shown[changed]
+        changed, entries = changed[differs], entries[differs]
+        if len(changed):
+            self._write_pending()
+            shown[changed] = entries
+            # Elsewhere it is CLEAR: long runs of one value compress to almost nothing.
+            rows, columns = np.divmod(changed, pixels.shape[1])
+            top, left = int(rows[0]), int(columns.min())
+            part = np.full((rows[-1] - top + 1, columns.max() - left + 1), CLEAR, dtype=np.uint8)
+            part[rows - top, columns - left] = entries
+            self._pending = part, (left, top)
+        self._last, self._count = pixels, self._count + 1
 
     def close(self) -> None:
         """Write the last frame and the end."""
@@ -66,29 +77,12 @@ class Gif:
     def _begin(self, pixels: Pixels) -> None:
         """Write the size, the palette, and that the film repeats."""
         colors = _palette(pixels)
-        self._palette = _Palette(colors)
-        self._entries = np.full(pixels.shape, CLEAR, dtype=np.uint8)
+        self._nearest = _nearest(colors)
+        self._shown = np.full(pixels.shape, CLEAR, dtype=np.uint8)
         height, width = pixels.shape
         sides = width.to_bytes(2, "little") + height.to_bytes(2, "little")
         self._file.write(b"GIF89a" + sides + b"\xf7\x00\x00" + colors.tobytes().ljust(768, b"\0"))
         self._file.write(b"!\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00")
-
-    def _change(self, pixels: Pixels, changed: NDArray[np.intp]) -> None:
-        """Show the part of a picture in which pixels have changed, and elsewhere `CLEAR`.
-
-        changed: their places, row by row. Long runs of one value compress to almost nothing.
-        """
-        entries, known = self._palette.entries(pixels.ravel()[changed]), self._entries.reshape(-1)
-        differs = entries != known[changed]
-        changed, entries = changed[differs], entries[differs]
-        if len(changed):
-            self._write_pending()
-            known[changed] = entries
-            rows, columns = np.divmod(changed, pixels.shape[1])
-            top, left = int(rows[0]), int(columns.min())
-            part = np.full((rows[-1] - top + 1, columns.max() - left + 1), CLEAR, dtype=np.uint8)
-            part[rows - top, columns - left] = entries
-            self._pending = part, (left, top)
 
     def _write_pending(self) -> None:
         """Write the part that was seen until now."""
@@ -130,29 +124,18 @@ def _palette(pixels: Pixels) -> Entries:
     return wanted[np.sort(first)][:CLEAR].astype(np.uint8)
 
 
-class _Palette:
-    """The entries of a palette (k, 3) for colours of 6 bits a channel; its own are exact.
+def _nearest(colors: Entries) -> Entries:
+    """Return the entries of a palette (k, 3) for all colours of 6 bits a channel, (2**18,)."""
+    from PIL import Image
 
-    The nearest is searched once for each colour that is seen: for all of them it takes 0.2 s.
-    """
-
-    def __init__(self, colors: Entries) -> None:
-        from scipy.spatial import cKDTree
-
-        self._tree, self._known = cKDTree(colors), np.full(1 << 18, CLEAR, dtype=np.uint8)
-        red, green, blue = colors[::-1].astype(int).T  # of two of one cell, the first counts
-        self._known[_codes(red << 16 | green << 8 | blue)] = np.arange(len(colors))[::-1]
-
-    def entries(self, pixels: Pixels) -> Entries:
-        """Return the entry of each pixel."""
-        codes = _codes(pixels)
-        entries: Entries = self._known[codes]
-        if (entries == CLEAR).any():
-            cells = np.unique(codes[entries == CLEAR])
-            middles = 4 * np.column_stack([cells >> 12, cells >> 6 & 63, cells & 63]) + 1.5
-            self._known[cells] = self._tree.query(middles)[1]
-            entries = self._known[codes]
-        return entries
+    cells, palette = np.arange(1 << 18), Image.new("P", (1, 1))
+    middles = 4 * np.column_stack([cells >> 12, cells >> 6 & 63, cells & 63]) + 2
+    palette.putpalette(colors.tobytes())
+    every = Image.frombytes("RGB", (512, 512), middles.astype(np.uint8).tobytes())
+    found = np.array(every.quantize(palette=palette, dither=Image.Dither.NONE)).ravel()
+    red, green, blue = colors[::-1].astype(int).T  # its own are exact; of two alike, the first
+    found[_codes(red << 16 | green << 8 | blue)] = np.arange(len(colors))[::-1]
+    return found
 
 
 def _codes(pixels: NDArray[Any]) -> NDArray[Any]:

@@ -9,9 +9,10 @@ from contextlib import suppress
 from importlib import import_module
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
-from mars2d.core.errors import InputError, Mars2dError, likely, one_line, shown
+from mars2d.core.errors import InputError, Mars2dError, one_line, shown
+from mars2d.core.files import file_beside
 from mars2d.output.formats.guard import check_limit, reading
 from mars2d.record.rows import Rows
 
@@ -22,7 +23,6 @@ __all__ = [
     "EXPORTS",
     "FORMATS",
     "SUFFIXES",
-    "Format",
     "is_streamed",
     "load",
     "log_to",
@@ -34,29 +34,12 @@ __all__ = [
 ]
 
 
-class Format(NamedTuple):
-    """A format of records, as far as it is known before its module is imported.
+FORMATS = {".npz": "npz", ".csv": "table", ".mcap": "mcap", ".mat": "mat", ".nc": "dataset"}
+"""The modules of this folder by the endings of files.
 
-    module: in this folder. It has ``write(record, path)``; if the format is read back, also
-    ``read(path, largest)``; if it has an `extra`, also ``require(path)``, which raises
-    MissingExtraError where a library is missing; if it is `streamed`, also a class ``Log``. extra:
-    the extra of MARS2D that installs those libraries. streamed: whether it can be written while the
-    run goes on.
-    """
-
-    module: str
-    extra: str = ""
-    streamed: bool = False
-
-
-FORMATS = {
-    ".npz": Format("npz"),
-    ".csv": Format("table"),
-    ".mcap": Format("mcap", extra="log", streamed=True),
-    ".mat": Format("mat"),
-    ".nc": Format("dataset", extra="data"),
-}
-"""The formats by the endings of files."""
+Each has ``write(record, path)``; if the format is read back, also ``read(path, largest)``; if it
+needs an extra, also ``require(path)``, which raises MissingExtraError where a library is missing.
+"""
 
 EXPORTS = (".mat", ".nc")
 """The endings of files for other programs, which MARS2D does not read."""
@@ -87,13 +70,9 @@ def load(path: str | Path, largest: float) -> Rows:
     source = _path(path)
     limit = check_limit(largest)
     with reading(source):
-        if source.is_dir():
-            raise InputError(f"{source}: a folder; expected a record, as run.npz")
-        if not source.exists():
-            beside = [str(p) for p in source.parent.glob("*") if p.suffix.lower() in SUFFIXES]
-            raise InputError(f"{source}: there is no such file{likely(source, beside)}")
-        if not source.is_file():  # a pipe, for example, may never end
+        if source.is_fifo():  # it may never end
             raise InputError(f"{source}: not a file; expected a record, as run.npz")
+        file_beside(source, None, "a record", SUFFIXES)
     module = _module(source)
     if source.suffix.lower() in EXPORTS:
         raise InputError(
@@ -105,8 +84,7 @@ def load(path: str | Path, largest: float) -> Rows:
 
 def is_streamed(path: Path) -> bool:
     """Return whether the path's ending names a format that is written while the run goes on."""
-    format_ = FORMATS.get(path.suffix.lower())
-    return format_ is not None and format_.streamed
+    return path.suffix.lower() == ".mcap"
 
 
 def log_to(path: Path | None) -> Log | None:
@@ -122,9 +100,9 @@ def log_to(path: Path | None) -> Log | None:
 
 def require(path: Path) -> None:
     """Raise MissingExtraError where a library is missing that the path's format needs."""
-    module = _module(path)
-    if FORMATS[path.suffix.lower()].extra:
-        module.require(path)
+    needs = getattr(_module(path), "require", None)
+    if needs is not None:
+        needs(path)
 
 
 def _path(path: str | Path) -> Path:
@@ -134,12 +112,12 @@ def _path(path: str | Path) -> Path:
 
 
 def _module(path: Path) -> Any:
-    format_ = FORMATS.get(path.suffix.lower())
-    if format_ is None:
+    name = FORMATS.get(path.suffix.lower())
+    if name is None:
         *others, last = FORMATS
         known = f"{', '.join(others)} or {last}"
         raise InputError(f"{path}: expected a record: a name that ends in {known}")
-    return import_module(f"mars2d.output.formats.{format_.module}")
+    return import_module(f"mars2d.output.formats.{name}")
 
 
 # -- records that can't be saved where they should be -----------------------------------------

@@ -11,7 +11,7 @@ import base64
 import textwrap
 from collections.abc import Callable
 from html import escape
-from io import StringIO
+from io import BytesIO, StringIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -59,7 +59,7 @@ MAX_CHARACTERS = 4_000_000
 
 def scenario_svg(scenario: Scenario) -> str:
     """Return a picture of a scenario at its start; it never raises."""
-    return _picture(lambda: (_start(scenario), _described(scenario)), scenario.title)
+    return svg_of(_picture(lambda: (_start(scenario), _described(scenario)), scenario.title))
 
 
 def world_svg(world: Any) -> str:
@@ -72,12 +72,15 @@ def world_svg(world: Any) -> str:
             f"; {world.over_message}" if world.over else ""
         )
 
-    return _picture(picture, world.scenario.title)
+    return svg_of(_picture(picture, world.scenario.title))
 
 
 def record_svg(record: Rows) -> str:
     """Return a picture of the end of a record, with the paths; it never raises."""
+    return svg_of(_end(record))
 
+
+def _end(record: Rows) -> Figure:
     def picture() -> tuple[Frame, str]:
         if not len(record):
             return _start(record.scenario), f"{record.scenario.title}: no rows, nothing ran"
@@ -91,10 +94,12 @@ def record_html(record: Rows) -> str:
 
     If there is no replay, or one too large for a notebook, a text below the picture says so.
     """
-    picture = base64.b64encode(record_svg(record).encode()).decode()
+    picture = BytesIO()
+    _end(record).savefig(picture, format="png", dpi=96)
     title = escape(f"Replay of {record.scenario.title}")
     image = (
-        f'<img alt="{title}, its end" src="data:image/svg+xml;base64,{picture}" '
+        f'<img alt="{title}, its end" '
+        f'src="data:image/png;base64,{base64.b64encode(picture.getbuffer()).decode()}" '
         'style="max-width:100%;max-height:100%">'
     )
     if not len(record):
@@ -117,18 +122,17 @@ def record_html(record: Rows) -> str:
     )
 
 
-def _picture(made: Callable[[], tuple[Frame, str]], title: str) -> str:
+def _picture(made: Callable[[], tuple[Frame, str]], title: str) -> Figure:
     """Return the picture of a frame with its caption, or a picture of the error message."""
     try:
-        frame, caption = made()
-        return draw(frame, caption)
+        return drawn(*made())
     except Exception as error:  # any of it may call code of the user's
         words = f"{title}: can't be drawn. {described(error)}"
-        return _svg(_with_words(WIDTH, ABOVE, [(words, LIGHT.failed)]), words)
+        return _with_words(WIDTH, ABOVE, [(words, LIGHT.failed)])
 
 
-def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
-    """Return a frame as an SVG picture with a caption below it.
+def drawn(frame: Frame, caption: str, layers: Layers | None = None) -> Figure:
+    """Return a figure of a frame with a caption below it.
 
     layers: the switches; by default those of figures, with names for few bodies. A layer that can't
     be drawn because a sensor or an add-on raises is left out, and a line below the caption says so.
@@ -155,7 +159,7 @@ def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
     label(ax)
     add_legend(ax, signs, SCREEN, **BESIDE)
     paint_frame(ax, frame, SCREEN, layers)
-    return _svg(figure, " ".join(text for text, _ in words))
+    return figure
 
 
 def _with_words(width: float, height: float, words: list[tuple[str, str]]) -> Figure:
@@ -168,6 +172,7 @@ def _with_words(width: float, height: float, words: list[tuple[str, str]]) -> Fi
     ]
     tall = height + LINE_HEIGHT * (len(lines) + 0.5)
     figure = new_figure(width + ABOVE, tall, layout=None)
+    figure.set_label(" ".join(text for text, _ in words))  # for people who can't see it
     for k, (line, color) in enumerate(lines):
         figure.text(
             0.01, 1 - (height + LINE_HEIGHT * k) / tall, line, color=color, fontsize=SCREEN.small,
@@ -176,15 +181,15 @@ def _with_words(width: float, height: float, words: list[tuple[str, str]]) -> Fi
     return figure
 
 
-def _svg(figure: Figure, title: str) -> str:
-    """Return a figure as SVG; the same figure gives the same text."""
+def svg_of(figure: Figure) -> str:
+    """Return a figure as SVG, titled by its label; the same figure gives the same text."""
     import matplotlib as mpl
 
-    file = StringIO()
+    file, told = StringIO(), {"Date": None, "Title": str(figure.get_label())}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "svg.fonttype": "none"}):
-        figure.savefig(file, format="svg", metadata={"Date": None, "Title": title})
-    drawn = file.getvalue().partition("<svg ")[2]
-    return f'<svg style="max-width:100%;height:auto" {drawn}'
+        figure.savefig(file, format="svg", metadata=told)
+    picture = file.getvalue().partition("<svg ")[2]
+    return f'<svg style="max-width:100%;height:auto" {picture}'
 
 
 def _start(scenario: Scenario) -> Frame:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from time import monotonic
 from types import TracebackType
 from typing import Any
 
@@ -26,9 +24,6 @@ from mars2d.record.recorder import Recorder
 from mars2d.record.rows import Rows
 
 NO_CONTACTS, NO_MESSAGES = np.empty(0, dtype=CONTACT), np.empty(0, dtype=MESSAGE)
-
-CHECK_EVERY = 1.0
-"""The seconds between two checks that the file still has its name."""
 
 
 def newest_row(world: Any, counts: tuple[int, int, int, int]) -> Row:
@@ -92,7 +87,6 @@ class Log:
         self._tape = Tape(self._writer)
         self._world: Any = None
         self._counts = 0, 0, 0, 0  # of the rows, contacts, messages and contents in the file
-        self._checked = monotonic()
 
     def follow(self, world: Any, same: int = 0) -> None:
         """Write the rows that a `World` has recorded since the last call. Raises DiskError.
@@ -104,8 +98,6 @@ class Log:
         with interrupts(held=""), self._written():
             self._follow(world, same)
             self._file.flush()
-            if monotonic() - self._checked > CHECK_EVERY:
-                self._check()
 
     def _follow(self, world: Any, same: int = 0) -> None:
         recorder, other = world.recorder, world is not self._world
@@ -146,7 +138,6 @@ class Log:
                     self._tape.end(record)
                 self._writer.finish()
                 self._file.flush()
-                self._check()
             if record is not None:  # Ctrl-C is not held: this may take long
                 if not REPLACED_OPEN:
                     self._shut()
@@ -154,15 +145,6 @@ class Log:
                     write_whole(record, self.path, self._file)
         finally:
             self._shut()
-
-    def _check(self) -> None:
-        """Raise DiskError if the file is no longer there under its name."""
-        self._checked = monotonic()
-        there = False
-        with suppress(OSError):
-            there = os.path.samestat(self.path.stat(), os.fstat(self._file.fileno()))
-        if not there:
-            raise DiskError(f"{self.path}: it was deleted or moved while it was written")
 
     @contextmanager
     def _written(self, why: str = "can't be written") -> Iterator[None]:

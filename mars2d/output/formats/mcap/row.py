@@ -136,44 +136,43 @@ CRC_TAG = 1 << 3 | 5  # the first field, a fixed32
 
 def schema() -> bytes:
     """Return the schema of a row, as a FileDescriptorSet of Protocol Buffers."""
+    return bytes(_described("proto3").SerializeToString())
+
+
+def _described(syntax: str) -> Any:
+    """Return the description of a row's messages, with its arrays of numbers as bytes in proto2.
+
+    Both are stored alike, so numpy's arrays are written and read as they are: none of their numbers
+    is changed, nor becomes an object of Python. In proto2 a field that is set is stored even if it
+    is 0.
+    """
     from google.protobuf.descriptor_pb2 import FieldDescriptorProto as Field
     from google.protobuf.descriptor_pb2 import FileDescriptorSet
 
     files = FileDescriptorSet()
-    file = files.file.add(name="mars2d/row.proto", package="mars2d", syntax="proto3")
+    file = files.file.add(name="mars2d/row.proto", package="mars2d", syntax=syntax)
     for title, fields in FIELDS.items():
         message = file.message_type.add(name=title)
         for number, (name, kind) in enumerate(fields.items(), start=1):
             field = message.field.add(name=name, number=number)
-            field.label = Field.LABEL_REPEATED if kind.endswith("[]") else Field.LABEL_OPTIONAL
-            one = kind.removesuffix("[]")
+            one, many = kind.removesuffix("[]"), kind.endswith("[]")
+            if syntax == "proto2" and many and one not in (*FIELDS, "string"):
+                one, many = "bytes", False
+            field.label = Field.LABEL_REPEATED if many else Field.LABEL_OPTIONAL
             if one in FIELDS:
                 field.type, field.type_name = Field.TYPE_MESSAGE, f".mars2d.{one}"
             else:
                 field.type = Field.Type.Value(f"TYPE_{one.upper()}")
-    return bytes(files.SerializeToString())
+    return files
 
 
 @cache
 def _message_class() -> Any:
-    """Return the class of a row's message, in which each array of numbers is one of bytes.
-
-    Both are stored alike, so numpy's arrays are written and read as they are: none of their numbers
-    is changed, nor becomes an object of Python. A field that is set is stored even if it is 0.
-    """
-    from google.protobuf.descriptor_pb2 import FileDescriptorSet
     from google.protobuf.descriptor_pool import DescriptorPool
     from google.protobuf.message_factory import GetMessageClass
 
-    [file] = FileDescriptorSet.FromString(schema()).file
-    file.syntax = "proto2"
-    for message in file.message_type:
-        for field in message.field:
-            array = field.label == field.LABEL_REPEATED
-            if array and field.type not in (field.TYPE_MESSAGE, field.TYPE_STRING):
-                field.type, field.label = field.TYPE_BYTES, field.LABEL_OPTIONAL
     pool = DescriptorPool()
-    pool.Add(file)
+    pool.Add(_described("proto2").file[0])
     return GetMessageClass(pool.FindMessageTypeByName("mars2d.Row"))
 
 

@@ -9,6 +9,7 @@ import json
 import re
 import zlib
 from collections.abc import Iterable, Mapping
+from dataclasses import fields
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -19,7 +20,7 @@ from mars2d.core.files import atomic_write
 from mars2d.output.controls import CONTROLS, PAUSE
 from mars2d.output.marks import MARKS
 from mars2d.output.pages.replay.content import content_of
-from mars2d.output.raster.theme import DARK, LIGHT, Theme
+from mars2d.output.raster.theme import DARK, LIGHT, Theme, Tone
 
 if TYPE_CHECKING:
     from mars2d.record.rows import Rows
@@ -148,16 +149,13 @@ def colors() -> str:
 
 
 def _variables(theme: Theme) -> str:
-    names = ("page", "paper", "bar", "plate", "edge", "grid", "ink", "text", "muted", "key")
-    values = {name: getattr(theme, name) for name in names}
-    values |= {
-        "axis": theme.grid_axis, "key-edge": theme.key_edge, "track": theme.track,
-        "accent": theme.running.ink, "accent-pale": theme.running.pale,
-        "warn": theme.waiting.ink, "warn-pale": theme.waiting.pale,
-        "over": theme.over, "on-over": theme.on_banner, "effort": theme.effort,
-        "failed": theme.failed,
-    }  # fmt: skip
-    values |= {f"mark-{kind}": mark.color(theme) for kind, mark in MARKS.items()}
+    values = {f"mark-{kind}": mark.color(theme) for kind, mark in MARKS.items()}
+    for field in fields(theme):
+        name, value = field.name.replace("_", "-"), getattr(theme, field.name)
+        if isinstance(value, Tone):
+            values |= {name: value.ink, f"{name}-pale": value.pale}
+        elif isinstance(value, str):
+            values[name] = value
     return " ".join(f"--{name}: {value};" for name, value in values.items())
 
 

@@ -12,7 +12,6 @@ from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
 from mars2d.core.quantity import ANGLE, DISTANCE, UNKNOWN, Quantity
 from mars2d.core.scene import Scene
-from mars2d.geometry.shapes import Shape
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.arrows import MAX_ARROW
 from mars2d.output.layers.forces import (
@@ -187,38 +186,28 @@ class _Content:
     def _bodies(self) -> list[dict[str, Any]]:
         """Return the robots and props: their names, their sizes, and how their paths look."""
         scenario = self.scenario
-        robots, props = scenario.robots, scenario.props
-        wake = scenario.animation.wake_style
-        looks: list[tuple[Any, Shape, str, list[Any]]] = [
-            (robot.drive, robot.chassis, color, [trail, TRAIL_WIDTH, wake])
-            for robot, color, trail in zip(
-                robots, scenario.colors, trail_colors(scenario), strict=True
-            )
-        ]
-        looks += [
-            (prop, prop.shape, color, [trail, PROP_TRAIL_WIDTH, "-"])
-            for prop, color, trail in zip(
-                props, prop_colors(props), prop_trail_colors(scenario), strict=True
-            )
-        ]
+        robots, props, wake = scenario.robots, scenario.props, scenario.animation.wake_style
+        kinds = (*(robot.drive for robot in robots), *props)
+        colors = (*scenario.colors, *prop_colors(props))
+        trails = [(color, TRAIL_WIDTH, wake) for color in trail_colors(scenario)]
+        trails += [(color, PROP_TRAIL_WIDTH, "-") for color in prop_trail_colors(scenario)]
         bodies: list[dict[str, Any]] = [
             {
                 "name": str(body.name),
                 "kind": snake_case(type(kind).__name__).replace("_", " "),
                 "robot": i < len(robots),
                 "color": color,
-                "bound": [*shape.bound[0], shape.bound[1]],
+                "bound": [*body.shape.bound[0], body.shape.bound[1]],
                 "ring": RING if i < len(robots) and has_ring(scenario, i) else 0,
                 "trail": trail,
             }
-            for i, (body, (kind, shape, color, trail)) in enumerate(
-                zip(scenario.bodies, looks, strict=True)
+            for i, (body, kind, color, trail) in enumerate(
+                zip(scenario.bodies, kinds, colors, trails, strict=True)
             )
         ]
         for robot, told in zip(robots, bodies, strict=False):
-            told["commands"] = [
-                [q.symbol, q.unit, q.kind] for q in robot.drive.quantities or UNKNOWN
-            ]
+            quantities = robot.drive.quantities or UNKNOWN
+            told["commands"] = [[q.symbol, q.unit, q.kind] for q in quantities]
         return bodies
 
     # -- the panel ----------------------------------------------------------------------------
@@ -266,22 +255,17 @@ class _Content:
             if layer.shapes is None or layer.name in ("trails", "sensors"):
                 continue
             if layer.stands:
-                headers[layer.name] = self._pack(layer, self._standing(layer), FINE, 1)
+                drawings = self._standing(layer)
             elif layer.each is not None:
                 drawings = self._carried(layer)
-                if drawings:
-                    headers[layer.name] = self._pack(layer, drawings, FINE, 1)
             else:
                 moving.append(layer)
+                continue
+            if drawings:
+                columns, header, _ = pack(layer.name, drawings, 1, self.size * FINE)
+                self.columns.take(columns)
+                headers[layer.name] = header
         return headers | self._add_moving(moving)
-
-    def _pack(
-        self, layer: Layer, drawings: list[Drawing], step: float, every: int
-    ) -> dict[str, Any]:
-        """Add drawings of a layer; return their header."""
-        columns, header, _ = pack(layer.name, drawings, every, self.size * step)
-        self.columns.take(columns)
-        return header
 
     def _standing(self, layer: Layer) -> list[Drawing]:
         """Return a layer that stands still until the scenario is changed."""

@@ -210,11 +210,11 @@ class Picture {
     const { camera } = this, { area, xs, ys } = this.gridOf();
     const [left, top] = camera.toPixels(area[0], area[3]), [right, bottom] = camera.toPixels(area[1], area[2]);
     for (const x of xs) {
-      context.fillStyle = Math.abs(x) < 1e-9 ? colors.axis : colors.grid;
+      context.fillStyle = Math.abs(x) < 1e-9 ? colors["grid-axis"] : colors.grid;
       context.fillRect(Math.round(camera.x + camera.scale * x), top, 1, bottom - top);
     }
     for (const y of ys) {
-      context.fillStyle = Math.abs(y) < 1e-9 ? colors.axis : colors.grid;
+      context.fillStyle = Math.abs(y) < 1e-9 ? colors["grid-axis"] : colors.grid;
       context.fillRect(left, Math.round(camera.y - camera.scale * y), right - left, 1);
     }
   }
@@ -383,7 +383,7 @@ class Picture {
   drawPicked(context, look) {
     const [x, y, radius] = this.bound(look.picked), { camera } = this;
     const far = camera.scale * radius + 6;
-    for (const [color, width] of [[look.colors.paper, 5], [look.colors.accent, 2.5]]) {
+    for (const [color, width] of [[look.colors.paper, 5], [look.colors.running, 2.5]]) {
       context.beginPath();
       context.arc(...camera.toPixels(x, y), far, 0, 2 * Math.PI);
       context.strokeStyle = color;

@@ -310,7 +310,7 @@ class Replay {
     document.documentElement.classList.toggle("dark", dark);
     find("dark").setAttribute("aria-pressed", dark);
     const style = getComputedStyle(document.documentElement);
-    const names = ["page", "paper", "grid", "axis", "muted", "accent"];
+    const names = ["page", "paper", "grid", "grid-axis", "muted", "running"];
     this.look.colors = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
     this.look.dark = dark;
   }
