@@ -266,4 +266,4 @@ def test_a_replay_shows_the_image_of_the_floor_when_its_file_is_gone(picture, tm
     loaded = mars2d.load(tmp_path / "r.npz").scenario
     assert [type(shape).__name__ for shape in floor_of(loaded).shapes] == ["Image"]
     (again,) = loaded.addons
-    assert np.array_equal(again.picture.pixels, floor.pixels)
+    assert np.array_equal(again.picture.pixels, floor.picture.pixels)
