@@ -74,8 +74,8 @@ change.
 """
 
 TABLE_HEAD = """\
-| field | unit | default | accepts | meaning |
-|---|---|---|---|---|
+| field | default | accepts | meaning |
+|---|---|---|---|
 """
 
 MATERIALS_HEAD = """
@@ -149,8 +149,8 @@ def section(kind: type[Description]) -> str:
 def row(kind: type[Description], field: dataclasses.Field[Any]) -> str:
     """Return the row of one field."""
     unit, doc = field.metadata.get("unit", ""), field.metadata.get("doc", "")
-    name = f"`{field.name}`" + ("" if field.kw_only else "*")
-    cells = [name, unit, default(field), accepts(kind, field), doc]
+    name = f"`{field.name}`{'' if field.kw_only else '*'}{f' [{unit}]' if unit else ''}"
+    cells = [name, default(field), accepts(kind, field), doc]
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
 
 
