@@ -63,19 +63,22 @@ BASES: tuple[type[Description], ...] = (Drive, Prop, Joint, Sensor, Controller, 
 HEAD = """\
 # Fields
 
-Every field that an experiment can set, with its unit, its default and what it accepts. All values
-are checked when an object is made: anything else is an error that names the field. Numbers have an
-interval: (0, 10] is more than 0 and at most 10. Fields are given by name, as in
+Every field that an experiment can set, with its unit, its default and what it accepts besides that.
+All values are checked when an object is made: anything else is an error that names the field.
+Numbers have an interval: (0, 10] is more than 0 and at most 10. Fields are given by name, as in
 `Robot(diameter=0.2)`; those marked with * may also be given without their name, in their order, as
 in `Disc(0.2)`. What must be given has no default.
+
+Each class has its own fields and those of its family: of [Drive](#drive), [Prop](#prop),
+[Joint](#joint), [Sensor](#sensor), [Controller](#controller) or [Addon](#addon).
 
 `object.replace(field=value)` returns a copy with some fields changed; the objects themselves never
 change.
 """
 
 TABLE_HEAD = """\
-| field | unit | default | accepts | meaning |
-|---|---|---|---|---|
+| field | default | accepts | meaning |
+|---|---|---|---|
 """
 
 MATERIALS_HEAD = """
@@ -137,11 +140,7 @@ def section(kind: type[Description]) -> str:
     if issubclass(kind, Sensor) and kind is not Sensor:
         page = f"sensors/{snake_case(kind.__name__)}.md#parameters"
         return text + f"\nIts fields are on [its page]({page}).\n"
-    base, fields = base_of(kind), fields_of(kind)
-    if base is not None:
-        link = f"[{base.__name__}](#{base.__name__.lower()})"
-        text += f"\nIt has the fields of {link}{', and' if fields else '.'}\n"
-    if fields:
+    if fields := fields_of(kind):
         text += "\n" + TABLE_HEAD + "".join(row(kind, field) for field in fields)
     return text
 
@@ -149,8 +148,8 @@ def section(kind: type[Description]) -> str:
 def row(kind: type[Description], field: dataclasses.Field[Any]) -> str:
     """Return the row of one field."""
     unit, doc = field.metadata.get("unit", ""), field.metadata.get("doc", "")
-    name = f"`{field.name}`" + ("" if field.kw_only else "*")
-    cells = [name, unit, default(field), accepts(kind, field), doc]
+    name = f"`{field.name}`{'' if field.kw_only else '*'}{f' [{unit}]' if unit else ''}"
+    cells = [name, default(field), accepts(kind, field), doc]
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
 
 
@@ -173,9 +172,13 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
         expected = str(error).partition(": expected ")[2]
     else:
         raise AssertionError(f"{name} accepts anything")
-    with contextlib.suppress(InputError):
-        if check(name, None) is None and "None" not in expected:
-            expected += ", or None"
+    if field.default is None:
+        expected = expected.removesuffix(", or None")
+    else:
+        with contextlib.suppress(InputError):
+            if check(name, None) is None and "None" not in expected:
+                expected += ", or None"
+    expected = {"True or False": "", "text in quotes": "text"}.get(expected, expected)
     expected = expected.replace(f" [{field.metadata['unit']}]", "")
     expected = re.sub(
         r"a number (>=?) (\S+) and (<=?) ([^\s,]+(?: pi)?)",

@@ -103,6 +103,14 @@ class Contest(Addon):
         return inspect.cleandoc(type(self).__doc__ or "").partition("\n\n")[0].replace("\n", " ")
 
     @property
+    def winner(self) -> str | None:
+        """The role that has won by now, in a running world; by default an InputError."""
+        raise InputError(
+            f"{type(self).__name__} says who has won of a record alone: give it a property "
+            "`winner`, or the learner a reward"
+        )
+
+    @property
     def results(self) -> dict[int, float]:
         """The results of robots that have left the contest, by index.
 

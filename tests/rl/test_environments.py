@@ -15,6 +15,7 @@ from pettingzoo.test import parallel_api_test, parallel_seed_test
 import mars2d.rl
 from mars2d import Holonomic, InputError, Robot, Scenario
 from mars2d.addons import Game
+from mars2d.addons.contest import Contest, Outcome
 from mars2d.rl import Environment, ParallelEnvironment
 from mars2d.rl.registration import IDS
 from mars2d.scenario.observation import Observation
@@ -160,6 +161,18 @@ def test_the_stop_time_truncates_and_the_record_has_all_rows():
     assert len(before) + 1 == environment.world.scenario.last_iteration
     assert len(environment.record) == len(before) + 2
     assert environment.record.finished
+
+
+def test_a_contest_that_only_reads_records_needs_a_reward():
+    class Hill(Contest):
+        def outcome(self, record):
+            return Outcome((), {}, None)
+
+    scenario = chase(stop_time=0.2).replace(addons=[Hill({"red": ["red"], "blue": ["blue"]})])
+    with pytest.raises(InputError, match="Hill says who has won of a record alone: give it a"):
+        list(steps(Environment(scenario, "red"), [0, 0]))
+    *_, last = steps(Environment(scenario, "red", reward=lambda world, robot: 0.5), [0, 0])
+    assert last[1:4] == (0.5, False, True)
 
 
 def test_who_leaves_the_workspace_terminates_in_the_same_step():

@@ -50,7 +50,7 @@ def test_a_scenario_of_a_record_is_saved_with_its_pictures(scenario) -> None:
     Path("a b;c.png").unlink()
     save_scenario(mars2d.load("run.npz").scenario, "run.toml")
     again = mars2d.run("run.toml")
-    assert again.scenario.addons[0].pixels.shape == (4, 6, 3)
+    assert again.scenario.addons[0].picture.pixels.shape == (4, 6, 3)
 
 
 def foreign(record: mars2d.Record, image: str) -> Path:

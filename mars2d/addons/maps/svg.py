@@ -215,7 +215,7 @@ class _Reader:
             return []
         rings = self._rings(path, matrix)
         even_odd = path.get("fill-rule") == "evenodd"
-        fill, stroke = self._paint(path, "fill"), self._paint(path, "stroke")
+        fill, stroke = _paint(path, "fill"), _paint(path, "stroke")
         areas = region(rings, even_odd=even_odd) if fill else []
         found = [_Drawn(layer, area, fill == PAPER) for area in areas]
         if fill == INK and areas:
@@ -225,23 +225,6 @@ class _Reader:
             return found + [_Drawn(layer, piece.geometry) for piece in walls if piece is not None]
         self.skipped["white or without a line"] += 1
         return found
-
-    def _paint(self, path: ET.Element, kind: str) -> int:
-        """Return what the fill or stroke of a path does: CLEAR, PAPER or INK."""
-        paint, opacity = path.get(kind, "none"), float(path.get(f"{kind}-opacity", "1"))
-        if paint == "none" or opacity == 0:
-            return CLEAR
-        if paint.startswith("#"):
-            bright = all(channel >= BRIGHT for channel in bytes.fromhex(paint[1:7]))
-            return (PAPER if opacity == 1 else CLEAR) if bright else INK
-        server = self._named.get(_reference(paint), path)  # a gradient or a pattern
-        stops = [
-            bytes.fromhex(stop.get("stop-color", "#000000")[1:7])
-            for stop in server.iter(f"{SVG}stop")
-            if float(stop.get("stop-opacity", "1")) > 0
-        ]
-        white = stops and min(map(min, stops)) >= BRIGHT
-        return CLEAR if white or (server.tag.endswith("Gradient") and not stops) else INK
 
     def _rings(self, path: ET.Element, matrix: Float) -> list[Float]:
         """Return the points (k, 2) of each part of a path, metres."""
@@ -265,6 +248,17 @@ class _Reader:
         for points in found:
             check_finite(f"{self._name}: path {path.get('id', '')}".rstrip(), points)
         return [points for points in found if len(points) > 1]
+
+
+def _paint(path: ET.Element, kind: str) -> int:
+    """Return what the fill or stroke of a path does: CLEAR, PAPER or INK."""
+    paint, opacity = path.get(kind, "none"), float(path.get(f"{kind}-opacity", "1"))
+    if paint == "none" or opacity == 0:
+        return CLEAR
+    if not paint.startswith("#"):  # a gradient or a pattern
+        return INK
+    bright = all(channel >= BRIGHT for channel in bytes.fromhex(paint[1:7]))
+    return INK if not bright else PAPER if opacity == 1 else CLEAR
 
 
 def _covered(drawn: list[_Drawn]) -> list[Piece]:
