@@ -14,6 +14,9 @@ from mars2d.window.widgets.actions import Action, label_of
 from mars2d.window.widgets.help import cap_width, draw_cap, draw_veil
 from mars2d.window.widgets.text_field import TextField
 
+BUTTONS = 0.5
+"""The share of the header in which buttons begin; the rest is for the title."""
+
 
 class Header:
     """A bar with the title, and buttons of actions at the right; those that are lit stand out."""
@@ -42,6 +45,8 @@ class Header:
         surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
         right, self._places = bar.right - pad, []
         for action in reversed(self._actions):
+            if right < (1 - BUTTONS) * bar.width:
+                break  # the keys have all of them
             first, works = action.lit, action.works
             color = theme.running.ink if first else theme.text if works else theme.key_edge
             wide = fonts.width(action.title, 15 * ui, bold=first) + 22 * ui

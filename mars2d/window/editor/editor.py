@@ -53,6 +53,9 @@ HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
+TALL, MAX_SHARE = 560.0, 0.115
+"""The height from which on the toolbar has one column, points, and its largest share of the
+window's width."""
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
 ASKED = frozenset({
@@ -321,9 +324,10 @@ class Editor:
 
     def _laid_out(self, size: tuple[int, int]) -> Layout:
         layout = self.looks.layout(size)
-        left, right = round(WIDTH * layout.ui), Panel.width(size, layout.ui)
-        plot = layout.plot
-        room = pygame.Rect(left, plot.top, max(1, plot.width - left - right), plot.height)
+        room, columns = layout.plot.copy(), 1.0 if layout.plot.height >= TALL * layout.ui else 1.6
+        left = round(min(columns * WIDTH * layout.ui, MAX_SHARE * size[0]))
+        room.left, room.width = left, max(1, room.width - left)
+        room.width = max(1, room.width - Panel.width(room, size, layout.ui))
         return replace(layout, plot=room)
 
     def _arrange(self, size: tuple[int, int]) -> None:
