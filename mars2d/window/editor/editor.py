@@ -16,6 +16,7 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
 from mars2d.output.layers.table import Layers
+from mars2d.output.raster.bars import Banner, draw_footer, footer_height
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
 from mars2d.scenario.scenario import Scenario
@@ -24,7 +25,6 @@ from mars2d.window.editor.chrome import (
     Answer,
     Header,
     Prompt,
-    draw_footer,
 )
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
@@ -35,7 +35,7 @@ from mars2d.window.editor.panel import Panel
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Select
-from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_idle, draw_selected
+from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_remarks, draw_selected
 from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
@@ -399,7 +399,7 @@ class Editor:
         plot, camera = self.layout.plot, self.desk.camera
         frame = self._sketch.frame(draft, bare=self._plain)
         if self._names:
-            draw_idle(draft, self.properties.idle(draft), scene)
+            draw_remarks(draft, self.properties.idle(draft), scene)
         layers, hurried = LAYERS.switched(names=self._names), self.viewpoint.hurried
         draw = partial(self._stage.draw, marks=scene.shapes, hurried=hurried)
         try:
@@ -418,20 +418,24 @@ class Editor:
             draw_tooltip(surface, self.painter, remark, topleft=(x + gap, y + gap))
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
-        desk, bar = self.desk, self.layout.footer
-        text, kind = self.tool.hint, "hint"
-        if desk.notice:
-            text, kind = desk.notice, "error" if desk.warns else "note"
-        elif self.judge.verdict.faults and desk.draft.robots:
-            text, kind = self.judge.verdict.text, "error"
-        elif self.judge.verdict.faults and self.tool_name == "select":
-            text = self.judge.verdict.text
-            text = text[:1].upper() + text[1:]
-        right = "Esc leaves   F1 all keys" if self.live else "F1 all keys"
-        if self.layout.plot.collidepoint(self._pointer):
+        """Draw what to do, or over the foot of the drawing a message of any length."""
+        desk, verdict, layout = self.desk, self.judge.verdict, self.layout
+        text = self.tool.hint
+        banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
+        if banner is None and verdict.faults and desk.draft.robots:
+            banner = Banner(verdict.text, error=True)
+        elif verdict.faults and self.tool_name == "select":
+            text = verdict.text[:1].upper() + verdict.text[1:]
+        hints = [*[("Esc", "leaves")] * self.live, ("F1", "all keys")]
+        if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
-            right = minus(f"x {x:g} m   y {y:g} m")
-        draw_footer(surface, bar, self.painter, text, kind, right)
+            hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
+        size, looks = surface.get_size(), self.looks
+        height = round(
+            footer_height(banner, size, self.painter, looks.text, looks.scale) * layout.ui
+        )
+        bar = pygame.Rect(0, layout.footer.bottom - height, size[0], height)
+        draw_footer(surface, replace(layout, footer=bar), self.painter, banner, text, hints)
 
     def _note(self) -> str:
         if self.live:
