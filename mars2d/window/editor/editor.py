@@ -21,11 +21,7 @@ from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
-from mars2d.window.editor.chrome import (
-    Answer,
-    Header,
-    Prompt,
-)
+from mars2d.window.editor.chrome import Answer, Header, Prompt
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
@@ -109,7 +105,7 @@ class Editor:
         )
         self._stage, self._sketch = Stage(painter), Sketch()
         self._pointer = (-1, -1)
-        self._dragging = self._panning = self._space = False
+        self._dragging = self._panning = False
         self._held: set[int] = set()
         self._names = len(draft.robots) + len(draft.props) <= MAX_NAMED
         self._plain = False  # whether only the add-ons that can be edited are drawn
@@ -136,17 +132,21 @@ class Editor:
 
     def handle(self, event: pygame.Event) -> None:
         """Handle an event of pygame."""
+        try:
+            self._take(event)
+        except InputError as error:  # a value that does not go with the others
+            self.desk.say(str(error), warns=True)
+
+    def _take(self, event: pygame.Event) -> None:
         prompt = self.dialogs.prompt
         if prompt is not None:
             self.dialogs.handle(prompt, event)
-        if (prompt is not None and event.type in ASKED) or self._choose_in_menu(event):
+        if (prompt is not None and event.type in ASKED) or self.menu.handle(event):
             pass
         elif event.type == pygame.KEYDOWN:
             self._press_key(event)
         elif event.type == pygame.KEYUP:
             self._held.discard(event.key)
-            if event.key == pygame.K_SPACE:
-                self._space = False
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
             self._let_go()
@@ -161,18 +161,7 @@ class Editor:
         elif event.type == pygame.MOUSEBUTTONUP:
             self._release(event)
 
-    def _choose_in_menu(self, event: pygame.Event) -> bool:
-        """Give an event to the open menu; return whether it took it."""
-        try:
-            return self.menu.handle(event)
-        except InputError as error:  # a value that does not go with the others
-            self.desk.say(str(error), warns=True)
-            return True
-
     def _press_key(self, event: pygame.Event) -> None:
-        if event.key == pygame.K_SPACE:
-            self._space = True
-            return
         if self._dragging and event.key == pygame.K_ESCAPE:
             self._let_go()
             return
@@ -201,15 +190,10 @@ class Editor:
             self.help.close()
             return
         self._pointer = event.pos
-        try:
-            if self.panel.area.collidepoint(event.pos):
-                self.desk.say("")
-                self.panel.click(event.pos)
-                return
-        except InputError as error:  # a value that does not go with the others
-            self.desk.say(str(error), warns=True)
-            return
-        if event.button == pygame.BUTTON_LEFT:
+        if self.panel.area.collidepoint(event.pos):
+            self.desk.say("")
+            self.panel.click(event.pos)
+        elif event.button == pygame.BUTTON_LEFT:
             self._press_left(event.pos)
         elif event.button == pygame.BUTTON_MIDDLE:
             self._panning = True
@@ -222,7 +206,7 @@ class Editor:
             self.desk.say("")
             button.act()
         elif self.layout.plot.collidepoint(pixel):
-            if self._space:
+            if pygame.K_SPACE in self._held:
                 self._panning = True
                 return
             self.desk.say("")
@@ -249,7 +233,7 @@ class Editor:
         """Cancel the drag."""
         if self._dragging:
             self.tool.cancel()
-        self._dragging = self._panning = self._space = False
+        self._dragging = self._panning = False
 
     def _world(self, pixel: tuple[int, int]) -> Point:
         ((x, y),) = self.desk.camera.to_world([pixel]).tolist()
