@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import pygame
 
 from mars2d.output.raster.layout import interface_scale
-from mars2d.scenario.examples import GAME, courses, games, thumbnail_of, title_of
+from mars2d.scenario.examples import GAME, courses, examples, games, thumbnail_of, title_of
 from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
@@ -74,16 +75,25 @@ class Home:
     def _all_shelves(self) -> list[Shelf]:
         own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]
         new = Card("New drawing", "Draw a scenario with the mouse.", ("edit",), sign="+")
-        play = [self._example_card(name, "play") for name in games()]
-        of_courses = [
-            Shelf(course, [self._example_card(name) for name in names])
-            for course, names in courses().items()
+        found, play = courses(), games()
+        shelves = {"Play": play} | {
+            course: [name for name in names if name not in play] for course, names in found.items()
+        }
+        return [
+            Shelf("Your own", [new, *own]),
+            *(
+                Shelf(title, [self._example_card(name, plays=title == "Play") for name in names])
+                for title, names in shelves.items()
+            ),
         ]
-        return [Shelf("Your own", [new, *own]), Shelf("Play", play), *of_courses]
 
-    def _example_card(self, name: str, verb: str = "demo") -> Card:
+    def _example_card(self, name: str, *, plays: bool) -> Card:
         looks = "dark" if self.painter.theme.dark else "light"
-        return Card(*title_of(name), (verb, name), thumbnail_of(name, looks))
+        watch, play = ("demo", name), ("play", name)
+        others = {"Play": play, "Watch": watch} if plays else {}
+        picture = thumbnail_of(name, looks)
+        command = play if plays else watch
+        return Card(*title_of(name), command, picture, words=_words_of(name), others=others)
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -175,7 +185,8 @@ class Home:
             self.page.drag_bar(pixel[1], self.painter.ui)
         elif card is not None:
             self.page.chosen = card
-            self._choose()
+            on = (command for place, command in self.page.buttons if place.collidepoint(pixel))
+            self._choose(next(on, None))
 
     def _search(self, event: pygame.Event) -> bool:
         """Give an event to the field of search; return whether it was for it."""
@@ -203,8 +214,9 @@ class Home:
             self.page.move(*steps[event.key])
         elif event.key in pages:
             self.page.turn(pages[event.key])
-        elif event.key in (pygame.K_RETURN, pygame.K_KP_ENTER):
-            self._choose()
+        elif event.key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.page.card is not None:
+            others = [*self.page.card.others.values()]
+            self._choose(others[-1] if others and event.mod & pygame.KMOD_SHIFT else None)
         elif event.key == pygame.K_F11:
             self.looks.actions["screen"]()
         elif control and event.key in (pygame.K_q, pygame.K_w):
@@ -212,10 +224,10 @@ class Home:
         elif event.key == pygame.K_ESCAPE:
             self.search.clear()
 
-    def _choose(self) -> None:
-        """Close with the chosen card."""
+    def _choose(self, command: tuple[str, ...] | None = None) -> None:
+        """Close with the chosen card, or with a command of one of its buttons."""
         if self.page.card is not None:
-            self.choice, self._open = self.page.card.command, False
+            self.choice, self._open = command or self.page.card.command, False
 
     def open_file(self, path: Path) -> None:
         """Close with a file that was dropped on the window, or say why it can't be opened."""
@@ -225,6 +237,17 @@ class Home:
             self._notes.say(f"{path.name}: expected a file that ends in {suffixes}", "warning")
         else:
             self.choice, self._open = (command, str(path)), False
+
+
+@cache
+def _words_of(name: str) -> str:
+    """Return what is searched of an example: its course, its title in the window, its whole file.
+
+    So its docstring is found, and the names of all parts that it uses.
+    """
+    file = examples()[name]
+    course = next(course for course, names in courses().items() if name in names)
+    return f"{course} {file.read_text(encoding='utf-8')}"
 
 
 def _own_card(path: Path, picture: Path | None) -> Card:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -170,13 +171,16 @@ class Scopes(Panel):
     def save_figure(self, frame: Frame, saver: Saver) -> None:
         """Save what is plotted as a figure, of all that was run."""
 
-        def draw() -> Any:
+        def write(path: Path) -> None:
+            from mars2d.output.figures.figure import save_drawing
             from mars2d.output.figures.signals import draw_signals
 
-            record, signals = self._signals(frame)
-            return draw_signals(record, signals)[0].figure
+            def draw() -> Any:
+                return draw_signals(*self._signals(frame))[0].figure
 
-        saver.figure(draw)
+            save_drawing(draw, path)
+
+        saver.save("figure", ".png", write)
 
     def save_table(self, frame: Frame, saver: Saver) -> None:
         """Save the numbers of what is plotted, of all that was run."""

@@ -19,6 +19,9 @@ BREAK = 0.35
 """The gap between two groups, in sides."""
 ICON = 0.56
 """An icon's side, in sides of its button."""
+LABELLED, LABEL = 100.0, 13.0
+"""The width of a column from which on buttons have labels, and the height of their letters,
+points."""
 
 SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24" width="24" height="24"><path '
@@ -40,7 +43,7 @@ class Buttons:
         self._groups, self._side, self._lettered = groups, side, lettered
         self._actions = {action.name: action for group in groups for action in group}
         self.places: dict[str, pygame.Rect] = {}
-        self._upright = False
+        self._upright = self._labelled = False
 
     def at(self, pixel: tuple[int, int]) -> str | None:
         """Return the name of the button at a pixel, if there is one."""
@@ -74,9 +77,14 @@ class Buttons:
             if on or hover:
                 fill = theme.running.pale if on else theme.key
                 edge = theme.selected if on else theme.key_edge
-                painter.panel(surface, place, fill, 0.18 * place.width, edge)
+                painter.panel(surface, place, fill, 0.18 * place.height, edge)
             icon = action.lit_icon if action.lit_icon and on else action.icon
-            draw_icon(surface, icon, theme.running.ink if on else theme.text, place)
+            ink = theme.running.ink if on else theme.text
+            square = pygame.Rect(place.topleft, (place.height, place.height))
+            draw_icon(surface, icon, ink, square)
+            if self._labelled:
+                size, at = LABEL * painter.ui, (square.right + 3 * painter.ui, place.centery)
+                painter.write(surface, action.title, size, ink, midleft=at)
             if self._lettered:
                 size, color = 0.25 * place.width, theme.running.ink if on else theme.muted
                 at, key = place.move(-3, -2).bottomright, action.labels[0]
@@ -105,7 +113,9 @@ class Buttons:
             each = long / (rows + BREAK * len(self._groups)) - gap
             return round(max(8, min(self._side * ui, (thick - gap) / lanes - gap, each)))
 
-        lanes = max((1, 2, 3), key=lambda lanes: (side_in(lanes), -lanes))
+        self._labelled = upright and thick >= LABELLED * ui
+        every = (1,) if self._labelled else (1, 2, 3)
+        lanes = max(every, key=lambda lanes: (side_in(lanes), -lanes))
         side = side_in(lanes)
         along, first = round(0.5 * BREAK * side) + gap, (thick - lanes * (side + gap) + gap) // 2
         self.places = {}
@@ -113,7 +123,10 @@ class Buttons:
             for k, action in enumerate(group):
                 x, y = first + k % lanes * (side + gap), along + k // lanes * (side + gap)
                 x, y = (x, y) if upright else (y, x)
-                self.places[action.name] = pygame.Rect(area.left + x, area.top + y, side, side)
+                place = pygame.Rect(area.left + x, area.top + y, side, side)
+                if self._labelled:
+                    place.update(area.left + gap, area.top + y, thick - 3 * gap, side)
+                self.places[action.name] = place
             along += ceil(len(group) / lanes) * (side + gap) + round(BREAK * side)
 
 

@@ -131,11 +131,11 @@ class Dock:
         return [panel.name for panel in self.panels if panel.is_open and panel.remembered]
 
     @property
-    def free(self) -> pygame.Rect:
-        """The largest side of the picture on which no panel was drawn."""
+    def free(self) -> list[pygame.Rect]:
+        """The sides of the picture on which no panel was drawn, the largest first."""
         plot, plates = self._plot, list(self.plates.values())
         if not plates:
-            return plot
+            return [plot]
         taken = plates[0].unionall(plates[1:])
         sides = (
             pygame.Rect(plot.topleft, (taken.left - plot.left, plot.height)),
@@ -143,7 +143,8 @@ class Dock:
             pygame.Rect(plot.topleft, (plot.width, taken.top - plot.top)),
             pygame.Rect(plot.left, taken.bottom, plot.width, plot.bottom - taken.bottom),
         )
-        return max(sides, key=lambda side: max(side.width, 0) * max(side.height, 0))
+        there = [side for side in sides if min(side.size) > 0]
+        return sorted(there, key=lambda side: -side.width * side.height)
 
     def open(self, names: Iterable[str]) -> None:
         """Open the panels of these names; unknown names are left out."""

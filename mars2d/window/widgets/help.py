@@ -13,10 +13,9 @@ from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import Action
-from mars2d.window.widgets.keys import Key
 
-Groups = Iterable[tuple[str, Sequence[Key | Action]]]
-Named = tuple[tuple[str, tuple[Key | Action, ...]], ...]
+Groups = Iterable[tuple[str, Sequence[Action]]]
+Named = tuple[tuple[str, tuple[Action, ...]], ...]
 
 UNREADABLE = 0.2
 """The scale below which text is not drawn, pixels a point."""
