@@ -245,7 +245,7 @@ class Scrubbed:
     def scrub(self, screen: pygame.Surface) -> dict[str, list[float]]:
         """Return the milliseconds to draw pictures, of a new stage."""
         painter, layout = Painter(), Layout.of(SIZE, controls=True)
-        stage, camera = Stage(painter, MEMORY), fitted(self._scenario, SIZE, layout)
+        stage, camera = Stage(painter, MEMORY), fitted(self._scenario.bounds, SIZE, layout)
 
         def drawn(row: int) -> float:
             frame = Frame(self._scenario, 0.1 * row, row, self._pose[row], self._pose[:row])

@@ -50,7 +50,7 @@ from mars2d.window.screen.display import (
 from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.screen.selection import Selection
-from mars2d.window.screen.source import Source
+from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.menu import Entry
@@ -104,6 +104,7 @@ class Window(PlayerWindow):
         self._predictions = Predictions(painter, timeline)
         self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
+        self.viewpoint.bounds = source.bounds if isinstance(source, Playback) else None
         self._mouse = Mouse(
             self.player, self.viewpoint, self.grab, self._controls.handles,
             self._is_picture, self._select_at, self._offer,
@@ -258,10 +259,9 @@ class Window(PlayerWindow):
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
         self._inspector.plays = self._inspector.frames = self._drives
-        *_, ymin, ymax = frame.scenario.bounds
-        room = self.dock.arrange(
-            layout, frame, partial(fitted, frame.scenario, layout.size), ymax - ymin
-        )
+        bounds = self.viewpoint.bounds or frame.scenario.bounds
+        fit = partial(fitted, bounds, layout.size)
+        room = self.dock.arrange(layout, frame, fit, bounds[3] - bounds[2])
         self.viewpoint.arrange(layout, frame.scenario, room)
         marks = self.grab.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
@@ -337,7 +337,7 @@ class Window(PlayerWindow):
 
     def _seen_arena(self, frame: Frame) -> pygame.Rect:
         """Return where the workspace is seen, which a driver needs to see, pixels."""
-        xmin, xmax, ymin, ymax = frame.scenario.bounds
+        xmin, xmax, ymin, ymax = self.viewpoint.bounds or frame.scenario.bounds
         (left, top), (right, bottom) = self.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).tolist()
         return pygame.Rect(left, top, right - left, bottom - top)
 
