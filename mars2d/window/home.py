@@ -101,7 +101,7 @@ class Home:
         """Draw the home on a surface of any size."""
         size, painter = surface.get_size(), self.painter
         ui = painter.ui = interface_scale(size, self.looks.text, self.looks.scale)
-        theme, fonts, pad = painter.theme, painter.fonts, round(30 * ui)
+        theme, pad = painter.theme, round(30 * ui)
         header = pygame.Rect(0, 0, size[0], round(HEADER * ui))
         footer = pygame.Rect(0, 0, size[0], round(FOOTER * ui))
         footer.bottom = size[1]
@@ -112,8 +112,8 @@ class Home:
             surface.fill(theme.bar, bar)
         surface.fill(theme.edge, (0, header.bottom - 1, size[0], 1))
         surface.fill(theme.edge, (0, footer.top, size[0], 1))
-        name = fonts.render("MARS2D", 22 * ui, theme.ink, bold=True)
-        surface.blit(name, name.get_rect(midleft=(pad, header.centery)))
+        at = (pad, header.centery)
+        painter.write(surface, "MARS2D", 22 * ui, theme.ink, bold=True, midleft=at)
         here = pygame.display.get_init() and pygame.mouse.get_focused()
         pointer = pygame.mouse.get_pos() if here else None
         buttons = pygame.Rect(0, 0, round(96 * ui), round(44 * ui))
@@ -126,7 +126,7 @@ class Home:
 
     def _draw_search(self, surface: pygame.Surface, header: pygame.Rect, right: int) -> None:
         """Draw the field with the words to search for."""
-        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
+        ui, theme = self.painter.ui, self.painter.theme
         left = round(170 * ui)
         plate = pygame.Rect(0, 0, min(round(340 * ui), right - left), round(34 * ui))
         plate.midright = right, header.centery
@@ -134,8 +134,9 @@ class Home:
         self.painter.panel(surface, plate, theme.plate, 6 * ui, edge)
         inner = plate.inflate(-round(24 * ui), 0)
         if not self.page.places:
-            image = fonts.render("nothing like that", 13 * ui, theme.muted)
-            inner.width -= surface.blit(image, image.get_rect(midright=inner.midright)).width
+            words = "nothing like that"
+            end = self.painter.write(surface, words, 13 * ui, theme.muted, midright=inner.midright)
+            inner.width -= end.width
         self.search.draw(surface, inner, self.painter, 15 * ui, hint=HINT)
 
     def _draw_line(self, surface: pygame.Surface, footer: pygame.Rect, pad: int) -> None:
@@ -145,12 +146,10 @@ class Home:
         if card is None:
             return
         command = fonts.shorten(" ".join(("mars2d", *card.command)), 13 * ui, 0.45 * footer.width)
-        code = fonts.render(command, 13 * ui, theme.text, mono=True)
-        place = code.get_rect(midright=(footer.right - pad, footer.centery))
-        room = place.left - 2 * pad
-        line = fonts.render(fonts.shorten(card.line, 14 * ui, room), 14 * ui, theme.muted)
-        surface.blit(line, line.get_rect(midleft=(pad, footer.centery)))
-        surface.blit(code, place)
+        end, write = (footer.right - pad, footer.centery), self.painter.write
+        place = write(surface, command, 13 * ui, theme.text, mono=True, midright=end)
+        line = fonts.shorten(card.line, 14 * ui, place.left - 2 * pad)
+        write(surface, line, 14 * ui, theme.muted, midleft=(pad, footer.centery))
 
     # -- events ---------------------------------------------------------------------------------
 

@@ -25,7 +25,6 @@ from mars2d.window.editor.chrome import (
     Header,
     Prompt,
     draw_footer,
-    draw_plate,
 )
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
@@ -46,6 +45,7 @@ from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
+from mars2d.window.widgets.slider import draw_tooltip
 from mars2d.window.widgets.text_field import TextField
 
 NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
@@ -53,6 +53,9 @@ HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
+TALL, MAX_SHARE = 560.0, 0.115
+"""The height from which on the toolbar has one column, points, and its largest share of the
+window's width."""
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
 ASKED = frozenset({
@@ -321,9 +324,10 @@ class Editor:
 
     def _laid_out(self, size: tuple[int, int]) -> Layout:
         layout = self.looks.layout(size)
-        left, right = round(WIDTH * layout.ui), Panel.width(size, layout.ui)
-        plot = layout.plot
-        room = pygame.Rect(left, plot.top, max(1, plot.width - left - right), plot.height)
+        room, columns = layout.plot.copy(), 1.0 if layout.plot.height >= TALL * layout.ui else 1.6
+        left = round(min(columns * WIDTH * layout.ui, MAX_SHARE * size[0]))
+        room.left, room.width = left, max(1, room.width - left)
+        room.width = max(1, room.width - Panel.width(room, size, layout.ui))
         return replace(layout, plot=room)
 
     def _arrange(self, size: tuple[int, int]) -> None:
@@ -379,8 +383,8 @@ class Editor:
         self._toolbar.draw(surface, bar, painter, self._pointer)
         place = self._toolbar.places["snap"]
         step = f"{self.desk.step:g} m" if self.desk.snaps else "free"
-        words = painter.fonts.render(step, 0.3 * place.width, theme.text)
-        surface.blit(words, words.get_rect(midtop=(place.centerx, place.bottom + 2)))
+        below = (place.centerx, place.bottom + 2)
+        painter.write(surface, step, 0.3 * place.width, theme.text, midtop=below)
 
     def is_on(self, action: str) -> bool:
         """Return whether a tool is chosen, or the grid snaps."""
@@ -411,7 +415,7 @@ class Editor:
         if remark:
             x, y = self._pointer
             gap = round(16 * self.layout.ui)
-            draw_plate(surface, self.painter, [remark], plot, topleft=(x + gap, y + gap))
+            draw_tooltip(surface, self.painter, remark, topleft=(x + gap, y + gap))
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         desk, bar = self.desk, self.layout.footer

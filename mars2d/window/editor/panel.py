@@ -9,8 +9,11 @@ import pygame
 
 from mars2d.output.raster.painter import Painter
 
-WIDTH, MAX_SHARE = 268.0, 0.34
-"""The panel's width, points, and at most this share of the window."""
+WIDTH, LEAST = 268.0, 220.0
+"""The panel's width, and the width below which its letters get smaller, points."""
+MAX_SHARE, ARENA = 0.34, 0.42
+"""Its largest share of the window's width, and the share of the window that it leaves to the
+drawing."""
 ROW, SIZE, PAD = 26.0, 14.0, 14.0
 """The height of a row and of its letters, and the margin, points."""
 
@@ -37,16 +40,17 @@ class Panel:
 
     def __init__(self, painter: Painter) -> None:
         """Start with nothing drawn."""
-        self._painter = painter
+        self._painter, self._ui = painter, 1.0
         self._rows: list[tuple[Row, pygame.Rect]] = []
         self._signs: list[tuple[Row, int, pygame.Rect]] = []
         self._first = 0
         self.area = pygame.Rect(0, 0, 0, 0)
 
     @staticmethod
-    def width(size: tuple[int, int], ui: float) -> int:
-        """Return its width in a window of `size` pixels."""
-        return round(min(WIDTH * ui, MAX_SHARE * size[0]))
+    def width(plot: pygame.Rect, size: tuple[int, int], ui: float) -> int:
+        """Return its width, of the part `plot` that it shares with the drawing, in pixels."""
+        left = plot.width - ARENA * size[0] * size[1] / plot.height
+        return round(max(1, min(WIDTH * ui, MAX_SHARE * size[0], left)))
 
     @property
     def places(self) -> dict[str, pygame.Rect]:
@@ -80,7 +84,8 @@ class Panel:
         pointer: tuple[int, int],
     ) -> None:
         """Draw the rows in an area."""
-        painter, theme, ui = self._painter, self._painter.theme, self._painter.ui
+        painter, theme = self._painter, self._painter.theme
+        ui = self._ui = min(painter.ui, area.width / LEAST)
         self.area, self._rows, self._signs = area, [], []
         surface.fill(theme.bar, area)
         surface.fill(theme.edge, (area.left, area.top, 1, area.height))
@@ -95,13 +100,13 @@ class Panel:
                 painter.panel(surface, place, theme.key, 5 * ui)
             self._draw_row(surface, row, place, pointer)
         if len(rows) > self._first + room:
-            more = painter.fonts.render("▾", SIZE * ui, theme.muted)
-            surface.blit(more, more.get_rect(midbottom=(area.centerx, area.bottom)))
+            foot = (area.centerx, area.bottom)
+            painter.write(surface, "▾", SIZE * ui, theme.muted, midbottom=foot)
 
     def _draw_row(
         self, surface: pygame.Surface, row: Row, place: pygame.Rect, pointer: tuple[int, int]
     ) -> None:
-        painter, theme, ui = self._painter, self._painter.theme, self._painter.ui
+        painter, theme, ui = self._painter, self._painter.theme, self._ui
         fonts, size, pad = painter.fonts, SIZE * ui, round(0.5 * PAD * ui)
         right = place.right - pad
         if row.step is not None:
@@ -111,9 +116,8 @@ class Panel:
         left = place.left + pad + round(12 * ui) * row.level
         room = right - left
         value = fonts.shorten(row.value, size, 0.62 * room) if row.value else ""
-        image = fonts.render(value, size, theme.ink)
-        at = image.get_rect(midright=(right, place.centery))
-        surface.blit(image, at)
+        end = (right, place.centery)
+        at = painter.write(surface, value, size, theme.ink, midright=end)
         edge = at.left if value else right
         if row.color:
             dot = pygame.Rect(0, 0, round(13 * ui), round(13 * ui))
@@ -121,14 +125,13 @@ class Panel:
             painter.panel(surface, dot, theme.shade(row.color), dot.width / 2)
             edge = dot.left
         title = fonts.shorten(row.title, size, edge - left - round(8 * ui) * bool(value), bold=bold)
-        words = fonts.render(title, size, ink, bold=bold)
-        surface.blit(words, words.get_rect(midleft=(left, place.centery)))
+        painter.write(surface, title, size, ink, bold=bold, midleft=(left, place.centery))
 
     def _draw_signs(
         self, surface: pygame.Surface, row: Row, place: pygame.Rect, pointer: tuple[int, int]
     ) -> int:
         """Draw the buttons + and - of a number; return where its value ends."""
-        painter, theme, ui = self._painter, self._painter.theme, self._painter.ui
+        painter, theme, ui = self._painter, self._painter.theme, self._ui
         side, right = round(0.8 * place.height), place.right
         for way, sign in ((1, "+"), (-1, "\N{MINUS SIGN}")):
             key = pygame.Rect(0, 0, side, side)
@@ -136,8 +139,7 @@ class Panel:
             if place.collidepoint(pointer):
                 edge = theme.selected if key.collidepoint(pointer) else theme.key_edge
                 painter.panel(surface, key, theme.bar, 4 * ui, edge)
-            words = painter.fonts.render(sign, SIZE * ui, theme.muted)
-            surface.blit(words, words.get_rect(center=key.center))
+            painter.write(surface, sign, SIZE * ui, theme.muted, center=key.center)
             self._signs.append((row, way, key))
             right = key.left - round(2 * ui)
         return right - round(2 * ui)

@@ -103,8 +103,8 @@ class Window(PlayerWindow):
         self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
         self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
-        self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
-        self.viewpoint.bounds = source.bounds if isinstance(source, Playback) else None
+        bounds = source.bounds if isinstance(source, Playback) else None
+        self.viewpoint = Viewpoint(source.scenario, self._layout(size, None), bounds)
         self._mouse = Mouse(
             self.player, self.viewpoint, self.grab, self._controls.handles,
             self._is_picture, self._select_at, self._offer,

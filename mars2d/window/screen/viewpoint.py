@@ -45,11 +45,13 @@ class Viewpoint:
     such as all that a recorded run needs; None for those of the scenario.
     """
 
-    def __init__(self, scenario: Scenario, layout: Layout) -> None:
+    def __init__(
+        self, scenario: Scenario, layout: Layout, bounds: Bounds | None = None
+    ) -> None:
         """Show the whole workspace."""
         self.layout = layout
         self.following: Follow | None = None
-        self.bounds: Bounds | None = None
+        self.bounds = bounds
         self._scenario = scenario
         self._fits = True
         self._room = layout.plot

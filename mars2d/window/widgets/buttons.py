@@ -87,8 +87,8 @@ class Buttons:
                 painter.write(surface, action.title, size, ink, midleft=at)
             if self._lettered:
                 size, color = 0.25 * place.width, theme.running.ink if on else theme.muted
-                letter = painter.fonts.render(action.labels[0], size, color, bold=True)
-                surface.blit(letter, letter.get_rect(bottomright=place.move(-3, -2).bottomright))
+                at, key = place.move(-3, -2).bottomright, action.labels[0]
+                painter.write(surface, key, size, color, bold=True, bottomright=at)
 
     def draw_tip(
         self, surface: pygame.Surface, painter: Painter, pointer: tuple[int, int] | None

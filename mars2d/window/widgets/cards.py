@@ -173,8 +173,8 @@ class Page:
     def _draw_heading(
         surface: pygame.Surface, painter: Painter, title: str, place: pygame.Rect
     ) -> None:
-        words = painter.fonts.render(title, TITLE * painter.ui, painter.theme.ink, bold=True)
-        surface.blit(words, words.get_rect(midleft=(place.left, place.centery)))
+        size, ink = TITLE * painter.ui, painter.theme.ink
+        painter.write(surface, title, size, ink, bold=True, midleft=place.midleft)
 
     def _draw_card(
         self,
@@ -200,8 +200,8 @@ class Page:
             surface.blit(image, shown)
         else:
             painter.panel(surface, shown, theme.page, 5 * ui)
-            sign = fonts.render(card.sign, 0.42 * shown.height, theme.muted)
-            surface.blit(sign, sign.get_rect(center=shown.center))
+            size = 0.42 * shown.height
+            painter.write(surface, card.sign, size, theme.muted, center=shown.center)
         corner = shown.right - round(6 * ui), shown.bottom - round(6 * ui)
         for label, command in reversed([*card.others.items()]):
             width = fonts.width(label, LETTERS * ui) + round(18 * ui)
@@ -213,9 +213,8 @@ class Page:
             corner = button.left - round(6 * ui), button.bottom
         room = place.width - 2 * round(10 * ui)
         title = fonts.shorten(card.title, LETTERS * ui, room)
-        words = fonts.render(title, LETTERS * ui, theme.text)
-        middle = place.left + round(10 * ui), place.bottom - round(0.5 * CAPTION * ui)
-        surface.blit(words, words.get_rect(midleft=middle))
+        middle = place.left + 10 * ui, place.bottom - 0.5 * CAPTION * ui
+        painter.write(surface, title, LETTERS * ui, theme.text, midleft=middle)
 
 
 @lru_cache(maxsize=128)

@@ -396,9 +396,8 @@ class Dock:
         room = plate.width - (2 * PAD + CLOSE) * ui
         word = fonts.shorten(panel.title, 13.5 * ui, room, bold=True)
         color = theme.muted if panel.name in self._folded else theme.ink
-        image = fonts.render(word, 13.5 * ui, color, bold=True)
-        middle = plate.top + round(HEAD / 2 * ui)
-        surface.blit(image, image.get_rect(midleft=(plate.left + round(PAD * ui), middle)))
+        middle = plate.left + PAD * ui, plate.top + HEAD / 2 * ui
+        self.painter.write(surface, word, 13.5 * ui, color, bold=True, midleft=middle)
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle an event of the mouse; return whether a panel took it."""
