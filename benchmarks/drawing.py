@@ -188,7 +188,7 @@ class Watched:
         window = self._window = Window(Reel(scene), 0 if each_step else 1.0, SIZE, look)
         window.layers = window.layers.switched(names=overlays, velocities=overlays, forces=overlays)
         if inspector:
-            window.selected = 3
+            window.select(3)
         for what in SCOPES if scopes else ():
             window.scopes.switch(what, tuple(range(len(scene[1].scenario.robots))))
         if following:

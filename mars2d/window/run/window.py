@@ -53,7 +53,6 @@ from mars2d.window.screen.selection import Selection
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
-from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Progress, draw_progress
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -110,14 +109,16 @@ class Window(PlayerWindow):
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions |= {
-            "contacts": lambda: self.toolbar.open("contacts", self._contact_entries),
+            "contacts": lambda: self.toolbar.open(
+                "contacts", partial(entries_of_contacts, self.player, self._actions)
+            ),
             "predictions": self._predict_or_not,
             "branch": self._other_branch,
             "undo": self._undo,
             "scopes": self._open_scopes,
             "figure": lambda: self.scopes.save_figure(self.player.frame, self.saver),
             "table": lambda: self.scopes.save_table(self.player.frame, self.saver),
-            "select": self._select_next,
+            "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
             "parameters": self._show_parameters,
             "drive": self._drive_or_not,
@@ -140,8 +141,8 @@ class Window(PlayerWindow):
         """The selected body, an index of `Scenario.bodies`."""
         return self._selection.body
 
-    @selected.setter
-    def selected(self, body: int | None) -> None:
+    def select(self, body: int | None) -> None:
+        """Select a body, or none."""
         self._selection.body = body
 
     @property
@@ -194,7 +195,10 @@ class Window(PlayerWindow):
             return
         self._read_again()
         if self.game is not None:
-            self._go_near()
+            robots = self.player.source.scenario.robots
+            if self._unseen and min(r.radius for r in robots) * self.camera.scale < SEEN:
+                self.viewpoint.follow(None)
+            self._unseen = False
             if self.game.pass_time(seconds):
                 self._rest.stir()
         self.director.steer(seconds)
@@ -206,13 +210,6 @@ class Window(PlayerWindow):
         self.viewpoint.step(self.player.frame, seconds)
         if self.player.playing:
             self.viewpoint.keep(self.player.frame, self.director.driven)
-
-    def _go_near(self) -> None:
-        """Let the camera follow the robots of a game that are small in its first picture."""
-        smallest = min(robot.radius for robot in self.player.source.scenario.robots)
-        if self._unseen and smallest * self.camera.scale < SEEN:
-            self.viewpoint.follow(None)
-        self._unseen = False
 
     def _read_again(self) -> None:
         """Continue with the experiment's files if they were saved."""
@@ -234,7 +231,8 @@ class Window(PlayerWindow):
         cast = _cast(self.player.source)
         if cast == self._cast:
             return
-        self._cast, self.selected, self.viewpoint.following = cast, None, None
+        self._cast, self.viewpoint.following = cast, None
+        self.select(None)
         self.director.release()
         self.scopes.meet(self.player.source.scenario)
         self.grab.cancel()
@@ -365,16 +363,12 @@ class Window(PlayerWindow):
             return True
         if self._controls.handle(event) or (not self.help.is_open and self.dock.handle(event)):
             return True
-        return event.type in TYPING and self._to_slider(event)
+        return event.type in TYPING and not self._drives and self.parameters.press(event)
 
     def _point(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN:
             self.parameters.leave()
         self._mouse.handle(event)
-
-    def _to_slider(self, event: pygame.Event) -> bool:
-        """Give an event of the keyboard to the slider with the focus; return whether it took it."""
-        return not self._drives and self.parameters.press(event)
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether a pixel shows the picture, with nothing over it."""
@@ -384,7 +378,7 @@ class Window(PlayerWindow):
     def _select_at(self, point: Point) -> None:
         """Select the body at a point [m] of the picture, or nothing."""
         slack = self.grab.click / self.camera.scale
-        self.selected = body_at(self.player.frame, point, slack)
+        self.select(body_at(self.player.frame, point, slack))
 
     def _offer(self, point: Point) -> None:
         """Open the menu of what can be done with the thing at a point [m] of the picture."""
@@ -432,9 +426,6 @@ class Window(PlayerWindow):
         self.player.body = self.selected
         super()._to_contact(go)
 
-    def _contact_entries(self) -> list[Entry]:
-        return entries_of_contacts(self.player, self._actions)
-
     def _open_scopes(self) -> None:
         """Open the menu of plots."""
         self._scope_menu.open()
@@ -447,23 +438,18 @@ class Window(PlayerWindow):
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""
         timeline, menu = self.director.timeline, self.toolbar.menu
-        asks = self.asks and timeline is not None and timeline.changed
-        if not asks or menu.name == "leave":
-            self._open = False
+        if not self.asks or timeline is None or not timeline.changed or menu.name == "leave":
+            super()._close()
             return
         self.editor = None
         self.player.pause()
-        entries = entries_of_leaving(self._save_and_leave, self._leave_unsaved)
-        plot = self.layout.plot
+
+        def save() -> None:
+            self._open = not self.saver.record(timeline.record)
+
+        entries, plot = entries_of_leaving(save, super()._close), self.layout.plot
         corner = plot.left + plot.width // 4, plot.top + plot.height // 4
         menu.open("leave", lambda: entries, corner)
-
-    def _save_and_leave(self) -> None:
-        timeline = self.director.timeline
-        self._open = timeline is not None and not self.saver.record(timeline.record)
-
-    def _leave_unsaved(self) -> None:
-        self._open = False
 
     def _choose_branch(self) -> None:
         """Open the list of branches and earlier runs."""
@@ -499,9 +485,6 @@ class Window(PlayerWindow):
         who = "all robots" if self.selected is None else bodies[self.selected].name
         self.notes.say(f"the camera follows {who}; L ends it")
 
-    def _select_next(self) -> None:
-        self.selected = next_body(self.player.frame, self.selected)
-
     def _end_activity(self) -> bool:
         """End a drag, stop driving, select nothing, or pause a game; return whether it did so."""
         if self.grab.busy:
@@ -509,7 +492,7 @@ class Window(PlayerWindow):
         elif self._drives and self.game is None:
             self.director.let_go()
         elif self.selected is not None:
-            self.selected = None
+            self.select(None)
         elif self.game is not None and self.player.playing and not self.notes.failed:
             self.player.pause()
             self.notes.say("paused: Space goes on, R begins again, Ctrl Q leaves")
@@ -563,8 +546,9 @@ class Window(PlayerWindow):
         elif self.selected is not None and self.selected >= len(scenario.robots):
             self.notes.say(f"{scenario.bodies[self.selected].name} has no drive", "warning")
         else:
-            self.selected = self.selected or 0
-            self.director.drive(self.selected)
+            robot = self.selected or 0
+            self.select(robot)
+            self.director.drive(robot)
 
     def say_who_stands_still(self) -> None:
         """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""

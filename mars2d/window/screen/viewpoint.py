@@ -45,9 +45,7 @@ class Viewpoint:
     such as all that a recorded run needs; None for those of the scenario.
     """
 
-    def __init__(
-        self, scenario: Scenario, layout: Layout, bounds: Bounds | None = None
-    ) -> None:
+    def __init__(self, scenario: Scenario, layout: Layout, bounds: Bounds | None = None) -> None:
         """Show the whole workspace."""
         self.layout = layout
         self.following: Follow | None = None
