@@ -138,6 +138,7 @@ class Reader:
         """Write a block to the file that the sentence before names, if it does."""
         named = re.search(r"[Ss]ave as `([^`]+)`:$", block.before)
         if named:
+            Path(named[1]).parent.mkdir(exist_ok=True)
             Path(named[1]).write_text(block.text + "\n", encoding="utf-8")
         return named is not None
 

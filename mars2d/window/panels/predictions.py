@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import pygame
 
-from mars2d.core.errors import LawError, counted
+from mars2d.core.errors import LawError
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 from mars2d.record.frame import Frame
-from mars2d.scenario.prediction import Prediction, number
+from mars2d.scenario.prediction import SIGNS, Prediction, cells, number, summary
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.timeline import Timeline
@@ -162,11 +162,15 @@ class Predictions(Panel):
         name, state = Word(p.name, theme.ink, 13), Word(said, color, 12, bold=True)
         write_line(surface, line, painter, [name], [state])
         low = rect.top + round(17 * ui)
+        if p.reason:
+            words = painter.fonts.shorten(p.reason, 12 * ui, rect.right - left)
+            painter.write(surface, words, 12 * ui, theme.muted, topleft=(left, low))
+            return
         measured = p.measured if math.isfinite(p.measured) else None
-        tolerance = f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}"
         each = self._column(rect.width) - 8 * ui
-        cells = [self._fitted(value, p.tolerance, each) for value in (p.predicted, measured)]
-        for k, (cell, right) in enumerate(zip((*cells, tolerance), columns, strict=True)):
+        shown = [self._fitted(value, p.tolerance, each) for value in (p.predicted, measured)]
+        shown[0] = SIGNS[p.bound] + shown[0]
+        for k, (cell, right) in enumerate(zip((*shown, cells(p)[-1]), columns, strict=True)):
             ink = color if k == 1 and self.reading.finished else theme.text
             painter.write(surface, cell, NUMBER * ui, ink, bold=k == 1, topright=(right, low))
         unit = painter.fonts.shorten(p.unit, 12 * ui, (UNIT - 6) * ui)
@@ -184,6 +188,8 @@ class Predictions(Panel):
 
     def _verdict(self, prediction: Prediction, theme: Theme) -> tuple[str, str]:
         """Return how a prediction stands, in words, and their colour."""
+        if prediction.reason:
+            return prediction.verdict, theme.muted
         if prediction.ok:
             return ("ok" if self.reading.finished else "ok so far"), theme.running.ink
         if self.reading.finished:
@@ -203,7 +209,6 @@ class Predictions(Panel):
         elif reading.error is not None:
             text = f"{'Failed' if reading.finished else 'Not yet'}: {reading.error}"
         else:
-            held = sum(each.ok for each in reading.predictions)
             when = "at the end" if reading.finished else f"at {reading.time:.4g} s"
-            text = f"{held} of {counted(len(reading.predictions), 'prediction')} ok {when}"
+            text = f"{summary(reading.predictions)} {when}"
         return self.painter.fonts.wrap(text, 12 * ui, width, MAX_WORDS)
