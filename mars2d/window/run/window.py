@@ -257,6 +257,7 @@ class Window(PlayerWindow):
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
         self._inspector.plays = self._inspector.frames = self._drives
+        self.scopes.chosen = self.selected
         bounds = self.viewpoint.bounds or frame.scenario.bounds
         fit = partial(fitted, bounds, layout.size)
         room = self.dock.arrange(layout, frame, fit, bounds[3] - bounds[2])
