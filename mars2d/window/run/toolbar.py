@@ -18,7 +18,7 @@ Actions = Mapping[str, Callable[[], None]]
 Pixel = tuple[int, int]
 
 TRANSPORT = (("start", "back", "pause", "step", "newest", "loop"),)
-SEE = ("layers", "scopes", "fit", "follow", "contacts", "predictions")
+SEE = ("layers", "scopes", "fit", "follow", "contacts", "predictions", "lesson")
 CHANGE = ("parameters", "drive", "edit", "restart", "branch")
 SAVE = ("picture", "film", "python")
 LOOK = ("screen", "dark", "text", "help", "leave")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pygame
@@ -20,6 +21,7 @@ from mars2d.record.frame import Frame
 from mars2d.scenario.controllers import standing_still
 from mars2d.scenario.examples import experiment_name
 from mars2d.window.panels.inspector import Inspector
+from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel
 from mars2d.window.panels.predictions import Predictions
 from mars2d.window.panels.scopes import Scopes
@@ -101,6 +103,7 @@ class Window(PlayerWindow):
         self._selection = Selection()
         self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
+        self._lesson = Lesson(painter, _path(source))
         self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
         bounds = source.bounds if isinstance(source, Playback) else None
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None), bounds)
@@ -112,7 +115,12 @@ class Window(PlayerWindow):
             "contacts": lambda: self.toolbar.open(
                 "contacts", partial(entries_of_contacts, self.player, self._actions)
             ),
-            "predictions": self._predict_or_not,
+            "predictions": partial(
+                self._offer_panel, self._predictions, "checks, which compare a run with theory"
+            ),
+            "lesson": partial(
+                self._offer_panel, self._lesson, "lesson: a docstring with Question: and the like"
+            ),
             "branch": self._other_branch,
             "undo": self._undo,
             "scopes": self._open_scopes,
@@ -128,11 +136,13 @@ class Window(PlayerWindow):
         }
         self.scopes: Scopes = Scopes(painter, self.player, self._actions)
         self.dock = Dock(
-            painter, [self._inspector, self.scopes, self.parameters, self._predictions]
+            painter,
+            [self._inspector, self.scopes, self.parameters, self._predictions, self._lesson],
         )
         buttons = self._actions | {"branch": self._choose_branch}
-        if not self._predictions.offered:
-            del buttons["predictions"]
+        for name, panel in (("predictions", self._predictions), ("lesson", self._lesson)):
+            if not panel.offered:
+                del buttons[name]
         self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
         self._scope_menu = ScopeMenu(self.scopes, self.toolbar, self.player, self._selection)
 
@@ -398,6 +408,7 @@ class Window(PlayerWindow):
             "parameters": self.parameters.is_open,
             "scopes": self.scopes.is_open,
             "predictions": self._predictions.is_open,
+            "lesson": self._lesson.is_open,
             "drive": self._drives,
             "follow": self.viewpoint.following is not None,
             "film": self.saver.filming,
@@ -415,12 +426,12 @@ class Window(PlayerWindow):
             self._score.is_open = True
             self.game.begin()
 
-    def _predict_or_not(self) -> None:
-        """Show the predictions of the experiment's checks, or no longer."""
-        if self._predictions.offered:
-            self.dock.switch("predictions")
+    def _offer_panel(self, panel: Predictions | Lesson, lacks: str) -> None:
+        """Show a panel of what the file offers, or no longer; lacks: said if it does not."""
+        if panel.offered:
+            self.dock.switch(panel.name)
         else:
-            self.notes.say("this file has no checks, which compare a run with theory", "warning")
+            self.notes.say(f"this file has no {lacks}", "warning")
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces are shown there."""
@@ -617,7 +628,12 @@ def _cast(source: Source) -> tuple[list[str | None], list[str | None]]:
     return [robot.name for robot in scenario.robots], [prop.name for prop in scenario.props]
 
 
+def _path(source: Source) -> Path | None:
+    """Return the file of an experiment."""
+    return source.experiment.source.path if isinstance(source, Timeline) else None
+
+
 def _stem(source: Source) -> str:
     """Return the name for saved files, without a number."""
-    path = source.experiment.source.path if isinstance(source, Timeline) else None
+    path = _path(source)
     return source.scenario.title if path is None else experiment_name(path)
