@@ -188,7 +188,7 @@ class Watched:
         window = self._window = Window(Reel(scene), 0 if each_step else 1.0, SIZE, look)
         window.layers = window.layers.switched(names=overlays, velocities=overlays, forces=overlays)
         if inspector:
-            window.selected = 3
+            window.select(3)
         for what in SCOPES if scopes else ():
             window.scopes.switch(what, tuple(range(len(scene[1].scenario.robots))))
         if following:
@@ -245,7 +245,7 @@ class Scrubbed:
     def scrub(self, screen: pygame.Surface) -> dict[str, list[float]]:
         """Return the milliseconds to draw pictures, of a new stage."""
         painter, layout = Painter(), Layout.of(SIZE, controls=True)
-        stage, camera = Stage(painter, MEMORY), fitted(self._scenario, SIZE, layout)
+        stage, camera = Stage(painter, MEMORY), fitted(self._scenario.bounds, SIZE, layout)
 
         def drawn(row: int) -> float:
             frame = Frame(self._scenario, 0.1 * row, row, self._pose[row], self._pose[:row])

@@ -191,7 +191,8 @@ class Scenario(Description):
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
-        xmin, xmax, ymin, ymax = self.bounds
+        whole = bounds_of(self.workspace) if self.workspace else (-5.0, 5.0, -5.0, 5.0)
+        xmin, xmax, ymin, ymax = whole
         x, y = (xmin + xmax) / 2, (ymin + ymax) / 2
         radius = 0.7 * min(xmax - xmin, ymax - ymin) / 2 if count > 1 else 0.0
         angles = [2 * pi * i / count for i in range(count)]
@@ -270,7 +271,8 @@ class Scenario(Description):
                 for part in getattr(self, field)
             ]
             object.__setattr__(self, field, tuple(parts))
-        self.__dict__.pop("bodies", None)
+        for known in ("bodies", "bounds"):
+            self.__dict__.pop(known, None)
 
     def _check_starts(self) -> None:
         """Refuse bodies that start outside the workspace, in an obstacle or in each other."""
@@ -330,8 +332,6 @@ class Scenario(Description):
         """(xmin, xmax, ymin, ymax) of the workspace [m]; without one, of robots and obstacles."""
         if self.workspace is not None:
             return bounds_of(self.workspace)
-        if isinstance(self.robots, int):
-            return -5.0, 5.0, -5.0, 5.0
         points = [body.bound[0] for body in self.bodies]
         points += [vertex for outline in self.obstacles for vertex in outline]
         xmin, xmax, ymin, ymax = bounds_of(points)

@@ -55,7 +55,7 @@ class Seen:
 
     def draw(self, spot=None):
         *_, low, high = self.frame.scenario.bounds
-        fit = partial(fitted, self.frame.scenario, self.layout.size)
+        fit = partial(fitted, self.frame.scenario.bounds, self.layout.size)
         room = self.dock.arrange(self.layout, self.frame, fit, high - low)
         self.view.arrange(self.layout, self.frame.scenario, room)
         self.dock.draw(self.surface, self.frame, spot)

@@ -210,6 +210,13 @@ def test_two_people_have_keys_and_controllers_of_their_own(monkeypatch):
             )
         )
     assert commands() == [(0.0, 0.5), (0.0, -0.5)]
+    happens(pygame.event.Event(pygame.JOYDEVICEREMOVED, instance_id=10))
+    assert commands() == [(0.0, 0.0), (0.0, -0.5)], "the other one keeps its person"
+    assert "controller" not in one.status
+    both.append(Controller(2))  # another one takes the free place
+    happens(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=2))
+    happens(pygame.event.Event(pygame.JOYHATMOTION, instance_id=12, hat=0, value=(1, 0)))
+    assert commands() == [(0.5, 0.0), (0.0, -0.5)]
 
 
 # -- who --------------------------------------------------------------------------------------

@@ -6,10 +6,12 @@ import numpy as np
 import pygame
 import pytest
 
-from mars2d import Robot, Scenario
+from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
 from mars2d.record.frame import Frame
+from mars2d.window.run.window import Window
+from mars2d.window.screen.source import Playback
 from mars2d.window.screen.viewpoint import Follow, Viewpoint
 
 PLOT = pygame.Rect(0, 52, 1280, 580)
@@ -90,3 +92,17 @@ def test_who_is_driven_is_always_inside_and_who_is_inside_moves_no_picture():
         assert room.left + reach - 2 <= x <= room.right - reach + 2
         assert room.top + reach - 2 <= y <= room.bottom - reach + 2
     assert view.camera != before
+
+
+def test_a_replay_without_a_workspace_shows_all_of_the_way():
+    robot = Robot(controller=lambda _: (0.5, 0.0), drive=Unicycle(max_linear_speed=1.0))
+    scenario = Scenario(robots=[robot], workspace=None, stop_time=40)
+    world = World(scenario)
+    while not world.over:
+        world.step()
+    record = world.record
+    window = Window(Playback(record), size=(800, 600))
+    window.draw(pygame.Surface((800, 600), 0, 32))
+    ((x, _),) = window.camera.to_pixels(record.pose[-1, :2].T)
+    assert window.layout.plot.left < x < window.layout.plot.right
+    assert scenario.bounds is scenario.bounds, "each body is asked once, not for each picture"

@@ -261,6 +261,20 @@ def test_it_fits_into_what_there_is(world, size, theme):
         assert (pixels(surface)[0, 0] == rgba(theme.plate)[:3]).all()
 
 
+def test_all_sensors_can_be_reached_by_the_wheel(world):
+    surface = Written((316, 300))
+    inspector = Inspector(painter(Layout.of((1280, 720)), LIGHT), Selection(0))
+    seen = set()
+    for _ in range(20):
+        inspector._image = None
+        inspector.draw(surface, surface.get_rect(), world.frame)
+        first, *others = inspector._sections
+        listed = [first, *others[inspector._first :]]
+        seen |= {part.name for _, _, part in inspector._chosen(listed, 300)}
+        inspector.handle(pygame.Event(pygame.MOUSEWHEEL, y=-1, precise_y=-1.0))
+    assert {sensor.key for sensor in world.scenario.robots[0].sensors} <= seen
+
+
 def test_numbers_in_messages_are_rounded_and_words_are_not():
     assert rounded('["token",1]') == '["token",1]'
     assert rounded("[0.1558127275076811,-0.0683]") == "[0.156,-0.0683]"

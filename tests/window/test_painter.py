@@ -128,7 +128,7 @@ def test_a_picture_shows_the_robots_where_they_are():
     surface = artist.paint(now)
     from mars2d.output.raster.layout import fitted
 
-    camera = fitted(now.scenario, (1280, 720), artist.layout)
+    camera = fitted(now.scenario.bounds, (1280, 720), artist.layout)
     behind = now.pose[:2] - 0.15 * np.array([np.cos(now.pose[2]), np.sin(now.pose[2])])
     for point, color in zip(behind.T, now.scenario.colors, strict=True):
         x, y = camera.to_pixels(point)[0]

@@ -12,13 +12,14 @@ from mars2d import Robot, Scenario
 from mars2d.core.errors import InputError
 from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import LIGHT
 from mars2d.output.signals import signals_of_bodies
 from mars2d.scenario.experiment import open_experiment
 from mars2d.sensors import Imu, RangeFinder
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.panels.trace import Trace
-from mars2d.window.widgets.plot import as_number
+from mars2d.window.widgets.plot import Limits, as_number, draw_quartiles
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.person import PUSHING
@@ -227,3 +228,15 @@ def test_a_file_names_its_scopes(tmp_path):
     path.write_text(PUSHING + "\n\nscopes = [push, lambda: 0]\n")
     with pytest.raises(InputError, match=r"scopes\[1\] = .*exactly one argument, the record"):
         open_experiment(path)
+
+
+def test_of_many_curves_the_median_and_the_middle_half_are_drawn():
+    surface = pygame.Surface((200, 200), 0, 32)
+    surface.fill("white")
+    area, times = surface.get_rect(), np.linspace(0, 1, 300)
+    values = np.tile(np.arange(21.0), (300, 1))  # each stays at its number
+    draw_quartiles(surface, area, Painter(), Limits(0, 1, 0, 20), times, values)
+    column = pygame.surfarray.array3d(surface)[100].sum(axis=1)
+    painted = np.flatnonzero(column < 765)
+    assert (painted.min(), painted.max()) == pytest.approx((50, 150), abs=1)  # 15 and 5 of 20
+    assert column.argmin() == pytest.approx(100, abs=1)  # 10 of 20

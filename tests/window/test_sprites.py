@@ -93,7 +93,7 @@ def pan(viewer):
 
 
 def select(viewer):
-    viewer.window.selected = 2
+    viewer.window.select(2)
 
 
 def restart(viewer):

@@ -376,6 +376,18 @@ def test_predictions_are_shown_by_a_button_and_by_f3(open_window):
     window.until(lambda s: s["predictions"] == [11, 11])
 
 
+def test_the_lesson_of_a_file_is_shown_by_a_button_and_by_f4(open_window):
+    window = open_window(0, experiment="push_box")
+    push(window, "lesson")
+    window.until(lambda s: "lesson" in s["panels"])
+    parts = dict(window.shown._lesson.parts)
+    assert parts[""].startswith("Push a box: it moves when")
+    assert parts["Question"].startswith("A robot of mass M drives")
+    assert list(parts) == ["", "Question", "Prediction", "Measured"]
+    window.press("F4")
+    window.until(lambda s: "lesson" not in s["panels"])
+
+
 def test_without_checks_there_is_no_button_for_predictions(open_window, room):
     window = open_window(1, experiment=str(room))
     assert "predictions" not in window.state["buttons"]

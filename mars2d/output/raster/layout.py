@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import pygame
 
 from mars2d.output.raster.camera import Camera, Margins
-from mars2d.scenario.scenario import Scenario
+
+Bounds = tuple[float, float, float, float]
 
 TEXT_SIZES = (1.0, 1.3, 1.7, 2.2)
 """Factors on the size of all text and lines."""
@@ -104,11 +105,11 @@ def interface_scale(size: tuple[int, int], text: float = 1.0, scale: float = 1.0
     return scale * max(own, min(own * text, most))
 
 
-def fitted(scenario: Scenario, size: tuple[int, int], layout: Layout) -> Camera:
-    """Return the camera that shows the whole workspace between the bars, with room for labels."""
+def fitted(bounds: Bounds, size: tuple[int, int], layout: Layout) -> Camera:
+    """Return the camera that shows bounds (xmin, xmax, ymin, ymax) [m] between the bars."""
     ui, plot = layout.ui, layout.plot
     margins: Margins = (
         plot.left + 48 * ui, plot.top + 22 * ui,
         size[0] - plot.right + 48 * ui, size[1] - plot.bottom + 34 * ui,
     )  # fmt: skip
-    return Camera.fit(scenario.bounds, size, margins)
+    return Camera.fit(bounds, size, margins)

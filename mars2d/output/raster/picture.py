@@ -57,7 +57,7 @@ class Artist:
         if surface is None:
             surface = pygame.Surface(self.size, 0, 32)
         layers = Layers.of(frame.scenario.animation, **self._switches)
-        camera = self._camera or fitted(frame.scenario, self.size, self.layout)
+        camera = self._camera or fitted(frame.scenario.bounds, self.size, self.layout)
         self._stage.draw(surface, frame, camera, layers, self.layout.plot)
         draw_header(surface, self.layout, self.painter, frame, self._status)
         banner = Banner(frame.over_message) if frame.over_message else None

@@ -202,7 +202,7 @@ class Stage:
         corners = shot.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int)
         (left, top), (right, bottom) = corners.tolist()
         numbers = round(NUMBERS * self.painter.ui)
-        left, bottom = left - numbers, bottom + numbers // 2
+        left, right, bottom = left - numbers, right + numbers // 3, bottom + numbers // 2
         sides = (
             pygame.Rect(right, room.top, room.right - right, room.height),
             pygame.Rect(room.left, room.top, left - room.left, room.height),

@@ -89,6 +89,8 @@ class Inspector(Panel):
         self._of: tuple[object, ...] = ()
         self._frame: Frame | None = None
         self._drawn_at = 0.0
+        self._cut = False  # whether there is no room for all sections
+        self._first = 0  # how many sections behind the state are turned away by the wheel
 
     @property
     def is_open(self) -> bool:  # type: ignore[override]
@@ -119,10 +121,21 @@ class Inspector(Panel):
             width = (rect.width - close - (columns - 1) * gap) // columns
             self._image = pygame.Surface(rect.size, 0, 32)
             self._image.fill(self.painter.theme.plate)
-            for column, top, part in self._chosen(sections, rect.height, columns):
+            whole = sum(map(self._pixels, sections)) <= rect.height * columns
+            self._first = 0 if whole else min(self._first, max(len(sections) - 2, 0))
+            shown = [*sections[:1], *sections[1 + self._first :]]
+            for column, top, part in self._chosen(shown, rect.height, columns):
                 left = column * (width + gap)
                 part.draw(self._image, pygame.Rect(left, top, width, round(part.height * ui)))
         surface.blit(self._image, rect)
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Turn to further sections by the wheel where there is no room for all."""
+        if event.type == pygame.MOUSEWHEEL:
+            last = max(len(self._sections) - 2, 0)
+            wanted = self._first - event.y if event.y > 0 or self._cut else self._first
+            self._first, self._image = min(max(wanted, 0), last), None
+        return False
 
     def _look(self, frame: Frame) -> list[Section]:
         """Return the sections as they were last seen, or as they are now."""
@@ -134,6 +147,7 @@ class Inspector(Panel):
         late = frame is not self._frame and now - self._drawn_at >= DRAW_INTERVAL
         if of != self._of or late:
             self._sections = list(self._made(frame, body))
+            self._first = self._first if of[:1] == self._of[:1] else 0
             self._image, self._of, self._frame, self._drawn_at = None, of, frame, now
         return self._sections
 
@@ -148,7 +162,7 @@ class Inspector(Panel):
         height: of the columns, pixels. Each section comes with its column and its top, pixels.
         """
         left_out: list[str] = []
-        column, top = 0, 0
+        column, top, self._cut = 0, 0, False
         whole = sum(map(self._pixels, sections)) <= height
         last = 0 if whole else round(LINE * self.painter.ui)  # for the names of those left out
         for each in sections:
@@ -165,8 +179,10 @@ class Inspector(Panel):
                 top += self._pixels(section)
             else:
                 left_out.append(section.name)
+        self._cut = bool(left_out)
         if left_out and top + last <= height:
-            word = Word(f"no room for {', '.join(left_out)}", self.painter.theme.muted, 11.5)
+            text = f"turn the wheel for {', '.join(left_out)}"
+            word = Word(text, self.painter.theme.muted, 11.5)
             line = partial(write_line, painter=self.painter, left=[word])
             yield column, top, Section("", LINE - GAP, line)
 

@@ -136,7 +136,8 @@ class Predictions(Panel):
             place = pygame.Rect(rect.left, top, rect.width, round(ROW * ui))
             self._draw_row(surface, place, prediction, columns)
             top = place.bottom
-        color = theme.error.ink if self._failed else theme.muted
+        failed = self.reading.error is not None and self.reading.finished
+        color = theme.error.ink if failed else theme.muted
         for k, line in enumerate(words):
             place = pygame.Rect(rect.left, foot + round(k * LINE * ui), rect.width, 0)
             painter.write(surface, line, 12 * ui, color, topleft=place.topleft)
@@ -194,11 +195,6 @@ class Predictions(Panel):
         if self.reading.finished:
             return "NOT OK", theme.error.ink
         return "not yet", theme.waiting.ink
-
-    @property
-    def _failed(self) -> bool:
-        """Whether an error of `checks` is no matter of time."""
-        return self.reading.error is not None and self.reading.finished
 
     def _words(self, width: float) -> list[str]:
         """Return lines about the run, and about values that could not be read; width: pixels."""

@@ -33,11 +33,12 @@ from mars2d.window.widgets.plot import (
     Limits,
     as_number,
     draw_axes,
-    draw_crowd,
     draw_curve,
+    draw_quartiles,
     limits_of,
     polylines,
 )
+from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.record import Record
 
 Float = NDArray[np.float64]
@@ -56,7 +57,8 @@ BAR, LINE = 30.0, 16.0
 NAMED = 6
 """The most curves of a plot whose names and numbers are written."""
 WIDTH, CROWD = 2.0, 12
-"""The width of a curve, points, and the most curves of a plot that are drawn with care."""
+"""The width of a curve, points, and the most curves of a plot that are drawn each: of more, their
+median and quartiles."""
 REMOVE = 18.0
 """The side of the button that removes a plot, points."""
 
@@ -90,7 +92,8 @@ class Scopes(Panel):
     player: of the run, which a click in a plot takes to a row. actions: what the buttons do:
     "scopes", which chooses what is plotted, "figure" and "table". clock: seconds.
 
-    traces: what is plotted, one below the other. span: the time shown, seconds; None: all.
+    traces: what is plotted, one below the other. span: the time shown, seconds; None: all. chosen:
+    the body whose curve lies above a summary of many.
     """
 
     name, title, remembered = "scopes", "Scopes", False
@@ -106,6 +109,7 @@ class Scopes(Panel):
         self.painter, self._player, self._clock = painter, player, clock
         self.traces: list[Trace] = []
         self.span: float | None = None
+        self.chosen: int | None = None
         self._buttons = Buttons([of_controls(("scopes", "figure", "table"), actions)])
         self._plots: list[_Plot] = []
         self._image: pygame.Surface | None = None
@@ -205,7 +209,7 @@ class Scopes(Panel):
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
         """Draw the plots, and over them the cursor."""
         ui, theme = self.painter.ui, self.painter.theme
-        of = rect.size, ui, theme, self.span, len(self.traces), frame.scenario
+        of = rect.size, ui, theme, self.span, len(self.traces), frame.scenario, self.chosen
         interval = min(max(INTERVAL, self._cost / SHARE), LONGEST)
         late = frame is not self._frame and self._clock() - self._drawn_at >= interval
         if self._image is None or of != self._of or late:
@@ -304,18 +308,27 @@ class Scopes(Panel):
         before = surface.get_clip()
         surface.set_clip(area.inflate(2, 4).clip(before))
         if len(colors) > CROWD:
-            draw_crowd(surface, area, limits, times, signal.values, colors)
-        else:
-            for k, color in enumerate(colors):
-                lines = polylines(
-                    area, limits, times, signal.values[:, k], held=signal.held, wraps=signal.wraps
-                )
-                draw_curve(surface, self.painter, lines, color, WIDTH)
+            draw_quartiles(surface, area, self.painter, limits, times, signal.values)
+        for k in self._single(signal):
+            lines = polylines(
+                area, limits, times, signal.values[:, k], held=signal.held, wraps=signal.wraps
+            )
+            draw_curve(surface, self.painter, lines, colors[k], WIDTH)
         surface.set_clip(before)
         remove = pygame.Rect(0, 0, round(REMOVE * ui), round(REMOVE * ui))
         remove.midright = place.right, place.top + round(TITLE / 2 * ui)
         draw_icon(surface, CONTROLS["close"].icon, self.painter.theme.muted, remove)
         return _Plot(trace, signal, area, limits, colors, remove, names, below)
+
+    def _single(self, signal: Signal) -> Sequence[int]:
+        """Return the curves that are drawn each: of many only those of the chosen body."""
+        count = signal.values.shape[1]
+        if count <= CROWD:
+            return range(count)
+        each = count // max(len(signal.bodies), 1)
+        return [
+            k for k in range(count) if signal.bodies[k // each : k // each + 1] == (self.chosen,)
+        ]
 
     def _colors(self, scenario: Scenario, signal: Signal) -> list[str]:
         """Return the colour of each curve: that of its body, if it tells the bodies apart."""
@@ -358,8 +371,15 @@ class Scopes(Panel):
         ui, fonts = self.painter.ui, self.painter.fonts
         left, right = room
         if len(plot.names) > NAMED:
-            image = fonts.render(f"{len(plot.names)} curves", 12 * ui, self.painter.theme.muted)
-            surface.blit(image, image.get_rect(midright=(right, y)))
+            count = len(plot.names)
+            many = count > CROWD
+            text = f"middle half of {count}" if many else f"{count} curves"
+            line = pygame.Rect(left, y - 8, max(right - left, 0), 16)
+            own = [
+                Word(f"{plot.names[k]} {as_number(float(values[k]))}", plot.colors[k], 12)
+                for k in (self._single(plot.signal) if many else ())
+            ]
+            write_line(surface, line, self.painter, [Word(text, self.painter.theme.muted, 12)], own)
             return
         numbers = [as_number(float(value)) for value in values]
         both = [f"{name} {one}".strip() for name, one in zip(plot.names, numbers, strict=True)]

@@ -172,7 +172,7 @@ class Move(Placement):
 
     def words(self) -> str:
         """Return the position."""
-        return _signed(f"({self.now[0]:.2f}, {self.now[1]:.2f}) m")
+        return f"({self.now[0]:.2f}, {self.now[1]:.2f}) m".replace("-", "\N{MINUS SIGN}")
 
     def draw_way(self, scene: Scene, scenario: Scenario, color: str) -> None:
         """Draw the body hollow at its former place, and a line from there."""
@@ -217,10 +217,6 @@ Drag = Pull | Move | Turn
 
 
 # -- poses and points -------------------------------------------------------------------------
-
-
-def _signed(text: str) -> str:
-    return text.replace("-", "\N{MINUS SIGN}")
 
 
 def with_pose(frame: Frame, body: int, pose: Triple) -> Frame:

@@ -51,7 +51,8 @@ class Driver:
     """Drives one robot by keys, or by a controller, which may be plugged in and out at any time.
 
     keys: those of one person. place, of: which of several people that is; controllers are dealt out
-    to them in turn, in the order in which they were plugged in.
+    to them in turn, in the order in which they are plugged in. One that is plugged in later takes
+    the place of one that was plugged out; each other one keeps its person.
     """
 
     def __init__(self, keys: Keys = BOTH, place: int = 0, of: int = 1) -> None:
@@ -64,6 +65,7 @@ class Driver:
         self._slow = False
         self._stick = Stick()
         self._controllers: dict[int, pygame.joystick.JoystickType] = {}
+        self._dealt: list[int | None] = []  # the controllers in turn; None: one was plugged out
         self._axes: dict[int, Stick] = {}
         self._hats: dict[int, Stick] = {}
 
@@ -133,14 +135,19 @@ class Driver:
         return Stick(share * across, share * ahead)
 
     @property
+    def _own(self) -> list[int | None]:
+        """The controllers of this person."""
+        return self._dealt[self._place :: self._of]
+
+    @property
     def _of_controllers(self) -> Stick:
-        own = sorted(self._controllers)[self._place :: self._of]
-        held = [way for known in (self._axes, self._hats) for k, way in known.items() if k in own]
+        ways = [*self._axes.items(), *self._hats.items()]
+        held = [way for which, way in ways if which in self._own]
         return max(held, key=lambda stick: abs(stick.across) + abs(stick.ahead), default=Stick())
 
     @property
     def _by_controller(self) -> bool:
-        return len(self._controllers) > self._place and not self._held
+        return any(each is not None for each in self._own) and not self._held
 
     # -- keys -----------------------------------------------------------------------------------
 
@@ -162,12 +169,20 @@ class Driver:
         if event.type == pygame.JOYDEVICEADDED:
             self._add(event.device_index)
             return
+        gone = event.instance_id
+        self._dealt = [None if each == gone else each for each in self._dealt]
         for known in (self._controllers, self._axes, self._hats):
-            known.pop(event.instance_id, None)
+            known.pop(gone, None)
 
     def _add(self, number: int) -> None:
         controller = pygame.joystick.Joystick(number)
-        self._controllers[controller.get_instance_id()] = controller
+        which = controller.get_instance_id()
+        self._controllers[which] = controller
+        if which in self._dealt:
+            return
+        if None not in self._dealt:
+            self._dealt.append(None)
+        self._dealt[self._dealt.index(None)] = which
 
     def _controller(self, event: pygame.Event) -> bool:
         if event.type == pygame.JOYAXISMOTION:

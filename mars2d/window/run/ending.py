@@ -30,17 +30,14 @@ class Ending:
         """Return the banner for the window's footer, None while the run goes on."""
         player = self._player
         if player.failed and player.error is not None:
-            excerpt = self._excerpt_of(player.error)
+            if player.error is not self._error:
+                source = player.source
+                path = source.experiment.source.path if isinstance(source, Timeline) else None
+                self._error, self._excerpt = player.error, excerpt_of(player.error, path)
+            excerpt = self._excerpt
             hint = HINT if excerpt is None else f"{MEND}   {HINT}"
             return Banner(str(player.error), hint, error=True, excerpt=excerpt)
         if not player.over:
             return None
         hint = AGAIN if self.of_game else HINT
         return Banner(player.frame.over_message or "The experiment is over.", hint)
-
-    def _excerpt_of(self, error: Mars2dError) -> Excerpt | None:
-        if error is not self._error:
-            source = self._player.source
-            path = source.experiment.source.path if isinstance(source, Timeline) else None
-            self._error, self._excerpt = error, excerpt_of(error, path)
-        return self._excerpt

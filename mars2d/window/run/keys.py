@@ -55,6 +55,7 @@ _SEE = (
     _action("layers", "A", "choose layers"),
     _action("scopes", "Q", "choose plots over time"),
     _action("predictions", "F3", "predictions and measurements on and off"),
+    _action("lesson", "F4", "the question, prediction and more of the file on and off"),
     _action("select", "Tab", "select the next robot or prop, and inspect it"),
     _action("follow", "L", "let the camera follow the selected body, or all robots"),
     _action("fit", "F", "fit the workspace into the window", "Ctrl 0"),

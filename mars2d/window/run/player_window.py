@@ -29,7 +29,6 @@ from mars2d.window.screen.source import Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import label_of
 from mars2d.window.widgets.help import Help
-from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
 
@@ -80,7 +79,9 @@ class PlayerWindow(ABC):
             "contact": lambda: self._to_contact(self.player.next_contact),
             "contact_back": lambda: self._to_contact(self.player.last_contact),
             "restart": self._restart,
-            "layers": lambda: self.toolbar.open("layers", self._layer_entries),
+            "layers": lambda: self.toolbar.open(
+                "layers", lambda: layer_entries(self.layers, self._toggle)
+            ),
             **{layer.name: partial(self._toggle, layer.name) for layer in LAYERS if layer.key},
             "nearer": lambda: self.viewpoint.zoom(ZOOM, self.layout.plot.center),
             "farther": lambda: self.viewpoint.zoom(-ZOOM, self.layout.plot.center),
@@ -142,18 +143,15 @@ class PlayerWindow(ABC):
                 self._rest.stir()
             if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
                 self._show_picture(pygame.display.get_surface() or screen)
-            self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE)
+            rest = 1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE
+            if rest > 0 and isinstance(self.player.source, Timeline):
+                self.player.source.idle(rest)
             if self.player.speed < inf or not self.player.playing:
                 clock.tick(PICTURES_A_SECOND)
 
     @abstractmethod
     def _pass_time(self, seconds: float) -> None:
         """Advance by seconds of the wall clock."""
-
-    def _use_rest(self, seconds: float) -> None:
-        """Use the rest of a picture's time to prepare for going back."""
-        if seconds > 0 and isinstance(self.player.source, Timeline):
-            self.player.source.idle(seconds)
 
     @property
     def _moves(self) -> bool:
@@ -271,14 +269,8 @@ class PlayerWindow(ABC):
         """Show the whole workspace."""
         self.viewpoint.fit()
 
-    def _layer_entries(self) -> list[Entry]:
-        return layer_entries(lambda name: getattr(self.layers, name), self._toggle_alone)
-
-    def _toggle_alone(self, layer: str) -> None:
-        self.layers = self.layers.toggled(layer, alone=True)
-
-    def _toggle(self, layer: str) -> None:
-        self.layers = self.layers.toggled(layer)
+    def _toggle(self, layer: str, *, alone: bool = False) -> None:
+        self.layers = self.layers.toggled(layer, alone=alone)
 
     def _close(self) -> None:
         """Close the window."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from math import dist
 from typing import Any
@@ -11,7 +11,6 @@ import numpy as np
 
 from mars2d.core.usercode import name_of
 from mars2d.record.frame import Frame
-from mars2d.sensors.base import Sensor
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.panels.trace import FEW, What
 from mars2d.window.run.toolbar import Toolbar
@@ -64,18 +63,16 @@ class ScopeMenu:
         """Open the menu for the selected body, or for all robots."""
 
         def entries() -> list[Entry]:
-            body, functions = self._selection.body, self.functions
             return entries_of_scopes(
-                self._player.frame, body, self._scopes, functions, self._open_distances
+                self._player.frame, self._selection.body, self._scopes, self.functions, distances
             )
 
-        self._toolbar.open("scopes", entries)
+        def distances() -> None:
+            body, menu = self._selection.body or 0, self._toolbar.menu
+            there = partial(entries_of_distances, self._player.frame, body, self._scopes)
+            menu.open("distances", there, menu.corner)
 
-    def _open_distances(self) -> None:
-        """Open the menu of distances of the selected body."""
-        body, menu = self._selection.body or 0, self._toolbar.menu
-        entries = partial(entries_of_distances, self._player.frame, body, self._scopes)
-        menu.open("distances", entries, menu.corner)
+        self._toolbar.open("scopes", entries)
 
 
 def entries_of_scopes(
@@ -134,15 +131,10 @@ def _columns(frame: Frame, body: int | None) -> dict[str, str]:
     if robots:
         found["Effort of the drive"] = "effort"
     found |= (CONTACT if scenario.physics == "contact" else {}) | DYNAMICS
-    if body is not None:
-        for robot in robots:
-            found |= {sensor.key: sensor.key for sensor in _few(frame, body, robot.sensors)}
-    return found
-
-
-def _few(frame: Frame, body: int, sensors: Sequence[Sensor]) -> Iterator[Sensor]:
-    """Yield the sensors that are recorded, and read few numbers."""
-    for sensor in sensors:
+    if body is None:
+        return found
+    for sensor in (sensor for robot in robots for sensor in robot.sensors):
         reading = dict(frame.readings.get(sensor.key, ())).get(body)
         if sensor.recorded and reading is not None and np.asarray(reading).size <= FEW:
-            yield sensor
+            found[sensor.key] = sensor.key
+    return found

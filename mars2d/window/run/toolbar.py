@@ -7,7 +7,7 @@ from functools import partial
 
 import pygame
 
-from mars2d.output.layers.table import LAYERS
+from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.run.keys import bound
@@ -18,7 +18,7 @@ Actions = Mapping[str, Callable[[], None]]
 Pixel = tuple[int, int]
 
 TRANSPORT = (("start", "back", "pause", "step", "newest", "loop"),)
-SEE = ("layers", "scopes", "fit", "follow", "contacts", "predictions")
+SEE = ("layers", "scopes", "fit", "follow", "contacts", "predictions", "lesson")
 CHANGE = ("parameters", "drive", "edit", "restart", "branch")
 SAVE = ("picture", "film", "python")
 LOOK = ("screen", "dark", "text", "help", "leave")
@@ -84,10 +84,13 @@ class Toolbar:
             bar.draw_tip(surface, painter, pointer)
 
 
-def layer_entries(on: Callable[[str], bool], switch: Callable[[str], None]) -> list[Entry]:
-    """Return an entry for each layer that people may switch."""
+def layer_entries(layers: Layers, switch: Callable[..., None]) -> list[Entry]:
+    """Return an entry for each layer that people may switch; switch: toggles one of them alone."""
     return [
-        Entry(each.title, partial(switch, each.name), each.key.upper(), on(each.name))
+        Entry(
+            each.title, partial(switch, each.name, alone=True), each.key.upper(),
+            getattr(layers, each.name),
+        )
         for each in LAYERS
         if each.switch
-    ]
+    ]  # fmt: skip

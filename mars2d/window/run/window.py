@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pygame
@@ -20,6 +21,7 @@ from mars2d.record.frame import Frame
 from mars2d.scenario.controllers import standing_still
 from mars2d.scenario.examples import experiment_name
 from mars2d.window.panels.inspector import Inspector
+from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel
 from mars2d.window.panels.predictions import Predictions
 from mars2d.window.panels.scopes import Scopes
@@ -50,10 +52,9 @@ from mars2d.window.screen.display import (
 from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.screen.selection import Selection
-from mars2d.window.screen.source import Source
+from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
-from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Progress, draw_progress
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -102,21 +103,30 @@ class Window(PlayerWindow):
         self._selection = Selection()
         self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
+        self._lesson = Lesson(painter, _path(source))
         self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
-        self.viewpoint = Viewpoint(source.scenario, self._layout(size, None))
+        bounds = source.bounds if isinstance(source, Playback) else None
+        self.viewpoint = Viewpoint(source.scenario, self._layout(size, None), bounds)
         self._mouse = Mouse(
             self.player, self.viewpoint, self.grab, self._controls.handles,
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions |= {
-            "contacts": lambda: self.toolbar.open("contacts", self._contact_entries),
-            "predictions": self._predict_or_not,
+            "contacts": lambda: self.toolbar.open(
+                "contacts", partial(entries_of_contacts, self.player, self._actions)
+            ),
+            "predictions": partial(
+                self._offer_panel, self._predictions, "checks, which compare a run with theory"
+            ),
+            "lesson": partial(
+                self._offer_panel, self._lesson, "lesson: a docstring with Question: and the like"
+            ),
             "branch": self._other_branch,
             "undo": self._undo,
             "scopes": self._open_scopes,
             "figure": lambda: self.scopes.save_figure(self.player.frame, self.saver),
             "table": lambda: self.scopes.save_table(self.player.frame, self.saver),
-            "select": self._select_next,
+            "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
             "parameters": self._show_parameters,
             "drive": self._drive_or_not,
@@ -126,11 +136,13 @@ class Window(PlayerWindow):
         }
         self.scopes: Scopes = Scopes(painter, self.player, self._actions)
         self.dock = Dock(
-            painter, [self._inspector, self.scopes, self.parameters, self._predictions]
+            painter,
+            [self._inspector, self.scopes, self.parameters, self._predictions, self._lesson],
         )
         buttons = self._actions | {"branch": self._choose_branch}
-        if not self._predictions.offered:
-            del buttons["predictions"]
+        for name, panel in (("predictions", self._predictions), ("lesson", self._lesson)):
+            if not panel.offered:
+                del buttons[name]
         self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
         self._scope_menu = ScopeMenu(self.scopes, self.toolbar, self.player, self._selection)
 
@@ -139,8 +151,8 @@ class Window(PlayerWindow):
         """The selected body, an index of `Scenario.bodies`."""
         return self._selection.body
 
-    @selected.setter
-    def selected(self, body: int | None) -> None:
+    def select(self, body: int | None) -> None:
+        """Select a body, or none."""
         self._selection.body = body
 
     @property
@@ -193,7 +205,10 @@ class Window(PlayerWindow):
             return
         self._read_again()
         if self.game is not None:
-            self._go_near()
+            robots = self.player.source.scenario.robots
+            if self._unseen and min(r.radius for r in robots) * self.camera.scale < SEEN:
+                self.viewpoint.follow(None)
+            self._unseen = False
             if self.game.pass_time(seconds):
                 self._rest.stir()
         self.director.steer(seconds)
@@ -205,13 +220,6 @@ class Window(PlayerWindow):
         self.viewpoint.step(self.player.frame, seconds)
         if self.player.playing:
             self.viewpoint.keep(self.player.frame, self.director.driven)
-
-    def _go_near(self) -> None:
-        """Let the camera follow the robots of a game that are small in its first picture."""
-        smallest = min(robot.radius for robot in self.player.source.scenario.robots)
-        if self._unseen and smallest * self.camera.scale < SEEN:
-            self.viewpoint.follow(None)
-        self._unseen = False
 
     def _read_again(self) -> None:
         """Continue with the experiment's files if they were saved."""
@@ -233,7 +241,8 @@ class Window(PlayerWindow):
         cast = _cast(self.player.source)
         if cast == self._cast:
             return
-        self._cast, self.selected, self.viewpoint.following = cast, None, None
+        self._cast, self.viewpoint.following = cast, None
+        self.select(None)
         self.director.release()
         self.scopes.meet(self.player.source.scenario)
         self.grab.cancel()
@@ -258,10 +267,10 @@ class Window(PlayerWindow):
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
         self._inspector.plays = self._inspector.frames = self._drives
-        *_, ymin, ymax = frame.scenario.bounds
-        room = self.dock.arrange(
-            layout, frame, partial(fitted, frame.scenario, layout.size), ymax - ymin
-        )
+        self.scopes.chosen = self.selected
+        bounds = self.viewpoint.bounds or frame.scenario.bounds
+        fit = partial(fitted, bounds, layout.size)
+        room = self.dock.arrange(layout, frame, fit, bounds[3] - bounds[2])
         self.viewpoint.arrange(layout, frame.scenario, room)
         marks = self.grab.marks(frame, self.camera, named=self.layers.names)
         if self.selected is not None:
@@ -337,7 +346,7 @@ class Window(PlayerWindow):
 
     def _seen_arena(self, frame: Frame) -> pygame.Rect:
         """Return where the workspace is seen, which a driver needs to see, pixels."""
-        xmin, xmax, ymin, ymax = frame.scenario.bounds
+        xmin, xmax, ymin, ymax = self.viewpoint.bounds or frame.scenario.bounds
         (left, top), (right, bottom) = self.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).tolist()
         return pygame.Rect(left, top, right - left, bottom - top)
 
@@ -365,16 +374,12 @@ class Window(PlayerWindow):
             return True
         if self._controls.handle(event) or (not self.help.is_open and self.dock.handle(event)):
             return True
-        return event.type in TYPING and self._to_slider(event)
+        return event.type in TYPING and not self._drives and self.parameters.press(event)
 
     def _point(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN:
             self.parameters.leave()
         self._mouse.handle(event)
-
-    def _to_slider(self, event: pygame.Event) -> bool:
-        """Give an event of the keyboard to the slider with the focus; return whether it took it."""
-        return not self._drives and self.parameters.press(event)
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
         """Return whether a pixel shows the picture, with nothing over it."""
@@ -384,7 +389,7 @@ class Window(PlayerWindow):
     def _select_at(self, point: Point) -> None:
         """Select the body at a point [m] of the picture, or nothing."""
         slack = self.grab.click / self.camera.scale
-        self.selected = body_at(self.player.frame, point, slack)
+        self.select(body_at(self.player.frame, point, slack))
 
     def _offer(self, point: Point) -> None:
         """Open the menu of what can be done with the thing at a point [m] of the picture."""
@@ -403,6 +408,7 @@ class Window(PlayerWindow):
             "parameters": self.parameters.is_open,
             "scopes": self.scopes.is_open,
             "predictions": self._predictions.is_open,
+            "lesson": self._lesson.is_open,
             "drive": self._drives,
             "follow": self.viewpoint.following is not None,
             "film": self.saver.filming,
@@ -420,20 +426,17 @@ class Window(PlayerWindow):
             self._score.is_open = True
             self.game.begin()
 
-    def _predict_or_not(self) -> None:
-        """Show the predictions of the experiment's checks, or no longer."""
-        if self._predictions.offered:
-            self.dock.switch("predictions")
+    def _offer_panel(self, panel: Predictions | Lesson, lacks: str) -> None:
+        """Show a panel of what the file offers, or no longer; lacks: said if it does not."""
+        if panel.offered:
+            self.dock.switch(panel.name)
         else:
-            self.notes.say("this file has no checks, which compare a run with theory", "warning")
+            self.notes.say(f"this file has no {lacks}", "warning")
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces are shown there."""
         self.player.body = self.selected
         super()._to_contact(go)
-
-    def _contact_entries(self) -> list[Entry]:
-        return entries_of_contacts(self.player, self._actions)
 
     def _open_scopes(self) -> None:
         """Open the menu of plots."""
@@ -447,23 +450,18 @@ class Window(PlayerWindow):
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""
         timeline, menu = self.director.timeline, self.toolbar.menu
-        asks = self.asks and timeline is not None and timeline.changed
-        if not asks or menu.name == "leave":
-            self._open = False
+        if not self.asks or timeline is None or not timeline.changed or menu.name == "leave":
+            super()._close()
             return
         self.editor = None
         self.player.pause()
-        entries = entries_of_leaving(self._save_and_leave, self._leave_unsaved)
-        plot = self.layout.plot
+
+        def save() -> None:
+            self._open = not self.saver.record(timeline.record)
+
+        entries, plot = entries_of_leaving(save, super()._close), self.layout.plot
         corner = plot.left + plot.width // 4, plot.top + plot.height // 4
         menu.open("leave", lambda: entries, corner)
-
-    def _save_and_leave(self) -> None:
-        timeline = self.director.timeline
-        self._open = timeline is not None and not self.saver.record(timeline.record)
-
-    def _leave_unsaved(self) -> None:
-        self._open = False
 
     def _choose_branch(self) -> None:
         """Open the list of branches and earlier runs."""
@@ -499,9 +497,6 @@ class Window(PlayerWindow):
         who = "all robots" if self.selected is None else bodies[self.selected].name
         self.notes.say(f"the camera follows {who}; L ends it")
 
-    def _select_next(self) -> None:
-        self.selected = next_body(self.player.frame, self.selected)
-
     def _end_activity(self) -> bool:
         """End a drag, stop driving, select nothing, or pause a game; return whether it did so."""
         if self.grab.busy:
@@ -509,7 +504,7 @@ class Window(PlayerWindow):
         elif self._drives and self.game is None:
             self.director.let_go()
         elif self.selected is not None:
-            self.selected = None
+            self.select(None)
         elif self.game is not None and self.player.playing and not self.notes.failed:
             self.player.pause()
             self.notes.say("paused: Space goes on, R begins again, Ctrl Q leaves")
@@ -563,8 +558,9 @@ class Window(PlayerWindow):
         elif self.selected is not None and self.selected >= len(scenario.robots):
             self.notes.say(f"{scenario.bodies[self.selected].name} has no drive", "warning")
         else:
-            self.selected = self.selected or 0
-            self.director.drive(self.selected)
+            robot = self.selected or 0
+            self.select(robot)
+            self.director.drive(robot)
 
     def say_who_stands_still(self) -> None:
         """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""
@@ -632,7 +628,12 @@ def _cast(source: Source) -> tuple[list[str | None], list[str | None]]:
     return [robot.name for robot in scenario.robots], [prop.name for prop in scenario.props]
 
 
+def _path(source: Source) -> Path | None:
+    """Return the file of an experiment."""
+    return source.experiment.source.path if isinstance(source, Timeline) else None
+
+
 def _stem(source: Source) -> str:
     """Return the name for saved files, without a number."""
-    path = source.experiment.source.path if isinstance(source, Timeline) else None
+    path = _path(source)
     return source.scenario.title if path is None else experiment_name(path)

@@ -16,10 +16,6 @@ from mars2d.window.screen.display import Preferences, open_window
 Say = Callable[[str, Literal["info", "warning"]], None]
 
 
-def _silent(text: str, kind: str) -> None:
-    """Say nothing."""
-
-
 class Looks:
     """How a window looks, which keys and buttons change.
 
@@ -29,9 +25,9 @@ class Looks:
     desktop's scaling factor. actions: the commands that change the looks, by name.
     """
 
-    def __init__(self, preferences: Preferences | None = None, say: Say = _silent) -> None:
+    def __init__(self, preferences: Preferences | None = None, say: Say | None = None) -> None:
         """Start with these preferences; the scale is 1 until the window opens."""
-        wanted, self._say = preferences or Preferences(), say
+        wanted, self._say = preferences or Preferences(), say or (lambda _text, _kind: None)
         self.painter = Painter(theme=theme_of(dark=wanted.dark))
         self.text, self.scale = wanted.text, 1.0
         self.actions: dict[str, Callable[[], None]] = {

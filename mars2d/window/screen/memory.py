@@ -68,8 +68,8 @@ class Memory:
 
     @property
     def panels(self) -> list[str]:
-        """The names of the panels that were open in the last window."""
-        known = self.read(WINDOWS).get("panels", [])
+        """The names of the panels that were open in the last window; at first the lesson is."""
+        known = self.read(WINDOWS).get("panels", ["lesson"])
         return [name for name in known if isinstance(name, str)] if isinstance(known, list) else []
 
     def keep(self, **looks: Any) -> None:

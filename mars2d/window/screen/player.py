@@ -128,7 +128,10 @@ class Player:
     def pass_time(self, wall: float) -> None:
         """Advance by `wall` seconds since the last picture."""
         if self._seeks:
-            self._seek()
+            deadline = self._clock() + self._budget
+            while self._seeks and self._clock() < deadline:
+                self._seeks = self._advance() and not self.source.over and not self._meets()
+            self.settle()
         if self._todo:
             self._do_steps()
         if self.loop and self.over and not (self.failed or self.paused or self.manual):
@@ -137,7 +140,12 @@ class Player:
             self._pace.clear()
             return
         if self.speed == float("inf"):
-            self._advance_for_long()
+            # For as long as a picture may take, without frames in between.
+            longest = max(self._budget, min(SHARE_AT_MAX * self.drawing, MAX_TIME_AT_MAX))
+            deadline = self._clock() + longest
+            while not self.source.over and self._advance() and not self._met:
+                if self._clock() >= deadline:
+                    break
             self.settle()
         else:
             pace = SLOW * min(self.speed, 1.0) if self._slow else self.speed
@@ -146,7 +154,11 @@ class Player:
             # If the simulation is too slow, time waits for it and does not catch up later.
             self._time = min(wanted, self._present.time)
         self._slow = max(0.0, self._slow - wall)
-        self._heed_contact()
+        if self._met and self.at_contact == "stop":
+            self.pause()
+        elif self._met:
+            self._slow = SLOW_FOR
+        self._met = False
         now = self._clock()
         if self._pace and self._time < self._pace[-1][1]:  # it was started again
             self._pace.clear()
@@ -185,23 +197,6 @@ class Player:
     def _meets(self) -> bool:
         """Return whether a contact began in the control step that led to the source's row."""
         return bool(meets(self.source.frame.contacts, self.body).any())
-
-    def _seek(self) -> None:
-        """Go on until a contact begins, as far as the time of one picture allows."""
-        deadline = self._clock() + self._budget
-        while self._seeks and self._clock() < deadline:
-            self._seeks = self._advance() and not self.source.over and not self._meets()
-        self.settle()
-
-    def _heed_contact(self) -> None:
-        """Stop or go slowly if a contact has begun in the row that was reached last."""
-        if not self._met:
-            return
-        self._met = False
-        if self.at_contact == "stop":
-            self.pause()
-        else:
-            self._slow = SLOW_FOR
 
     def _do_steps(self) -> None:
         """Do the requested steps, as many as fit into the time of one picture."""
@@ -316,14 +311,6 @@ class Player:
         self._present = self.source.frame
         self._previous = None
         self._time = self._present.time
-
-    def _advance_for_long(self) -> None:
-        """Advance for as long as a picture may take, without frames in between."""
-        seconds = max(self._budget, min(SHARE_AT_MAX * self.drawing, MAX_TIME_AT_MAX))
-        deadline = self._clock() + seconds
-        while not self.source.over and self._advance() and not self._met:
-            if self._clock() >= deadline:
-                break
 
     def _advance_until(self, wanted: float) -> None:
         deadline = self._clock() + self._budget

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -67,6 +68,20 @@ class Playback:
     def scenario(self) -> Scenario:
         """What was simulated."""
         return self.record.scenario_at(self.row)
+
+    @cached_property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """(xmin, xmax, ymin, ymax) of the workspace [m]; without one, of all ways of the bodies."""
+        scenario = self.record.scenario
+        if scenario.workspace is not None:
+            return scenario.bounds
+        poses = np.concatenate([self.record.pose, self.record.prop_pose], axis=2)
+        low, high = (find(poses[:, :2], axis=(0, 2)) for find in (np.nanmin, np.nanmax))
+        xmin, xmax, ymin, ymax = scenario.bounds
+        return (
+            min(xmin, float(low[0]) - 1), max(xmax, float(high[0]) + 1),
+            min(ymin, float(low[1]) - 1), max(ymax, float(high[1]) + 1),
+        )  # fmt: skip
 
     @property
     def recorded(self) -> Record:

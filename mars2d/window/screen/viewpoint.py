@@ -12,7 +12,7 @@ import pygame
 
 from mars2d.output.layers.forces import bounding_circle
 from mars2d.output.raster.camera import FARTHEST, NEAREST, Camera
-from mars2d.output.raster.layout import Layout, fitted
+from mars2d.output.raster.layout import Bounds, Layout, fitted
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -41,13 +41,15 @@ STILL = 0.05
 class Viewpoint:
     """The camera of a window, and how it moves.
 
-    layout: where the picture lies; `arrange` changes it.
+    layout: where the picture lies; `arrange` changes it. bounds: what is fitted into it, metres,
+    such as all that a recorded run needs; None for those of the scenario.
     """
 
-    def __init__(self, scenario: Scenario, layout: Layout) -> None:
+    def __init__(self, scenario: Scenario, layout: Layout, bounds: Bounds | None = None) -> None:
         """Show the whole workspace."""
         self.layout = layout
         self.following: Follow | None = None
+        self.bounds = bounds
         self._scenario = scenario
         self._fits = True
         self._room = layout.plot
@@ -143,7 +145,8 @@ class Viewpoint:
 
     def _fitted(self) -> Camera:
         """Return the camera that shows the workspace beside the panels."""
-        return fitted(self._scenario, self.layout.size, replace(self.layout, plot=self._room))
+        bounds = self.bounds or self._scenario.bounds
+        return fitted(bounds, self.layout.size, replace(self.layout, plot=self._room))
 
 
 def wheel_notches(event: pygame.Event) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import ceil, pi
 from typing import NamedTuple
 
@@ -10,8 +9,10 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.arrows import round_force
 from mars2d.output.raster.brushes import rgba
+from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import hairlines
 from mars2d.output.signals import thinned
@@ -135,32 +136,29 @@ def draw_curve(
             pygame.draw.aacircle(surface, ink, points[0].tolist(), width * painter.ui)
 
 
-def draw_crowd(
+def draw_quartiles(
     surface: pygame.Surface,
     area: pygame.Rect,
+    painter: Painter,
     limits: Limits,
     times: Float,
     values: Float,
-    colors: Sequence[str],
 ) -> None:
-    """Draw many curves (T, k) at once, thin and without steps; only finite values are drawn."""
-    lies = np.searchsorted(times, [limits.start, limits.end])
-    seen = slice(max(int(lies[0]) - 1, 0), int(lies[1]) + 1)
-    times, values = times[seen], values[seen]
-    size = max(1, 4 * len(times) // max(area.width, 1))
-    if size > 1:  # of each block its smallest and its largest value
-        starts = np.arange(0, len(times), size)
-        pair = np.fmin.reduceat(values, starts, axis=0), np.fmax.reduceat(values, starts, axis=0)
-        values = np.stack(pair, axis=1).reshape(-1, values.shape[1])
-        times = np.repeat(times[starts], 2)
-    if len(times) < 2:
+    """Draw the median of many curves (T, k), and the band in which the middle half of them lies.
+
+    Rows in which a value is unknown are left out.
+    """
+    seen = np.flatnonzero((times >= limits.start) & (times <= limits.end))
+    seen = seen[:: max(1, len(seen) // max(area.width, 1))]
+    seen = seen[np.isfinite(values[seen]).all(axis=1)]
+    if len(seen) < 2:
         return
-    high = (np.nan_to_num(values, nan=limits.low) - limits.low) / (limits.high - limits.low)
-    y = np.rint(area.bottom - np.clip(high, -1.0, 2.0) * area.height).astype(int).T.tolist()
-    share = (times - limits.start) / (limits.end - limits.start)
-    x = np.rint(area.left + share * area.width).astype(int).tolist()
-    for k, color in enumerate(colors):
-        pygame.draw.lines(surface, color, closed=False, points=list(zip(x, y[k], strict=True)))
+    low, median, high = np.percentile(values[seen], (25, 50, 75), axis=1)
+    edges = [limits.pixels(area, times[seen], edge) for edge in (low, high)]
+    scene, ink = Scene(), painter.theme.ink
+    scene.polygon(np.vstack([edges[0], edges[1][::-1]]) * (1, -1), fill=faded(ink, 0.2))
+    painter.paint(surface, scene.shapes, PIXELS, shaded=False)
+    draw_curve(surface, painter, [limits.pixels(area, times[seen], median)], ink, 2.0)
 
 
 def as_number(value: float, unit: str = "") -> str:
