@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.interrupt import interrupts
-from mars2d.study.progress import progress
+from mars2d.core.progress import progress
 from mars2d.study.work import Failure, each_done, leave_if_imported_again, worker_count
 from mars2d.tournaments.folder import Folder
 from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits
@@ -107,20 +107,18 @@ def play_schedule(
     function = partial(play, limits=limits, replays=replays)
     with nullcontext() if out is None else Folder(out, planned, limits, replays) as folder:
         done = [] if folder is None else [*folder.before]
-        bar = progress(len(planned.matches), len(done), unit="match", show=show_progress)
+        bar = progress(len(planned.matches), "match", len(done), show=show_progress)
         interrupted = False
         try:
-            with interrupts() as check:
+            with bar as update, interrupts() as check:
                 for played in _each_played(planned, done, function, executor, workers):
                     done.append(played)
                     if folder is not None:
                         folder.keep(played)
-                    bar.update()
+                    update(len(done))
                     check()
         except KeyboardInterrupt:
             interrupted = True
-        finally:
-            bar.close()
     result = Tournament.of(planned, done)
     if out is not None:
         save_all(result, out)

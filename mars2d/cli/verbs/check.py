@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -17,7 +17,7 @@ from mars2d.cli.outputs import conclude, produced
 from mars2d.cli.runs import run_headless, source_of
 from mars2d.core.deadline import PATIENCE, Deadline
 from mars2d.core.errors import InputError, Late, LawError, Mars2dError, counted, nearest, one_line
-from mars2d.core.progress import Progress
+from mars2d.core.progress import Update, progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures.map import save_map
@@ -295,11 +295,11 @@ def _check_record(path: Path) -> Record:
 
 
 @contextmanager
-def _repeating(path: Path, record: Record) -> Iterator[Callable[[int], None]]:
+def _repeating(path: Path, record: Record) -> Iterator[Update]:
     """Show a progress bar, and name the record in errors but those of laws."""
-    with closing(Progress(len(record), "rows")) as bar:
+    with progress(len(record), "row") as update:
         try:
-            yield bar.update
+            yield update
         except LawError:
             raise
         except InputError as error:

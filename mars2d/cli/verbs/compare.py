@@ -7,7 +7,6 @@ import dataclasses
 import json
 import time
 from collections.abc import Callable
-from contextlib import closing
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,7 +22,7 @@ from mars2d.cli.outputs import (
 )
 from mars2d.cli.runs import has_display, run_headless
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.progress import Progress
+from mars2d.core.progress import progress
 from mars2d.core.terminal import aligned, tell
 from mars2d.output.figures.comparison import MODES, Comparison
 from mars2d.scenario.experiment import Experiment, open_experiment
@@ -116,8 +115,8 @@ def _save_film(comparison: Comparison, reels: dict[str, Reel], path: Path) -> No
     from mars2d.output.films.triptych import triptych
 
     count = max(footage.count(last) for footage, last in reels.values())
-    with closing(Progress(count, "frames")) as bar:
-        save_pictures(triptych(comparison, reels), path, FPS, bar.update)
+    with progress(count, "frame") as update:
+        save_pictures(triptych(comparison, reels), path, FPS, update)
 
 
 def _outcomes(comparison: Comparison) -> list[dict[str, Any]]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mars2d.cli.arguments import option, shared, value
 from mars2d.core.errors import Mars2dError, counted
-from mars2d.core.progress import Progress
+from mars2d.core.progress import progress
 from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.reports.paper.figures import FIGURES, Result
@@ -36,14 +36,12 @@ def execute(arguments: argparse.Namespace) -> None:
     figures = [f for f in FIGURES if arguments.only is None or f.number in arguments.only]
     prepare(folder)
     done: list[Result] = []
-    progress = Progress(len(figures), after=0)
     try:
-        progress.update(0, "the first figures")
-        for result in make_all(figures, folder, seed):
-            done.append(result)
-            progress.update(len(done), f"figure {result.figure.number} is made")
+        with progress(len(figures), "figure") as update:
+            for result in make_all(figures, folder, seed):
+                done.append(result)
+                update(len(done), f"figure {result.figure.number} is made")
     finally:  # also after Ctrl-C: the page then shows the figures made so far
-        progress.close()
         done.sort(key=lambda result: result.figure.number)
         missing = [each for each in figures if each not in [result.figure for result in done]]
         path = finish(folder, done, missing, seed)
