@@ -143,7 +143,7 @@ def prepare(folder: Path) -> None:
         (folder / NUMBERS).touch()  # to find out before the first run whether it can be written
 
 
-def finish(folder: Path, results: Sequence[Result], missing: Sequence[Figure], seed: int) -> Path:
+def finish(folder: Path, results: Sequence[Result], seed: int) -> Path:
     """Write the page and the numbers; return the path of the page."""
     made = [
         {
@@ -155,7 +155,7 @@ def finish(folder: Path, results: Sequence[Result], missing: Sequence[Figure], s
         for result in results
     ]
     numbers = json.dumps({"seed": seed, "figures": made}, indent=1, allow_nan=False) + "\n"
-    for path, text in ((NUMBERS, numbers), (PAGE, page(results, missing, seed))):
+    for path, text in ((NUMBERS, numbers), (PAGE, page(results, seed))):
         with atomic_write(folder / path) as file:
             file.write(text.encode())
     return folder / PAGE
