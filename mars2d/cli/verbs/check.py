@@ -100,14 +100,13 @@ def execute(arguments: argparse.Namespace) -> None:
 
 def _check_in_game(path: Path, arguments: argparse.Namespace) -> None:
     """Let a law play a few matches of a game, as a tournament does; refuse one that forfeits."""
-    if arguments.game is None or arguments.role is None:
-        there, missing = ("--for", "--role ROLE") if arguments.game else ("--role", "--for GAME")
-        raise InputError(
-            f"{there} needs {missing}: the game, and the role that the law plays in it"
-        )
+    if arguments.game is None:
+        refuse(arguments, "role", "needs --for GAME: the game in which the law plays this role")
+    if arguments.role is None:
+        refuse(arguments, "for", "needs --role ROLE: the role that the law plays in the game")
     options = dict(map(parse_option, arguments.set))
     matches = trial_matches(arguments.game, arguments.role, path, options)
-    won = 0
+    won, role_of = 0, f"{arguments.role} of {arguments.game}"
     for match in matches:
         played = play(match, LIMITS, replays=False)
         law = match.laws[arguments.role]
@@ -117,15 +116,10 @@ def _check_in_game(path: Path, arguments: argparse.Namespace) -> None:
         if played.error:
             raise InputError(f"{arguments.game}: {played.error}")
         for verdict in played.verdicts.values():
-            raise InputError(
-                f"{verdict.text}: as {arguments.role} of {arguments.game} it would forfeit its "
-                f"matches ({verdict.kind})"
-            )
+            forfeits = f"as {role_of} it would forfeit its matches ({verdict.kind})"
+            raise InputError(f"{verdict.text}: {forfeits}")
         won += played.winner == arguments.role
-    tell(
-        f"sound: won {won} of {len(matches)} matches as {arguments.role} of {arguments.game}, "
-        "and forfeited none"
-    )
+    tell(f"sound: won {won} of {len(matches)} matches as {role_of}, and forfeited none")
 
 
 def _check_code(source: str) -> None:
