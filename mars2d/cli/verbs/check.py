@@ -28,9 +28,9 @@ from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
 from mars2d.testing.file import trials
 from mars2d.testing.finding import Finding
+from mars2d.tournaments.isolation.limits import LIMITS
 from mars2d.tournaments.match import play
 from mars2d.tournaments.schedule import trial_matches
-from mars2d.tournaments.tournament import LIMITS
 from mars2d.world.record import Record, load
 from mars2d.world.verify import ask_again, other_versions, rerun
 

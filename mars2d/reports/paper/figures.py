@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
-from mars2d.core.errors import counted
-from mars2d.scenario.prediction import Prediction
+from mars2d.scenario.prediction import Prediction, summary
 
 
 @dataclass(frozen=True)
@@ -134,7 +133,7 @@ class Result:
     @property
     def failed(self) -> int:
         """The number of predictions that do not hold."""
-        return sum(not p.ok for p in self.predictions)
+        return sum(p.ok is False for p in self.predictions)
 
     @property
     def ok(self) -> bool:
@@ -144,8 +143,7 @@ class Result:
     @property
     def verdict(self) -> str:
         """The outcome in a few words, such as ``3 of 3 predictions ok``."""
-        every = len(self.predictions)
-        held = f"{every - self.failed} of {counted(every, 'prediction')} ok" if every else "shown"
+        held = summary(self.predictions) if self.predictions else "shown"
         if self.problems:
             return f"not all was made; {held}" if self.pictures else "not made"
         return held
