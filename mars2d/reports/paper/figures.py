@@ -84,11 +84,6 @@ class Figure:
         """What it has pictures of."""
         return [*self.runs, *self.charts]
 
-    @property
-    def files(self) -> list[str]:
-        """The names of its files: a .png and a .pdf of each picture."""
-        return [f"{each.stem}{suffix}" for each in self.shown for suffix in (".png", ".pdf")]
-
 
 @dataclass(frozen=True)
 class Picture:
