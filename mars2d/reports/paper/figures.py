@@ -64,7 +64,7 @@ class Chart:
 class Figure:
     """A figure of the paper, beside what the paper reports, in our own words, and theory.
 
-    choices: parameters that the paper leaves open. work: about the time it takes, seconds.
+    choices: parameters that the paper leaves open.
     """
 
     number: int
@@ -77,7 +77,6 @@ class Figure:
     runs: Sequence[Run]
     charts: Sequence[Chart] = ()
     choices: str = ""
-    work: float = 1.0
 
     @property
     def shown(self) -> list[Run | Chart]:

@@ -105,15 +105,14 @@ def setting_of(experiment: str) -> str:
 def make_all(figures: Sequence[Figure], folder: Path, seed: int) -> Iterator[Result]:
     """Yield the results of figures as they are made in a folder, with a process per core.
 
-    The figures with the most work are begun first. For one figure no process is started.
+    For one figure no process is started.
     """
-    order = sorted(figures, key=lambda figure: -figure.work)
     work = partial(make, folder=folder, seed=seed)
-    if len(order) == 1:
-        yield work(order[0])
+    if len(figures) == 1:
+        yield work(figures[0])
         return
-    for index, made in each_done(work, order):
-        yield made if isinstance(made, Result) else Result(order[index], problems=[made.error])
+    for index, made in each_done(work, figures):
+        yield made if isinstance(made, Result) else Result(figures[index], problems=[made.error])
 
 
 # -- the folder ------------------------------------------------------------------------------------
