@@ -33,7 +33,7 @@ from outcome import write
 
 from mars2d import Holonomic, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
-from mars2d.core.progress import Progress
+from mars2d.core.progress import progress
 from mars2d.geometry import edges_of, inside_polygon, point_segment_distance, wrap
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.island import Island
@@ -430,14 +430,13 @@ def main() -> None:
         write(figures(arguments.seed, arguments.run), arguments.json)
         return
     runs = runs_for(arguments.seed, arguments.robot_runs)
-    progress, rows = Progress(len(runs), "runs"), []
-    work = partial(figures, arguments.seed)
-    for index, row in each_done(work, runs, workers=arguments.workers):
-        if isinstance(row, Failure):
-            raise SystemExit(f"run {runs[index]}: {row.error}")
-        rows.append(row)
-        progress.update(len(rows))
-    progress.close()
+    rows, work = [], partial(figures, arguments.seed)
+    with progress(len(runs), "run") as update:
+        for index, row in each_done(work, runs, workers=arguments.workers):
+            if isinstance(row, Failure):
+                raise SystemExit(f"run {runs[index]}: {row.error}")
+            rows.append(row)
+            update(len(rows))
     result = summary(sorted(rows, key=lambda row: row["run"]), arguments.seed)
     print(*as_lines(result), sep="\n")
     if arguments.json is not None:

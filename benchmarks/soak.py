@@ -24,7 +24,7 @@ import numpy as np
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Communication, Map, Trails
-from mars2d.core.progress import Progress
+from mars2d.core.progress import progress
 from mars2d.output.formats.mcap import Log
 from mars2d.record.columns import Scratch, blocks
 from mars2d.scenario.experiment import Experiment
@@ -86,17 +86,17 @@ def run(ticks: int, folder: Path, *, logged: bool) -> dict[str, Any]:
     """Make the run; return its figures."""
     log = Log(folder / "soak.mcap") if logged else None
     storage = Scratch(folder) if log is None else log.storage
-    progress, begun, grown = Progress(ticks), time.perf_counter(), []
-    with log or nullcontext():
-        world = open_world(Experiment(scenario_of(ticks), wander, seed=1), [progress], storage)
+    begun, grown = time.perf_counter(), []
+    with log or nullcontext(), progress(ticks, "step") as update:
+        world = open_world(Experiment(scenario_of(ticks), wander, seed=1), storage=storage)
         while not world.over:
             world.step()
+            update(world.iteration)
             if log is not None:
                 log.follow(world)
             if world.iteration % (ticks // LOOKS) == 0:
                 grown.append(memory())
         stepped = time.perf_counter() - begun
-        progress.close()
         record = world.record
         return {
             "ticks": len(record) - 1,

@@ -118,7 +118,7 @@ SHARED: dict[str, dict[str, Any]] = {
 }
 """The arguments that several verbs have, by name."""
 
-WHERE = {"from": "start", "to": "end"}
+WHERE = {"from": "start", "to": "end", "for": "game"}
 """Where the value of an argument is, if its name is a word of Python's or says too little."""
 
 

@@ -6,14 +6,14 @@ import argparse
 import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mars2d.cli.arguments import refuse
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.interrupt import interrupts
-from mars2d.core.progress import Progress
+from mars2d.core.progress import progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
@@ -83,8 +83,8 @@ def save_film(
 ) -> None:
     """Make the requested film of `count` frames, with a progress bar."""
     look: dict[str, Any] = {"size": arguments.size or SIZE, "status": f"{speed:.3g}x"}
-    with closing(Progress(count, "frames")) as bar:
-        film.save_film(frames, arguments.video, fps=FPS, progress=bar.update, **look)
+    with progress(count, "frame") as update:
+        film.save_film(frames, arguments.video, fps=FPS, progress=update, **look)
 
 
 def save_film_of(record: Record, arguments: argparse.Namespace) -> None:

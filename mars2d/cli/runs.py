@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
-from mars2d.core.progress import Progress
+from mars2d.core.progress import progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import courses, examples, experiment_name, title_of
@@ -72,8 +71,9 @@ def run_headless(
     speed: float | str = "max",
 ) -> World:
     """Run to the end without a window, with a progress bar, and return the world."""
-    with closing(Progress(experiment.scenario.last_iteration)) as bar:
-        return simulate(experiment, speed, [*watchers, bar], log)
+    last = experiment.scenario.last_iteration
+    with progress(last, "step") as update:
+        return simulate(experiment, speed, [*watchers, lambda at: update(at.iteration)], log)
 
 
 def source_of(name: str, path: Path, otherwise: str = "") -> str:

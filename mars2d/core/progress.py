@@ -1,52 +1,43 @@
-"""A progress bar on a terminal."""
+"""A progress bar on a terminal and in a notebook."""
 
 from __future__ import annotations
 
 import sys
-import time
-from typing import Any
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, Protocol
+
+AFTER = 0.5
+"""The time before a bar is shown, seconds; what is short needs none."""
 
 
-class Progress:
-    """A bar on one line of a terminal with progress, rate and time left; silent elsewhere."""
+class Update(Protocol):
+    """Shows how many are done, and what else there is to say."""
 
-    def __init__(self, total: int, unit: str = "steps", after: float = 0.5) -> None:
-        """Take the total number of steps.
+    def __call__(self, done: int, said: str = "", /) -> None:
+        """Show it."""
 
-        after: the time before the bar is shown, seconds; a short run needs none.
-        """
-        self._total = max(total, 1)
-        self._unit = unit
-        self._stream = sys.stderr
-        self._on = self._stream.isatty()
-        self._start = time.monotonic()
-        self._next = self._start + after
-        self._shown = False
 
-    def __call__(self, stepped: Any) -> None:
-        """Show the progress of an object by its iteration."""
-        self.update(stepped.iteration)
+@contextmanager
+def progress(total: int, unit: str, done: int = 0, *, show: bool = True) -> Iterator[Update]:
+    """Yield what shows how many of `total` are done, with rate and time left; silent elsewhere.
 
-    def update(self, done: int, doing: str = "") -> None:
-        """Show that `done` of all steps are done, at most ten times a second.
+    done: how many are done before. show: False shows nothing.
+    """
+    notebook = type(sys.stderr).__module__.startswith("ipykernel.")
+    if not (show and (sys.stderr.isatty() or notebook)):
+        yield lambda _done, _said="": None
+        return
+    with warnings.catch_warnings():  # a notebook without ipywidgets has a bar of letters
+        warnings.simplefilter("ignore")
+        from tqdm.auto import tqdm
+    look: dict[str, Any] = {"unit": unit, "leave": False, "dynamic_ncols": True}
+    with tqdm(total=total, initial=done, delay=AFTER, **look) as bar:
 
-        doing: the present activity, shown instead of the rate; for a few long steps.
-        """
-        if not self._on or (now := time.monotonic()) < self._next:
-            return
-        self._next = now + 0.1
-        self._shown = True
-        rate = done / (now - self._start)
-        left = (self._total - done) / rate if rate else 0.0
-        filled = round(30 * done / self._total)
-        bar = "#" * filled + "-" * (30 - filled)
-        part = 100 * done / self._total
-        rest = doing or f"{rate:,.0f} {self._unit}/s  {left:.0f} s left"
-        self._stream.write(f"\r{bar} {part:3.0f} %  {rest:<38.38} ")
-        self._stream.flush()
+        def update(done: int, said: str = "") -> None:
+            if said:
+                bar.set_postfix_str(said, refresh=False)
+            bar.update(done - bar.n)
 
-    def close(self) -> None:
-        """Wipe the bar off the terminal."""
-        if self._shown:
-            self._stream.write("\r" + " " * 78 + "\r")
-            self._stream.flush()
+        yield update

@@ -99,7 +99,6 @@ def save_study_figure(
     path: str | Path,
     *,
     confidence: float = 0.95,
-    x: str | None = None,
     style: str | Style = "screen",
 ) -> Path:
     """Save the figure of `plot_study` as ``.png``, ``.pdf`` or ``.svg`` and return its path.
@@ -110,7 +109,7 @@ def save_study_figure(
     look = style_of(style)
 
     def draw() -> Any:
-        return plot_study(table, confidence=confidence, x=x, style=style)[0].figure
+        return plot_study(table, confidence=confidence, style=style)[0].figure
 
     return save_drawing(draw, path, trim=look.trim, dpi=look.dpi)
 

@@ -15,13 +15,13 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, Mars2dError, shown
 from mars2d.core.files import writing
 from mars2d.core.interrupt import interrupts
+from mars2d.core.progress import progress
 from mars2d.core.terminal import warn
 from mars2d.scenario.scenario import Scenario
 from mars2d.study.job import run_job
 from mars2d.study.kept import records_beside
 from mars2d.study.measures import Measure
 from mars2d.study.plan import Plan, seeds_of, settings_of
-from mars2d.study.progress import progress
 from mars2d.study.results import Results
 from mars2d.study.study import Study, prepared
 from mars2d.study.table import Result, Table, cells_of
@@ -176,15 +176,13 @@ def _missing(
     failed = sum(bool(result.error) for result in results.rows.values())
     done_by = each_done(run_job, todo, executor, workers, study.blank.time_limit)
     with (
-        progress(len(study.plan), len(results.rows), show=show_progress) as bar,
+        progress(len(study.plan), "run", len(results.rows), show=show_progress) as update,
         closing(cast("Generator[tuple[int, Result | Failure]]", done_by)) as done,
     ):
-        for index, made in done:
+        for count, (index, made) in enumerate(done, len(results.rows) + 1):
             job, nothing = todo[index], dict.fromkeys(study.measures)
             failed += bool(made.error)
-            if failed:
-                bar.set_postfix_str(f"{failed} failed", refresh=False)
-            bar.update()
+            update(count, f"{failed} failed" if failed else "")
             if isinstance(made, Failure):
                 yield Result(job.row, job.options, job.seed, nothing, made.error)
             else:

@@ -18,7 +18,6 @@ from mars2d.study.text import (
     assigned,
     head,
     in_words,
-    name_of_point,
     near,
     percent,
     side_by_side,
@@ -131,8 +130,8 @@ def _seeds(table: Table, most: float, have: int, point: Point) -> str:
     guess = f", a guess from {have}" if have < MIN_RUNS else ""
     if most <= have:
         return f"these {have} seeds{guess}"
-    where = name_of_point(table, point)
-    where = f"; {where} needs most" if where else ""
+    named = [assigned(name, point[k], table.unit(name)) for k, name in varied(table)]
+    where = f"; {', '.join(named)} needs most" if named else ""
     unit = 10 ** max(floor(log10(most)) - 1, 0)
     rounded = f"{ceil(most / unit) * unit:,}".replace(",", " ")  # up, to two digits
     return f"about {rounded} seeds{guess}{where}"

@@ -157,14 +157,13 @@ class Table:
     def _repr_html_(self) -> str:
         """Return the first rows as a table, for a notebook."""
         columns = ["row", *self.settings, SEED, *self.measures, *(["error"] if self.failed else [])]
-        lines = [_html_row("th", [with_unit(name, self.unit(name)) for name in columns])]
-        for result in self.results[:SHOWN_ROWS]:
-            row = _columns_of(result)
-            lines.append(_html_row("td", [row.get(name) for name in columns]))
+        heads = "".join(f"<th>{_shown(with_unit(name, self.unit(name)))}</th>" for name in columns)
+        rows = map(_columns_of, self.results[:SHOWN_ROWS])
+        cells = ["".join(f"<td>{_shown(row.get(name))}</td>" for name in columns) for row in rows]
+        lines = "".join(f"<tr>{line}</tr>" for line in [heads, *cells])
         left = len(self) - SHOWN_ROWS
         more = f"<p>and {counted(left, 'row')} more</p>" if left > 0 else ""
-        title = html.escape(repr(self)[1:-1])
-        return f"<p>{title}</p><table>{''.join(lines)}</table>{more}"
+        return f"<p>{html.escape(repr(self)[1:-1])}</p><table>{lines}</table>{more}"
 
 
 def _columns_of(result: Result) -> dict[str, Any]:
@@ -173,13 +172,10 @@ def _columns_of(result: Result) -> dict[str, Any]:
     return {**result.options, **result.measures, **own}
 
 
-def _html_row(tag: str, cells: list[Any]) -> str:
-    texts = ("" if cell is None else _html_text(cell) for cell in cells)
-    return f"<tr>{''.join(f'<{tag}>{text}</{tag}>' for text in texts)}</tr>"
-
-
-def _html_text(cell: Any) -> str:
-    return html.escape(f"{cell:.6g}" if isinstance(cell, float) else str(cell))
+def _shown(value: Any) -> str:
+    """Return a value as HTML."""
+    text = f"{value:.6g}" if isinstance(value, float) else "" if value is None else str(value)
+    return html.escape(text)
 
 
 # -- writing files ---------------------------------------------------------------------------------
@@ -194,16 +190,11 @@ def file_header(table: Table) -> bytes:
 def file_line(table: Table, result: Result) -> bytes:
     """Return a run's line in a table's file."""
     values = [cell(result.options[name]) for name in table.settings]
-    measured = [_measure_cell(result.measures.get(name)) for name in table.measures]
+    found = (result.measures.get(name) for name in table.measures)
+    measured = ["" if v is None else word_cell(v) if isinstance(v, str) else str(v) for v in found]
     error = word_cell(one_line(" ".join(result.error.split())))
     own = str(result.row), table.experiment
     return _line([*own, *values, str(result.seed), *measured, result.digest, result.code, error])
-
-
-def _measure_cell(value: float | str | None) -> str:
-    if isinstance(value, str):
-        return word_cell(value)
-    return "" if value is None else str(value)
 
 
 def _line(cells: Iterable[str]) -> bytes:

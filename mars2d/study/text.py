@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
@@ -30,12 +29,6 @@ def in_words(value: Any) -> str:
 def assigned(name: str, value: Any, unit: str = "") -> str:
     """Return a setting with its value and unit, such as ``speed = 0.5 m/s``."""
     return f"{name} = {in_words(value)} {f'[{unit}]' if ',' in unit else unit}".rstrip()
-
-
-def name_of_point(table: Table, point: Point, leave_out: Sequence[str] = ()) -> str:
-    """Return the settings of a point that vary, such as ``gain = 0.5, n = 4``."""
-    names = [(k, name) for k, name in varied(table) if name not in leave_out]
-    return ", ".join(assigned(name, point[k], table.unit(name)) for k, name in names)
 
 
 def head(table: Table, what: str) -> str:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import closing, nullcontext
+from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from mars2d.core.interrupt import interrupts
-from mars2d.study.progress import progress
+from mars2d.core.progress import progress
 from mars2d.study.work import Failure, each_done, leave_if_imported_again, worker_count
 from mars2d.tournaments.folder import Folder
 from mars2d.tournaments.isolation.limits import LIMITS, OUT_OF_TIME, Limits
@@ -103,15 +103,15 @@ def play_schedule(
     function = partial(play, limits=planned.limits, replays=replays)
     with nullcontext() if out is None else Folder(out, planned, replays) as folder:
         done = [] if folder is None else [*folder.before]
-        bar = progress(len(planned.matches), len(done), unit="match", show=show_progress)
+        bar = progress(len(planned.matches), "match", len(done), show=show_progress)
         interrupted = False
         try:
-            with closing(bar), interrupts() as check:
+            with bar as update, interrupts() as check:
                 for played in _each_played(planned, done, function, executor, workers):
                     done.append(played)
                     if folder is not None:
                         folder.keep(played)
-                    bar.update()
+                    update(len(done))
                     check()
         except KeyboardInterrupt:
             interrupted = True

@@ -46,26 +46,6 @@ def test_run_prints_its_outcome_as_one_line_of_json(tmp_path):
     assert outcome["wall_s"] > 0
 
 
-@pytest.mark.slow
-def test_run_saves_record_figure_and_film(tmp_path):
-    done = mars(
-        "run", "go_to_point", "--headless", "--stop-time", 2, "--record", "a.npz",
-        "--figure", "a.pdf", "--video", "a.gif", cwd=tmp_path,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    assert mars2d.load(tmp_path / "a.npz").pose.shape == (41, 3, 2)
-    assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
-    assert (tmp_path / "a.gif").read_bytes().startswith(b"GIF89a")
-
-
-def test_run_draws_snapshots(tmp_path):
-    done = mars(
-        "run", "go_to_point", "--headless", "--figure", "a.svg", "--at", "0,5,10", cwd=tmp_path
-    )
-    assert done.returncode == 0, done.stderr
-    assert b"<svg" in (tmp_path / "a.svg").read_bytes()
-
-
 def test_set_overrides_fields_and_parameters(tmp_path):
     done = mars(
         "run", "follow_the_leader", "--headless", "--stop-time", 1, "--record", "a.npz",
@@ -83,13 +63,6 @@ def test_a_run_without_a_display_says_so_and_runs(tmp_path):
     assert done.returncode == 0
     assert "no display" in done.stderr
     assert "Random movements" in done.stdout
-
-
-def test_check_runs_a_record_again(tmp_path):
-    mars2d.run("follow_the_leader", stop_time=20).save(tmp_path / "a.npz")
-    done = mars("check", "a.npz", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
-    assert "bit-identical" in done.stdout
 
 
 def test_check_says_where_a_record_departs(tmp_path, capsys):

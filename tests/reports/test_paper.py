@@ -55,6 +55,11 @@ def figure(*runs, number=2, charts=()):
     )  # fmt: skip
 
 
+def files_of(figure):
+    """The names of a figure's files: a .png and a .pdf of each picture."""
+    return [f"{each.stem}{suffix}" for each in figure.shown for suffix in (".png", ".pdf")]
+
+
 def written(folder, name, code):
     path = folder / name
     path.write_text(code, encoding="utf-8")
@@ -131,7 +136,7 @@ def check_page(folder, figures):
     assert len(ids) == len(set(ids))
     assert [i for i in ids if re.fullmatch(r"figure-\d", i)] == [f"figure-{n}" for n in figures]
     images = found.all("img")
-    files = [name for f in FIGURES if f.number in figures for name in f.files]
+    files = [name for f in FIGURES if f.number in figures for name in files_of(f)]
     assert [image["src"] for image in images] == files[::2]
     for image in images:
         file = folder / image["src"]
@@ -219,7 +224,7 @@ def test_the_whole_paper_is_made_on_one_page_and_every_number_holds(tmp_path):
                 assert parsed.figure == Path(f"{picture['picture']}.pdf")
                 assert parsed.headless
     files = {path.name for path in folder.iterdir()}
-    assert files == {name for f in FIGURES for name in f.files} | {"index.html", "numbers.json"}
+    assert files == {name for f in FIGURES for name in files_of(f)} | {"index.html", "numbers.json"}
 
 
 def stated_in_the_documents():
@@ -232,7 +237,7 @@ def stated_in_the_documents():
 
 def test_figures_are_those_of_the_paper_and_each_experiment_states_its_setting():
     assert [f.number for f in FIGURES] == list(range(2, 10))
-    files = [name for f in FIGURES for name in f.files]
+    files = [name for f in FIGURES for name in files_of(f)]
     assert len(files) == len(set(files))
     for each in FIGURES:
         for run in each.runs:
@@ -244,23 +249,24 @@ def test_figures_are_those_of_the_paper_and_each_experiment_states_its_setting()
 # -- the folder -------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["notes.txt", "index.html", "fig2_random_walk.png/"])
-def test_a_folder_with_other_things_in_it_is_refused_and_left_as_it_is(paper, cheap, name):
-    shutil.copytree(cheap, "out")
-    before = {path.name: path.read_bytes() for path in Path("out").iterdir()}
-    other = Path("out", name)
-    if name.endswith("/"):
-        other.unlink()
-        other.mkdir()
-        del before[other.name]
-    else:
-        other.write_text("<html>mine</html>")
-        before[name] = b"<html>mine</html>"
-    code, out, err = paper("out", "--only", "2")
+@each_case("name", ["notes.txt", "index.html"])
+def test_a_folder_of_something_else_is_refused_and_left_as_it_is(paper, name):
+    folder = Path(name).with_suffix(".d")
+    folder.mkdir()
+    (folder / name).write_text("<html>mine</html>")
+    code, out, err = paper(folder, "--only", "2")
     assert (code, out) == (2, "")
-    assert f"holds {other.name}, which is not of `mars2d paper`" in err
-    assert {p.name: p.read_bytes() for p in Path("out").iterdir() if p.is_file()} == before
+    assert f"holds {name}, and no page of `mars2d paper`" in err
+    assert {p.name: p.read_text() for p in folder.iterdir()} == {name: "<html>mine</html>"}
+
+
+@pytest.mark.slow
+def test_the_folder_of_an_earlier_run_is_taken_again_and_other_files_in_it_are_left(paper, cheap):
+    shutil.copytree(cheap, "out")
+    Path("out/notes.txt").write_text("mine")
+    assert paper("out", "--only", "2")[0] == 0
+    check_page(Path("out"), [2])
+    assert Path("out/notes.txt").read_text() == "mine"
 
 
 @each_case(

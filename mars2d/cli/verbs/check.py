@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import closing, contextmanager
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -17,7 +17,7 @@ from mars2d.cli.outputs import conclude, produced
 from mars2d.cli.runs import run_headless, source_of
 from mars2d.core.deadline import PATIENCE, Deadline
 from mars2d.core.errors import InputError, Late, LawError, Mars2dError, counted, nearest, one_line
-from mars2d.core.progress import Progress
+from mars2d.core.progress import Update, progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures.map import save_map
@@ -100,14 +100,13 @@ def execute(arguments: argparse.Namespace) -> None:
 
 def _check_in_game(path: Path, arguments: argparse.Namespace) -> None:
     """Let a law play a few matches of a game, as a tournament does; refuse one that forfeits."""
-    if arguments.game is None or arguments.role is None:
-        there, missing = ("--for", "--role ROLE") if arguments.game else ("--role", "--for GAME")
-        raise InputError(
-            f"{there} needs {missing}: the game, and the role that the law plays in it"
-        )
+    if arguments.game is None:
+        refuse(arguments, "role", "needs --for GAME: the game in which the law plays this role")
+    if arguments.role is None:
+        refuse(arguments, "for", "needs --role ROLE: the role that the law plays in the game")
     options = dict(map(parse_option, arguments.set))
     matches = trial_matches(arguments.game, arguments.role, path, options)
-    won = 0
+    won, role_of = 0, f"{arguments.role} of {arguments.game}"
     for match in matches:
         played = play(match, LIMITS, replays=False)
         law = match.laws[arguments.role]
@@ -117,15 +116,10 @@ def _check_in_game(path: Path, arguments: argparse.Namespace) -> None:
         if played.error:
             raise InputError(f"{arguments.game}: {played.error}")
         for verdict in played.verdicts.values():
-            raise InputError(
-                f"{verdict.text}: as {arguments.role} of {arguments.game} it would forfeit its "
-                f"matches ({verdict.kind})"
-            )
+            forfeits = f"as {role_of} it would forfeit its matches ({verdict.kind})"
+            raise InputError(f"{verdict.text}: {forfeits}")
         won += played.winner == arguments.role
-    tell(
-        f"sound: won {won} of {len(matches)} matches as {arguments.role} of {arguments.game}, "
-        "and forfeited none"
-    )
+    tell(f"sound: won {won} of {len(matches)} matches as {role_of}, and forfeited none")
 
 
 def _check_code(source: str) -> None:
@@ -295,11 +289,11 @@ def _check_record(path: Path) -> Record:
 
 
 @contextmanager
-def _repeating(path: Path, record: Record) -> Iterator[Callable[[int], None]]:
+def _repeating(path: Path, record: Record) -> Iterator[Update]:
     """Show a progress bar, and name the record in errors but those of laws."""
-    with closing(Progress(len(record), "rows")) as bar:
+    with progress(len(record), "row") as update:
         try:
-            yield bar.update
+            yield update
         except LawError:
             raise
         except InputError as error:

