@@ -32,7 +32,7 @@ def forked(simulation: Simulation, *, laws: bool) -> Simulation:
             ) from error
     copied = deepcopy(simulation, memo)
     copied.endless = True
-    copied.resume(simulation.work)
+    copied.resume()
     return copied
 
 
@@ -45,7 +45,7 @@ def _replaced(simulation: Simulation, *, laws: bool) -> Iterator[tuple[object, o
     for part in (*described, *scenario.addons):  # frozen
         yield part, part
     unrecorded = Unrecorded(scenario)
-    engine = type(simulation.engine)(scenario, simulation.motion)
+    engine = simulation.engine.fork()
     yield simulation.recorder, unrecorded
     yield simulation.history, History(unrecorded)
     yield simulation.storage, None
