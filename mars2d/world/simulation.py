@@ -336,8 +336,6 @@ class Simulation(State):
         self._drives.draw()
         self.driven = []
         start = perf_counter()
-        if self.iteration % REST == 0:
-            self.engine.rest()
         for duration, command in self._delay.send(self.command):
             for part, twist in self._drives.drive(command, duration):
                 self.driven.append((part, twist))
@@ -352,6 +350,8 @@ class Simulation(State):
         self.take_poses()
         self.effort = locked(self.engine.take_effort())
         self.iteration += 1
+        if self.iteration % REST == 0:
+            self.engine.rest()
 
     # -- changes while it runs -------------------------------------------------------------------
 

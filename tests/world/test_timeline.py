@@ -1,16 +1,21 @@
 """The timeline: going back and on is the same to the bit, whatever laws remember."""
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
 
 import mars2d
 from mars2d import LawError, Robot, Scenario
-from mars2d.addons import Map
+from mars2d.addons import Communication, Map
+from mars2d.addons.base import Addon
+from mars2d.bodies.props import Box
 from mars2d.cli import outputs
 from mars2d.core.errors import InputError
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
+from mars2d.world.past import MOST
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 from tests.cases import each_case
@@ -26,11 +31,6 @@ def finish(timeline):
 def run_to(timeline, row):
     while timeline.newest < row:
         timeline.advance()
-
-
-def idle(timeline, times=400):
-    for _ in range(times):
-        timeline.idle(0.02)
 
 
 @pytest.fixture
@@ -74,7 +74,6 @@ def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     last = timeline.newest
     for row in (last // 2, last // 3, 2 * last // 3, 0, last - 1):
         timeline.go(row)
-        timeline.idle(0.05)
         world = timeline.branch()
         assert timeline.remark == ""
         assert world.iteration == row
@@ -166,23 +165,39 @@ def test_memory_of_every_kind_is_rebuilt(memory):
         assert timeline.record.digest == expected.digest
 
 
-@pytest.mark.slow
-def test_worlds_that_wait_change_nothing(memory):
-    expected = simulated(memory)
-    timeline = Timeline(open_experiment(memory, seed=3))
-    run_to(timeline, 120)
-    timeline.go(60)
-    idle(timeline)
-    timeline.go(120)
-    idle(timeline, 4000)
-    rows = sorted(world.iteration for world in timeline._past.waiting)
-    assert set(rows) >= {24, 48, 72, 96}
+class Noting(Addon):
+    """Notes at which steps it is called, in a list that all copies share."""
+
+    steps: ClassVar[list[int]] = []
+
+    def on_step(self, world):
+        self.steps.append(world.iteration)
+
+
+def straight(robot):
+    robot.memory.k = getattr(robot.memory, "k", 0) + 1
+    return 0.2, 0.01 * robot.memory.k + robot.rng.normal()
+
+
+def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
+    robots = [Robot(controller=straight).at(0, y) for y in (0.0, 0.4)]
+    boxes = [Box(length=0.4, width=0.4, pose=(0.45, 0.1, 0))]
+    talk = Communication(loss=0.3, delay=0.2)
+    team = Scenario(robots=robots, props=boxes, addons=[Noting(), talk], stop_time=100)
+    expected = simulate(Experiment(team, seed=3)).record
+    timeline = Timeline(Experiment(team, seed=3))
+    run_to(timeline, 90)
+    timeline.world.operator.place(0, (3, 3, 0))
+    finish(timeline)
+    for row in (90, 70):  # before and after the robot was put elsewhere
+        timeline.go(row)
+        Noting.steps.clear()
+        timeline.branch()
+        assert Noting.steps == [*range(64, row + 1)]
+        assert timeline.remark == ""
     finish(timeline)
     assert timeline.record.digest == expected.digest
-    timeline.go(80)
-    timeline.branch()
-    finish(timeline)
-    assert timeline.record.digest == expected.digest
+    assert len(timeline._past._snapshots) <= MOST
 
 
 # -- hands -----------------------------------------------------------------------------------------
@@ -294,7 +309,6 @@ def test_a_branch_of_a_branch_and_back(memory):
     timeline.other_branch()
     assert timeline.world is first
     timeline.go(100)
-    idle(timeline, 100)
     timeline.other_branch()
     assert timeline.world is second
     assert timeline.row == 100
@@ -367,7 +381,6 @@ def test_a_file_that_is_broken_in_between_is_told_of_and_nothing_is_lost(written
     path.write_text("scenario = Scen(")
     world = timeline.world
     timeline.go(4)
-    idle(timeline, 5)
     with pytest.raises(InputError, match=r"walk\.py, line 1"):
         timeline.branch()
     with pytest.raises(InputError, match=r"walk\.py, line 1"):
@@ -390,12 +403,12 @@ count = np.__dict__.setdefault("_counter_of_a_test", itertools.count())
 scenario = Scenario(robots=[Robot(name="red", controller=lambda robot: (0.1, {source}))])
 """)
     timeline = Timeline(open_experiment(path))
-    run_to(timeline, 30)
+    run_to(timeline, 50)
     poses = timeline.world.history.pose.copy()
-    timeline.go(20)
+    timeline.go(40)
     timeline.branch()
     assert "the law of red gave another command at step 0" in timeline.remark
-    assert np.array_equal(timeline.world.history.pose, poses[:20])
+    assert np.array_equal(timeline.world.history.pose, poses[:40])
     assert len(timeline.branches) == 1
 
 
@@ -410,10 +423,6 @@ def test_an_experiment_that_is_not_from_a_file(capsys):
     timeline = Timeline(experiment)
     finish(timeline)
     timeline.go(11)
-    idle(timeline, 20)
-    assert (
-        timeline._past.waiting == []
-    )  # it would share what the law remembers, if that lies elsewhere
     timeline.branch()
     assert timeline.remark == ""
     finish(timeline)

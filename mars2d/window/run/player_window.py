@@ -29,12 +29,9 @@ from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.keys import chord
 from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Notes
-from mars2d.world.timeline import Timeline
 
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
-RESERVE = 0.004
-"""The time of a picture that is not used to prepare for going back, seconds."""
 THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
 """The layers that the user's code may draw."""
 
@@ -138,18 +135,12 @@ class PlayerWindow(ABC):
                 self._rest.stir()
             if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
                 self._show_picture(pygame.display.get_surface() or screen)
-            self._use_rest(1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE)
             if self.player.speed < inf or not self.player.playing:
                 clock.tick(PICTURES_A_SECOND)
 
     @abstractmethod
     def _pass_time(self, seconds: float) -> None:
         """Advance by seconds of the wall clock."""
-
-    def _use_rest(self, seconds: float) -> None:
-        """Use the rest of a picture's time to prepare for going back."""
-        if seconds > 0 and isinstance(self.player.source, Timeline):
-            self.player.source.idle(seconds)
 
     @property
     def _moves(self) -> bool:
