@@ -243,43 +243,28 @@ class Timeline:
         """Whether a world has to be made again before something can be changed at this row."""
         return self.row < self.newest or self.world.over
 
-    def branch(self, progress: Progress = lambda _: True) -> World:
-        """Return a world at the present row that may be changed and gone on with.
+    def change(self, act: Callable[[World], None], progress: Progress = lambda _: True) -> None:
+        """Do something to the world at the present row; in the past, to one that is as it was.
 
-        The rows after it become a branch. The operator lets go of all bodies. progress: called with
-        the share of the way back that is done; if it returns False, nothing changes. Raises
-        InputError in that case, and if the world does not become the same again.
+        That goes on, and the rows after it become a branch. progress: called with the share of the
+        way back that is done; if it returns False, nothing changes. Nor does it where an InputError
+        is raised, by `act` or because the world does not become the same again.
         """
         self.remark = ""
+        world = self.world
         if self.needs_way_back:
-            self._adopt(self._past.world_at(self._track, self.row, progress))
-            self.remark = self._past.doubt
-        return self.world
-
-    def change(self, act: Callable[[World], None], progress: Progress = lambda _: True) -> None:
-        """Do something to the world at the present row, of a branch where that is in the past.
-
-        Where `act` raises InputError, nothing changes.
-        """
-        before, branches = self.world, [*self.branches]
-        lines, errors = dict(self._lines), dict(self._errors)
-        world = self.branch(progress)
-        try:
-            if options_of(world) != self.experiment.options:  # they were set later than this row
-                self._change_to(self.experiment, world)
-            act(world)
-        except InputError:
-            if world is not before:
-                self.world, self.branches = before, branches
-                self._write(self.row)
-                self._lines, self._errors = lines, errors
-            raise
+            world = self._past.world_at(self._track, self.row, progress)
+        if options_of(world) != self.experiment.options:  # they were set later than this row
+            self._change_to(self.experiment, world)
+        act(world)
+        if world is not self.world:
+            self._adopt(world)
 
     def undo(self, progress: Progress = lambda _: True) -> Intervention:
         """Go on from before the last thing that was done by hand; return that.
 
         The run with it becomes a branch. Raises InputError if there is nothing to undo, and as
-        `branch` does.
+        `change` does.
         """
         log = self.world.operator.log
         if not log:
@@ -289,18 +274,19 @@ class Timeline:
             done -= 1
         row = log[done].row
         self._past.forget_after(row)
-        self.remark = ""
-        experiment, past = self.experiment, self._past
-        held = options_of(self.world, done)
-        if held != experiment.options:
-            experiment = experiment.with_options(held)
-            past = past.with_laws_of(experiment)
+        experiment, past = self._with_options(options_of(self.world, done))
         world = past.world_at(replace(self._track, done=done), row, progress)
         self.row = row
         self.experiment, self._past = experiment, past
         self._adopt(world)
-        self.remark = self._past.doubt
         return log[done]
+
+    def _with_options(self, options: dict[str, Any]) -> tuple[Experiment, Past]:
+        """Return the experiment and the past, or those with other options."""
+        if options == self.experiment.options:
+            return self.experiment, self._past
+        experiment = self.experiment.with_options(options)
+        return experiment, self._past.with_laws_of(experiment)
 
     def check(self, experiment: Experiment) -> None:
         """Raise InputError for an experiment that `take` can't go on with."""
@@ -395,8 +381,8 @@ class Timeline:
         self._count += 1
         self._lines[world] = line.off(self._count, row)
         self.world = world
+        self.remark = self._past.doubt
         self._past.forget_after(row)
-        world.operator.let_go()
         world.watch = watch_by(self._watchers)
         self._write(row)
 
@@ -415,10 +401,7 @@ class Timeline:
         if other not in self.branches:
             self._show_run(other)
             return
-        experiment, held = self.experiment, options_of(other)
-        if held != experiment.options:
-            self.experiment = experiment.with_options(held)
-            self._past = self._past.with_laws_of(self.experiment)
+        self.experiment, self._past = self._with_options(options_of(other))
         self.branches.remove(other)
         self.branches.append(self.world)
         common = self._lines[self.world].common(self._lines[other])

@@ -28,6 +28,12 @@ def finish(timeline):
         timeline.advance()
 
 
+def branch(timeline, progress=lambda _: True):
+    """Go on from the present row, and do nothing there; return the world."""
+    timeline.change(lambda _: None, progress)
+    return timeline.world
+
+
 def run_to(timeline, row):
     while timeline.newest < row:
         timeline.advance()
@@ -74,7 +80,7 @@ def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     last = timeline.newest
     for row in (last // 2, last // 3, 2 * last // 3, 0, last - 1):
         timeline.go(row)
-        world = timeline.branch()
+        world = branch(timeline)
         assert timeline.remark == ""
         assert world.iteration == row
         assert np.array_equal(world.pose, expected.pose[row])
@@ -159,7 +165,7 @@ def test_memory_of_every_kind_is_rebuilt(memory):
     finish(timeline)
     for row in (100, 199, 0):
         timeline.go(row)
-        timeline.branch()
+        branch(timeline)
         assert timeline.remark == ""
         finish(timeline)
         assert timeline.record.digest == expected.digest
@@ -192,7 +198,7 @@ def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
     for row in (90, 70):  # before and after the robot was put elsewhere
         timeline.go(row)
         Noting.steps.clear()
-        timeline.branch()
+        branch(timeline)
         assert Noting.steps == [*range(64, row + 1)]
         assert timeline.remark == ""
     finish(timeline)
@@ -232,7 +238,7 @@ def test_what_hands_did_is_done_again(memory, row):
     before = timeline.world.record
     timeline.go(row)
     shown = timeline.frame.pose
-    timeline.branch()
+    branch(timeline)
     assert timeline.remark == ""
     assert np.array_equal(timeline.world.pose, shown)
     assert np.array_equal(timeline.world.history.pose, before.pose[:row])
@@ -313,7 +319,7 @@ def test_a_branch_of_a_branch_and_back(memory):
     assert timeline.world is second
     assert timeline.row == 100
     timeline.go(130)
-    timeline.branch()
+    branch(timeline)
     assert np.array_equal(timeline.world.pose, second.history.pose[130])
     assert timeline.remark == ""
 
@@ -328,7 +334,7 @@ def law(robot):
 scenario = Scenario(robots=[Robot(controller=law)], stop_time=50, sampling_time=0.1)
 """)
     timeline = Timeline(open_experiment(path))
-    assert timeline.branch() is timeline.world  # at row 0, the newest
+    assert branch(timeline) is timeline.world  # at row 0, the newest
     finish(timeline)
     assert timeline.frame.over_message == "there"
     last = timeline.newest
@@ -382,12 +388,12 @@ def test_a_file_that_is_broken_in_between_is_told_of_and_nothing_is_lost(written
     world = timeline.world
     timeline.go(4)
     with pytest.raises(InputError, match=r"walk\.py, line 1"):
-        timeline.branch()
+        branch(timeline)
     with pytest.raises(InputError, match=r"walk\.py, line 1"):
         timeline.restart()
     assert (timeline.world, timeline.row, timeline.newest) == (world, 4, 8)
     path.write_text(FAILING)
-    assert timeline.branch().iteration == 4
+    assert branch(timeline).iteration == 4
 
 
 @each_case(
@@ -406,7 +412,7 @@ scenario = Scenario(robots=[Robot(name="red", controller=lambda robot: (0.1, {so
     run_to(timeline, 50)
     poses = timeline.world.history.pose.copy()
     timeline.go(40)
-    timeline.branch()
+    branch(timeline)
     assert "the law of red gave another command at step 0" in timeline.remark
     assert np.array_equal(timeline.world.history.pose, poses[:40])
     assert len(timeline.branches) == 1
@@ -423,7 +429,7 @@ def test_an_experiment_that_is_not_from_a_file(capsys):
     timeline = Timeline(experiment)
     finish(timeline)
     timeline.go(11)
-    timeline.branch()
+    branch(timeline)
     assert timeline.remark == ""
     finish(timeline)
     assert timeline.record.digest == expected.digest
@@ -448,7 +454,7 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=1)
     timeline = Timeline(open_experiment(path))
     run_to(timeline, 5)
     timeline.go(3)
-    timeline.branch()
+    branch(timeline)
     out, err = capsys.readouterr()
     assert out.splitlines() == ["read", *(f"at {k}.0" for k in range(5))]
     assert err.split() == 5 * ["warned"]
@@ -468,11 +474,11 @@ def test_a_way_back_can_be_broken_off(memory, monkeypatch):
 
     with monkeypatch.context() as patch, pytest.raises(InputError, match="nothing was changed"):
         patch.setattr("mars2d.world.past.SLICE", 0.001)
-        timeline.branch(progress)
+        branch(timeline, progress)
     assert len(told) == 2
     assert 0 <= told[0] <= told[1] < 1
     assert (timeline.newest, timeline.branches) == (190, [])
-    timeline.branch()
+    branch(timeline)
     assert timeline.newest == 180
 
 
@@ -504,7 +510,7 @@ def test_laws_read_again_are_in_effect_from_the_present_row(written):
     assert (command[:20] == (0.2, 0.0)).all()
     assert (command[20:] == (0.1, 0.5)).all()
     timeline.go(25)
-    timeline.branch()
+    branch(timeline)
     assert timeline.remark == ""
     run_to(timeline, 30)
     assert np.array_equal(timeline.world.history.command[:, :, 0], command)
@@ -525,7 +531,7 @@ def test_in_the_past_they_make_a_branch(written):
     timeline.advance()
     assert timeline.world.history.command[-1].ravel().tolist() == [0.2, 0.0]  # of its own law
     timeline.go(5)
-    timeline.branch()
+    branch(timeline)
     assert timeline.remark == ""  # no wonder that the new law asks for something else
     timeline.advance()
     assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
@@ -566,7 +572,7 @@ def test_walls_that_were_read_again_stand_from_now_on_and_drawn_ones_stay(writte
     run_to(timeline, 15)
     timeline.go(7)
     assert timeline.scenario.obstacles[0][0] == (4.0, -1.0)
-    timeline.branch()
+    branch(timeline)
     assert timeline.world.scenario.obstacles[0][0] == (4.0, -1.0)
     assert len(timeline.world.scenario.obstacles) == 2
 
@@ -647,5 +653,5 @@ def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
     assert (timeline.world, timeline.branches, timeline.row) == (changed, [before], 80)
     run_to(timeline, 90)
     timeline.go(50)
-    assert timeline.branch() is not changed
+    assert branch(timeline) is not changed
     assert len(timeline.branches) == 2
