@@ -60,7 +60,7 @@ from mars2d.record.frame import Frame, between
 from mars2d.record.rows import COLUMNS
 from mars2d.sensors import RangeFinder
 from mars2d.window.run.window import Window
-from mars2d.window.screen.display import Preferences, be_quick
+from mars2d.window.screen.display import Preferences
 from mars2d.world.record import Record
 
 SIZE = (1280, 720)
@@ -311,7 +311,7 @@ def _screen(**environment: str) -> Iterator[pygame.Surface]:
     os.environ.update(environment)
     try:
         pygame.display.init()
-        be_quick()
+        os.environ["SDL_FRAMEBUFFER_ACCELERATION"] = "0"
         yield pygame.display.set_mode(SIZE)
     finally:
         pygame.display.quit()

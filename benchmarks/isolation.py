@@ -2,10 +2,9 @@
 
     python benchmarks/isolation.py [--json OUT.json] [--rounds N]
 
-Two worlds of the same match are stepped in turns, some control steps each, one with its laws in
-this process, one with each law in its own. So what other programs do befalls both, and medians say
-little of it. They must end with the same digest. `start` is from a match's description to two laws
-that are loaded.
+The same match is run in turns with its laws in this process, and each in its own; medians of all
+control steps say little of what other programs do meanwhile. Both must end with the same digest.
+`start` is from a match's description to the first control step, with two laws that are loaded.
 """
 
 from __future__ import annotations
@@ -14,14 +13,18 @@ import argparse
 import statistics
 import tempfile
 import time
+from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import outcome
 
-from mars2d import Robot, Scenario, World, load_law
+from mars2d import Robot, Scenario, load_law
+from mars2d.addons import Addon
+from mars2d.scenario.experiment import Experiment
 from mars2d.sensors import RangeFinder
-from mars2d.tournaments.isolation import Guard
+from mars2d.tournaments.isolation import run_isolated
+from mars2d.world.loop import simulate
 
 LAW = """
 def control(robot):
@@ -43,32 +46,46 @@ MATCHES = {
 }
 """What the laws see, their text, and their robots' sensors."""
 
-STEPS = 2000
-TURN = 50
-"""Control steps in all, and in a row."""
+STEPS = 1000
+"""Control steps of a match."""
+
+
+class Stopwatch(Addon):
+    """Notes when each control step of the last run has begun."""
+
+    times: ClassVar[list[float]] = []
+
+    def on_start(self, world: Any) -> None:  # noqa: ARG002
+        """Begin to note."""
+        self.times.clear()
+
+    def on_step(self, world: Any) -> None:  # noqa: ARG002
+        """Note the time."""
+        self.times.append(time.perf_counter())
 
 
 def compare(sees: str, law: str, sensors: tuple[Any, ...], rounds: int) -> dict[str, Any]:
     """Return microseconds of a control step, and seconds of a start."""
     robot = Robot(sees=sees, sensors=sensors)
     scenario = Scenario(
-        robots=[robot.at(-3, 0), robot.at(3, 0)], stop_time=STEPS * 0.1, on_exit="ignore"
+        robots=[robot.at(-3, 0), robot.at(3, 0)],
+        stop_time=STEPS * 0.1,
+        on_exit="ignore",
+        addons=[Stopwatch()],
     )
-    inside, isolated, starts = [], [], []
+    inside, isolated, starts = list[float](), list[float](), list[float]()
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "law.py"
         file.write_text(law, encoding="utf-8")
         for seed in range(rounds):
-            robots = [each.replace(controller=load_law(file)) for each in scenario.robots]
-            here = World(scenario.replace(robots=robots), seed=seed)
+            here = simulate(Experiment(scenario.with_laws([load_law(file)] * 2), seed=seed)).record
+            inside += _steps()
             start = time.perf_counter()
-            with Guard(scenario, {"a": (file, [0]), "b": (file, [1])}, seed) as guard:
-                starts.append(time.perf_counter() - start)
-                there = World(guard.scenario, seed=seed)
-                for _ in range(STEPS // TURN):
-                    inside += [_timed(here) for _ in range(TURN)]
-                    isolated += [_timed(there) for _ in range(TURN)]
-            assert here.record.digest == there.record.digest, "isolation has changed the match"
+            laws = {"a": (file, [0]), "b": (file, [1])}
+            there = run_isolated(Experiment(scenario, seed=seed), laws).record
+            starts.append(Stopwatch.times[0] - start)
+            isolated += _steps()
+            assert here.digest == there.digest, "isolation has changed the match"
     deciles = [round(1e6 * q, 1) for q in statistics.quantiles(isolated, n=10)]
     middle = statistics.median(inside)
     return {
@@ -81,10 +98,9 @@ def compare(sees: str, law: str, sensors: tuple[Any, ...], rounds: int) -> dict[
     }
 
 
-def _timed(world: World) -> float:
-    start = time.perf_counter()
-    world.step()
-    return time.perf_counter() - start
+def _steps() -> list[float]:
+    """Return the seconds of each control step of the last run."""
+    return [after - before for before, after in pairwise(Stopwatch.times)]
 
 
 def main() -> None:

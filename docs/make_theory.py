@@ -20,6 +20,7 @@ from mars2d.core.materials import GRAVITY
 from mars2d.record import episodes
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.prediction import SIGNS
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 
@@ -33,8 +34,9 @@ HEAD = """\
 This page compares textbook predictions with the simulator's measurements. The first table has
 single facts of the physics, and the second the checks of the examples. The page is written by
 `docs/make_theory.py`, which runs everything again. So do the tests, which fail if a number leaves
-its tolerance. Tolerances are absolute, in the unit given. If 0 is predicted, the measured value is
-a rounding error, which differs between processors.
+its tolerance. Tolerances are absolute, in the unit given. One of more than a tenth of the predicted
+number is marked as rough: a rule of thumb, or the scatter of a few samples. If 0 is predicted, the
+measured value is a rounding error, which differs between processors.
 """
 
 
@@ -424,9 +426,10 @@ def table(rows: Sequence[tuple[str, Prediction]], first: str) -> str:
     for name, p in rows:
         what = f"`{name}`: {p.name}" if name else p.name
         unit = f" {p.unit}" if p.unit else ""
-        mark = "ok" if p.ok else "**NOT OK**"
+        rough = p.bound == "equal" and p.predicted and p.tolerance > 0.1 * abs(p.predicted)
+        mark = f"ok{', rough' * bool(rough)}" if p.ok else f"**{p.verdict}**"
         lines.append(
-            f"| {what} | {p.predicted:.5g}{unit} | {measured(p)}{unit} "
+            f"| {what} | {SIGNS[p.bound]}{p.predicted:.5g}{unit} | {measured(p)}{unit} "
             f"| {p.tolerance:.2g} | {mark} |"
         )
     return "\n".join(lines) + "\n"

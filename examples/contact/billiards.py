@@ -46,14 +46,23 @@ def control(world):
 
 
 def checks(record):
-    balls, m = record.scenario.props, record.scenario.robots[0].mass
-    speed, a = balls[0].velocity[0], asin((balls[1].pose[1] - balls[0].pose[1]) / balls[0].diameter)
+    balls, robot = record.scenario.props, record.scenario.robots[0]
+    m, d, speed = balls[0].mass, balls[0].diameter, balls[0].velocity[0]
+    offset = balls[1].pose[1] - balls[0].pose[1]
+    alike = all((b.mass, b.friction, b.ground_friction) == (m, 0, 0) for b in balls)
+    if not alike or record.contacts["began"].sum() != 5:
+        yield Prediction.silent("speeds", "for smooth, equal balls that glide, and meet just once")
+        return
     vx, vy = np.diff(record.prop_pose[-2:, :2], axis=0)[0] / record.scenario.sampling_time
-    for k, e in enumerate(RESTITUTIONS):
-        yield Prediction(f"e = {e:g}: first", (1 - e) * speed / 2, vx[3 + 2 * k], 1e-6, "m/s")
-        yield Prediction(f"e = {e:g}: other", (1 + e) * speed / 2, vx[4 + 2 * k], 1e-6, "m/s")
-    yield Prediction("oblique: first", abs(speed * sin(a)), hypot(vx[0], vy[0]), 1e-3, "m/s")
-    yield Prediction("oblique: other", speed * cos(a), hypot(vx[1], vy[1]), 1e-3, "m/s")
+    for k in (3, 5, 7):
+        e = record.scenario.restitution_between(k + 1, k + 2)  # as bodies: after the robot
+        yield Prediction(f"e = {e:g}: first", (1 - e) * speed / 2, vx[k], 1e-6, "m/s")
+        yield Prediction(f"e = {e:g}: other", (1 + e) * speed / 2, vx[k + 1], 1e-6, "m/s")
+    a, e = asin(offset / d), record.scenario.restitution_between(1, 2)
+    (along, other), across = np.array([1 - e, 1 + e]) / 2 * speed * cos(a), speed * sin(a)
+    yield Prediction("oblique: first", hypot(along, across), hypot(vx[0], vy[0]), 1e-3, "m/s")
+    yield Prediction("oblique: other", other, hypot(vx[1], vy[1]), 1e-3, "m/s")
     yield Prediction("oblique: angle", degrees(a), degrees(atan2(vy[1], vx[1])), 0.1, "degrees")
-    yield Prediction("momentum", 4 * speed, vx.sum() - vx[2], 1e-9, "kg m/s")
-    yield Prediction("shot by the robot", 2 * DRIVE * m / (m + 1), vx[2], 0.004, "m/s")
+    yield Prediction("momentum", 4 * m * speed, m * (vx.sum() - vx[2]), 1e-9, "kg m/s")
+    shot = (1 + record.scenario.restitution_between(0, 3)) * DRIVE / (1 + m / robot.mass)
+    yield Prediction("shot by the robot", shot, vx[2], 0.004, "m/s")

@@ -8,7 +8,7 @@ are unsure of their way. Bodies overlap by at most the 1 mm that the solver is a
 goes through a wall: who is in the hall has come by the doorway. (0.01 s: g, with such overlaps.)
 """
 
-from math import atan2, inf, sqrt
+from math import atan2, sqrt
 
 import numpy as np
 from scipy.spatial.distance import pdist
@@ -51,9 +51,12 @@ def checks(record):
     (x, y), half = record.pose.swapaxes(0, 1)[:2], record.scenario.obstacles[0][0][1]  # of the door
     steps = np.argwhere((x[:-1] <= LENGTH) & (x[1:] > LENGTH))  # in which some robot comes out
     out = [np.interp(LENGTH, x[k : k + 2, i], record.time[k : k + 2]) for k, i in steps]
-    gap, shortest = sqrt(max(d**2 - (2 * half - d) ** 2, 0)), np.diff(sorted(out)).min(initial=inf)
-    yield Prediction("sooner than g / v after another", 0, max(gap / v - shortest, 0), 0.01, "s")
+    gap = sqrt(max(d**2 - (2 * half - d) ** 2, 0))
+    if len(out) > 1:
+        least = np.diff(sorted(out)).min()
+        yield Prediction("one after another", gap / v, least, 0.01, "s", bound="at least")
     overlap = max(0.0, *(d - pdist(pose[:2].T).min() for pose in record.pose))
-    yield Prediction("deepest overlap", 0, overlap, record.scenario.max_overlap, "m")
+    allowed = record.scenario.max_overlap
+    yield Prediction("deepest overlap", allowed, overlap, 1e-5, "m", bound="at most")
     by_door = sum(abs(y[k, i]) < half for k, i in steps)
     yield Prediction("robots in the hall", by_door, (x[-1] > LENGTH).sum(), 0)

@@ -41,11 +41,14 @@ def control(world):
 
 
 def checks(record):
+    if any(robot.drive.no_load_speed for robot in record.scenario.robots):
+        yield Prediction.silent("way and force", "with a no_load_speed the force falls with speed")
+        return
     time, dt = record.time[-1], record.scenario.sampling_time
     last = record.frame(-1).contacts
     robot, robots = record.scenario.robots[0], len(record.scenario.robots)
     for i, (team, load) in enumerate(zip(TEAMS, record.scenario.props, strict=True)):
-        force, friction = team * robot.drive.max_force, load.ground_friction * load.mass * GRAVITY
+        force, friction = team * robot.push, load.ground_friction * load.mass * GRAVITY
         a = max(force - friction, 0.0) / (team * robot.mass + load.mass)
         start = min(SPEED / a, time) if a else time  # for so long it gathers speed, if it does
         gain, path = min(a, SPEED), a * start * (time - start / 2)
@@ -54,5 +57,5 @@ def checks(record):
         speed = np.interp(1.0, record.time, np.gradient(x, dt))
         pressed = last[last["b"] == robots + i]["normal_impulse"].sum() / dt
         yield Prediction(f"{team} pushing: speed after 1 s", gain, speed, 0.02 * gain + 1e-6, "m/s")
-        yield Prediction(f"{team} pushing: path", path, x[-1] - x[0], 0.005 * path + 1e-6, "m")
+        yield Prediction(f"{team} pushing: path", path, x[-1] - x[0], 0.005 * path + 1e-4, "m")
         yield Prediction(f"{team} pushing: force", press, pressed, 0.01, "N")

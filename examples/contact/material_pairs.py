@@ -48,6 +48,9 @@ def checks(record):
     last, x = record.frame(-1).contacts, record.pose[len(record) // 2 :, 0]
     table = {pair.names: pair for pair in record.scenario.material_pairs}
     for i, robot in enumerate(record.scenario.robots):
+        if abs(record.pose[-1, 2, i] - robot.pose[2]) > 1e-3:
+            yield Prediction.silent(f"{ROBOTS[i]} on {WALLS[i]}", "the wall turns the robot")
+            continue
         a, pair = robot.pose[2], table.get(frozenset([ROBOTS[i], WALLS[i]]))
         mu = pair.friction if pair else robot.friction * record.scenario.addons[i].friction
         sticks = tan(a) >= 1 / (pair.static_friction if pair and not APART[i] else mu)

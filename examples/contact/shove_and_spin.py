@@ -45,16 +45,23 @@ def blow(ball, body, e, b=0.0):
 
 
 def checks(record):
-    robot, (box, _, disc, _, ball, other, _) = record.scenario.robots[0], record.scenario.props
+    robot, (box, _, disc, _, ball, other, last) = record.scenario.robots[0], record.scenario.props
     speed, _, spin = np.diff(record.prop_pose[-2:], axis=0)[0] / record.scenario.sampling_time
-    b, e, inertia = -record.scenario.props[6].pose[1], box.restitution, box.inertia.moment
-    j = [blow(ball, box, e, lever) for lever in (0, b)]
-    for k, name in enumerate(["box hit in the middle", "box hit beside it"]):
-        yield Prediction(f"{name}: speed", j[k] / box.mass, speed[k], 1e-6, "m/s")
-        yield Prediction(f"{name}: spin", j[k] * k * b / inertia, spin[k], 1e-6, "rad/s")
-    turn = j[1] * b * abs(j[1] * b) / (2 * inertia * robot.drive.max_torque)
-    yield Prediction("braked robot: turn", turn, record.pose[-1, 2, 0], 0.02 * abs(turn), "rad")
+    b, e = -last.pose[1], record.scenario.restitution_between
+    blows = [int((record.contacts["b"] == k).sum()) for k in (4, 5, 6, 7)]
+    if any(prop.ground_friction for prop in (box, disc)) or blows != [1] * 4 or abs(b) >= 0.2:
+        why = "each ball has to hit once, on a face of a body that the floor does not hold"
+        yield Prediction.silent("speeds and spins", why)
+        return
+    for k, lever in enumerate([0, b]):
+        name, j = ("box hit in the middle", "box hit beside it")[k], blow(ball, box, e(1, 5), lever)
+        yield Prediction(f"{name}: speed", j / box.mass, speed[k], 1e-6, "m/s")
+        yield Prediction(f"{name}: spin", j * lever / box.inertia.moment, spin[k], 1e-6, "rad/s")
+    moment = blow(last, robot, e(0, 7), b) * b
+    turn = moment * abs(moment) / (2 * robot.inertia.moment * robot.drive.max_torque)
+    if record.pose[-1, 2, 0] == record.pose[-2, 2, 0]:  # it has stopped
+        yield Prediction("braked robot: turn", turn, record.pose[-1, 2, 0], 0.02 * abs(turn), "rad")
     m, d, a = disc.inertia.mass, disc.diameter, asin((disc.pose[1] - other.pose[1]) / disc.diameter)
-    most = disc.friction**2 * blow(other, disc, disc.restitution**2) * cos(a)
+    most = record.scenario.friction_between(3, 6) * blow(other, disc, e(3, 6)) * cos(a)
     graze = 4 * min(most, m * other.velocity[0] * sin(a) / 6) / (m * d)
     yield Prediction("grazed disc: spin", graze, spin[2], 2e-3 * graze + 1e-9, "rad/s")

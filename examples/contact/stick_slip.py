@@ -54,7 +54,10 @@ def checks(record):
             continue
         force = box.ground_friction * weight + k * hypot(d, v / w)
         period, top = 2 * d / v + 2 / w * (pi - atan(d * w / v)), v + hypot(v, w * d)
-        mean = np.diff(starts).mean() if len(starts) > 1 else np.nan
+        if len(starts) < 2:
+            yield Prediction.silent(f"{box.name}: period", "it has jerked less than twice")
+            continue
+        mean = np.diff(starts).mean()
         yield Prediction(f"{box.name}: period", period, mean, 0.02 * period, "s")
         yield Prediction(f"{box.name}: top speed", top, speed.max(), 0.02 * top, "m/s")
         yield Prediction(f"{box.name}: largest force", force, most, 0.02 * force, "N")

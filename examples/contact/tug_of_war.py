@@ -49,10 +49,13 @@ def scenario(red: float = 3.0, blue: float = 5.9, tow: float = 5.0):
 
 def checks(record):
     (back, front, rival, *tugs), end = record.scenario.robots, record.time[-1]
-    force = rival.drive.max_force - back.drive.max_force - front.drive.max_force
+    if any(robot.drive.no_load_speed for robot in record.scenario.robots):
+        yield Prediction.silent("end and ways", "with a no_load_speed the force falls with speed")
+        return
+    force, dt = rival.push - back.push - front.push, record.scenario.sampling_time
     soon = sqrt(2 * LINE * (back.mass + front.mass + rival.mass) / abs(force)) if force else inf
-    yield Prediction("end of the game", min(soon, record.scenario.stop_time), end, 0.04, "s")
+    yield Prediction("end of the game", min(soon, record.scenario.stop_time), end, dt + 0.02, "s")
     for tug, box, path in zip(tugs, record.scenario.props, record.prop_pose[:, 0].T, strict=True):
-        force = max(tug.drive.max_force - box.ground_friction * box.mass * GRAVITY, 0)
+        force = max(tug.push - box.ground_friction * box.mass * GRAVITY, 0)
         way = force / (tug.mass + box.mass) * end**2 / 2
         yield Prediction(f"way of {box.name}", way, path[-1] - path[0], 0.01, "m")

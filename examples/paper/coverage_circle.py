@@ -24,7 +24,7 @@ STARTS += [(-1.2, -1.1), (-0.9, 0.0)]
 
 
 def cover(k, robot):
-    x, y = robot.world.addons.voronoi.centroids[:, robot.index] - robot.position
+    x, y = robot.world.addons.voronoi.now.centroids[:, robot.index] - robot.position
     way = complex(x, y) * rect(1, -robot.pose[2])  # ahead + i aside
     return k * way.real, 2 * k * phase(way if way.real >= 0 else -way)
 

@@ -23,7 +23,7 @@ SIDE = 5.0  # m
 
 
 def cover(k, robot):
-    cells = robot.world.addons.voronoi
+    cells = robot.world.addons.voronoi.now
     x, y = cells.centroids[:, robot.index] - robot.position  # the way to go
     if isinstance(robot.drive, Holonomic):
         return k * x, k * y

@@ -26,7 +26,7 @@ def control(world, k=0):
         hunter, evader = world.position.T
         if dist(evader, POINTS[k]) < 1e-9:
             k = max((k + 1) % 4, (k - 1) % 4, key=lambda j: dist(POINTS[j], hunter))
-        middle = np.mean(world.addons.voronoi.edge(0, 1), axis=0)
+        middle = np.mean(world.addons.voronoi.now.edge(0, 1), axis=0)
         yield np.transpose([middle - hunter, POINTS[k] - evader]) / world.sampling_time
 
 

@@ -9,27 +9,11 @@ from itertools import accumulate, pairwise
 from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.arithmetic import norm
-from mars2d.core.description import accepts, entry, flag, number, wrong
+from mars2d.core.description import entry, flag, number
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene, color, faded
-
-PATH = "at least two points, such as [(x, y), ...] in metres, or None"
-
-
-@accepts(checks.OUTLINE)
-def _path(name: str, value: object) -> Outline | None:
-    """Check a path: unlike an obstacle it may cross itself, and end where it starts."""
-    if value is None:
-        return None
-    if not isinstance(value, (tuple, list)) or len(value) < 2:
-        raise wrong(name, value, PATH)
-    points = [checks.point(f"{name}[{i}]", item) for i, item in enumerate(value)]
-    for i, (a, b) in enumerate(pairwise(points)):
-        if a == b:
-            raise InputError(f"{name}: points {i} and {i + 1} are the same, {a}")
-    return tuple(points)
 
 
 class Beacon(Addon):
@@ -51,7 +35,9 @@ class Beacon(Addon):
         kw_only=False,
         doc="its position",
     )
-    path: Outline | None = entry(default=None, check=_path, unit="m", doc="the corners of its path")
+    path: Outline | None = entry(
+        default=None, check=checks.optional(checks.line), unit="m", doc="the corners of its path"
+    )
     speed: float | None = number(
         default=None, above=0, high=1e3, unit="m/s", optional=True, doc="its speed along the path"
     )

@@ -2,20 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core.checks import instance, optional
 from mars2d.core.description import Description, entry, flag, number
 from mars2d.core.errors import InputError
-
-
-def _probability(default: Any, doc: str, *, above: float | None = None) -> Any:
-    return number(
-        default=default, low=0.0 if above is None else None, above=above, high=1.0, doc=doc
-    )
 
 
 class Burst(Description):
@@ -31,12 +23,18 @@ class Burst(Description):
     (0.25, 3.333)
     """
 
-    to_bad: float = _probability(0.05, "probability per control step that a good link turns bad",
-                                 above=0.0)  # fmt: skip
-    to_good: float = _probability(0.25, "probability per control step that a bad link turns good",
-                                  above=0.0)  # fmt: skip
-    loss_good: float = _probability(0.0, "probability that a good link loses a message")
-    loss_bad: float = _probability(1.0, "probability that a bad link loses a message")
+    to_bad: float = number(
+        default=0.05, above=0, high=1, doc="probability per control step that a good link turns bad"
+    )
+    to_good: float = number(
+        default=0.25, above=0, high=1, doc="probability per control step that a bad link turns good"
+    )
+    loss_good: float = number(
+        default=0.0, low=0, high=1, doc="probability that a good link loses a message"
+    )
+    loss_bad: float = number(
+        default=1.0, low=0, high=1, doc="probability that a bad link loses a message"
+    )
 
     @property
     def share_bad(self) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 from abc import abstractmethod
-from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -13,16 +12,13 @@ from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
-from mars2d.core.interfaces import FrameLike, ScenarioLike
-from mars2d.core.scene import Scene
+from mars2d.core.interfaces import ScenarioLike
 
 Role = tuple[str, tuple[str | int, ...]]
 Teams = tuple[tuple[int, ...], tuple[int, ...]]
 """The indices of the robots of the first role, in a pursuit the hunters, and of the second."""
 
 ROLES = "two roles, hunters first if any, such as {'pursuer': ['red'], 'evader': ['blue']}"
-MARK = "#222222"
-"""The colour of the mark on a robot that is out of the game."""
 
 
 class Capture(NamedTuple):
@@ -54,25 +50,22 @@ class Outcome(NamedTuple):
 @accepts({"type": "array", "minItems": 2, "maxItems": 2})
 def _roles(name: str, value: object) -> tuple[Role, ...]:
     """Check two roles with their robots, a dict or, as in a file, pairs; keep them as pairs."""
-    pairs = list(value.items()) if isinstance(value, Mapping) else value
-    if not isinstance(pairs, (list, tuple)) or len(pairs) != 2:
+    try:
+        roles = dict(value)  # type: ignore[call-overload]
+    except (TypeError, ValueError):
+        raise wrong(name, value, ROLES) from None
+    if len(roles) != 2 or not all(isinstance(role, str) for role in roles):
         raise wrong(name, value, ROLES)
-    for pair in pairs:
-        if not isinstance(pair, (list, tuple)) or len(pair) != 2 or not isinstance(pair[0], str):
-            raise wrong(name, value, ROLES)
-    if pairs[0][0] == pairs[1][0]:
-        raise InputError(f"{name}: two roles are called {pairs[0][0]!r}")
-    return tuple((role, robots_of(f"{name}[{role!r}]", robots)) for role, robots in pairs)
+    return tuple((role, robots_of(f"{name}[{role!r}]", team)) for role, team in roles.items())
 
 
+@accepts({"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 1})
 def robots_of(name: str, value: object) -> tuple[str | int, ...]:
     """Check a list of robots, by their names or indices."""
     expected = "a list of robots, by their names or indices, such as ['red', 'blue']"
-    if not isinstance(value, (list, tuple, range)):
-        raise wrong(name, value, expected)
-    if not value:
-        raise wrong(name, value, f"{expected}; nobody has this role")
     items = checks.items_of(name, value, expected)
+    if not items:
+        raise wrong(name, value, f"{expected}; nobody has this role")
     for item in items:
         if isinstance(item, bool) or not isinstance(item, (str, int, np.integer)):
             raise wrong(name, value, expected)
@@ -145,19 +138,3 @@ def listed(scenario: ScenarioLike, team: tuple[int, ...]) -> str:
     if len(names) > 3:
         return f"all {len(names)}"
     return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
-
-
-def mark(
-    scene: Scene, frame: FrameLike, robot: int, label: str, above: bool, *, cross: bool = True
-) -> None:
-    """Ring a robot, by its index, that is out of the game; write a label above or below it.
-
-    cross: whether it has lost, and is crossed out.
-    """
-    arm = 1.25 * frame.scenario.robots[robot].radius
-    x, y = frame.pose[:2, robot].tolist()
-    scene.circle((x, y), arm, stroke=MARK, width=1.2)
-    if cross:
-        scene.cross((x, y), arm, stroke=MARK, width=1.2)
-    place, lines = (y + arm, f"{label}\n") if above else (y - arm, f"\n{label}")
-    scene.text((x, place), lines, color=MARK, size=10.0, halo="#ffffff")

@@ -3,25 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.base import Addon
+from mars2d.addons.pictured import Pictured
 from mars2d.core import checks
 from mars2d.core.description import entry
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.picture import (
-    Bounds,
-    Picture,
-    image_bounds,
-    image_file,
-    picture_name,
-    read_picture,
-)
+from mars2d.core.picture import Bounds
 from mars2d.core.plane import Outline, bounds_of, rectangle
 from mars2d.core.scene import Scene, color, rgb
 from mars2d.core.usercode import called
@@ -36,7 +29,7 @@ OPACITY = 0.5
 """The opacity of the densest place in pictures."""
 
 
-class Density(Addon, Weight):
+class Density(Pictured, Weight):
     """The weight of each place: a function phi(x, y) >= 0, or an image, dark where it is dense.
 
     >>> hill = Density(lambda x, y: 1 / (1 + x * x + y * y))
@@ -55,11 +48,6 @@ class Density(Addon, Weight):
         kw_only=False,
         doc="phi(x, y) >= 0 of arrays [m]",
     )
-    image: str | None = entry(default=None, check=image_file, doc="a PNG file, dark where dense")
-    bounds: Bounds | None = entry(
-        default=None, check=image_bounds, unit="m",
-        doc="the area of the image: (xmin, xmax, ymin, ymax)",
-    )  # fmt: skip
     color: str = entry(
         default="#3f4a5a", check=color, doc="its colour where it is dense, for pictures only"
     )
@@ -70,11 +58,6 @@ class Density(Addon, Weight):
             raise InputError(
                 "Density: expected a function, such as Density(lambda x, y: 1 + x * x), or an "
                 "image, such as Density(image='city.png', bounds=(-5, 5, -5, 5))"
-            )
-        if (self.image is None) != (self.bounds is None):
-            problem = "is missing" if self.bounds is None else "is given without an image"
-            raise InputError(
-                f"Density.bounds {problem}: where the image lies, (xmin, xmax, ymin, ymax) [m]"
             )
 
     def of(self, points: Any) -> Float:
@@ -96,7 +79,7 @@ class Density(Addon, Weight):
     def _of_image(self, x: Float, y: Float) -> Float:
         assert self.bounds is not None
         xmin, xmax, ymin, ymax = self.bounds
-        dark = _darkness(self.picture)
+        dark = self._dark
         rows, columns = dark.shape
         across = np.clip((x - xmin) / (xmax - xmin) * columns - 0.5, 0, columns - 1)
         down = np.clip((ymax - y) / (ymax - ymin) * rows - 0.5, 0, rows - 1)
@@ -109,10 +92,10 @@ class Density(Addon, Weight):
         return np.asarray(np.where(inside, upper * (1 - v) + lower * v, 0.0))
 
     @cached_property
-    def picture(self) -> Picture:
-        """The picture. Raises InputError where its file can't be read."""
-        assert self.image is not None
-        return read_picture("Density.image", self.image)
+    def _dark(self) -> Float:
+        """The darkness (rows, columns) of the image by Rec. 601 luma: 1 is black, 0 is white."""
+        luma = self.picture.pixels @ np.array([299, 587, 114])
+        return np.asarray((255_000 - luma) / 255_000)
 
     def on_start(self, world: WorldLike) -> None:
         """Evaluate it all over the workspace, so that errors are raised at once."""
@@ -139,23 +122,14 @@ class Density(Addon, Weight):
 
         Where the image can't be read any more, for example for an old record, its name is written.
         """
-        xmin, xmax, ymin, ymax = bounds_of(area)
         try:
             bounds, inside, phi = self._raster(area)
         except InputError:
             if self.image is None:
                 raise
-            name = picture_name(self.image)
-            scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), f"{name} is not there")
+            self.paint_absent(scene, bounds_of(area))
             return
         pixels = np.zeros((*inside.shape, 4), dtype=np.uint8)
         pixels[..., :3] = np.round(255 * np.array(rgb(self.color)))
         pixels[inside, 3] = np.round(255 * OPACITY * phi / max(phi.max(), 1e-300))
         scene.image(pixels, bounds)
-
-
-@lru_cache(maxsize=4)
-def _darkness(picture: Picture) -> Float:
-    """Return the darkness (rows, columns) of a picture by Rec. 601 luma: 1 is black, 0 is white."""
-    luma = picture.pixels @ np.array([299, 587, 114])
-    return np.asarray((255_000 - luma) / 255_000)

@@ -5,19 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from mars2d.addons.base import Addon
-from mars2d.core.checks import NAMES, names
-from mars2d.core.description import accepts, entry, wrong
+from mars2d.core.checks import names
+from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, faded
 
 FAR = 50.0
 """The range beyond which a field is drawn only if its sensor is named, metres."""
-
-
-@accepts(NAMES)
-def _names(name: str, value: object) -> tuple[str, ...] | None:
-    return names(name, value, "a list of sensors' names, such as ['range_bearing'], or None")
 
 
 def _field(sensor: Any) -> tuple[float, float] | None:
@@ -38,7 +33,9 @@ class FieldOfView(Addon):
     """
 
     sensors: tuple[str, ...] | None = entry(
-        default=None, check=_names, doc="the sensors' names; None: all with a range of up to 50 m"
+        default=None,
+        check=names("a list of sensors' names, such as ['range_bearing'], or None"),
+        doc="the sensors' names; None: all with a range of up to 50 m",
     )
 
     def on_start(self, world: WorldLike) -> None:

@@ -8,20 +8,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.base import Addon, Color
+from mars2d.addons.base import Color
+from mars2d.addons.pictured import Pictured
 from mars2d.core import checks
 from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.picture import (
-    Bounds,
-    Picture,
-    Pixels,
-    image_bounds,
-    image_file,
-    picture_name,
-    read_picture,
-)
+from mars2d.core.picture import Bounds
 from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectangle
 from mars2d.core.scene import Scene, rgb
 from mars2d.core.scene import color as checked_color
@@ -50,7 +43,7 @@ def _patches(name: str, value: object) -> tuple[tuple[Outline, str], ...]:
     return tuple(patches)
 
 
-class Floor(Addon):
+class Floor(Pictured):
     """The colours of the floor, for the sensor Ground: one everywhere, an image on it, patches.
 
     >>> Floor(patches=[([(0, 0), (1, 0), (1, 1)], "black")]).ground((0.9, 0.5))
@@ -69,41 +62,15 @@ class Floor(Addon):
     patches: Sequence[tuple[Outline, str]] = entry(
         default=(), check=_patches, unit="m", doc="polygons and their colours: (outline, colour)"
     )
-    image: str | None = entry(default=None, check=image_file, doc="a file with the floor's picture")
-    bounds: Bounds | None = entry(
-        default=None,
-        check=image_bounds,
-        unit="m",
-        doc="the area of the image: (xmin, xmax, ymin, ymax)",
-    )
     color: str | None = entry(
         default=None,
         check=checks.optional(_opaque),
         doc="the colour of the rest; None: transparent",
     )
 
-    def _validate(self) -> None:
-        super()._validate()
-        if self.image is not None and self.bounds is None:
-            raise InputError(
-                "Floor.bounds is missing: where the image lies, (xmin, xmax, ymin, ymax) in metres"
-            )
-        if self.image is None and self.bounds is not None:
-            raise InputError(f"Floor.bounds = {self.bounds}: given without an image")
-
     @property
-    def pixels(self) -> Pixels:
-        """The image's pixels (rows, columns, 3), the upper row first; red, green, blue to 255.
-
-        Raises InputError if the file is not there, is no such image, or is too large.
-        """
-        return self.picture.pixels
-
-    @cached_property
-    def picture(self) -> Picture:
-        """The picture. Raises InputError where its file can't be read."""
-        assert self.image is not None
-        return read_picture("Floor.image", self.image, self.color)
+    def _beneath(self) -> str | None:
+        return self.color
 
     @cached_property
     def _colored(self) -> tuple[tuple[Bounds, NDArray[np.float64], Color], ...]:
@@ -126,18 +93,18 @@ class Floor(Addon):
         if self.bounds is not None:
             xmin, xmax, ymin, ymax = self.bounds
             if xmin <= x <= xmax and ymin <= y <= ymax:
-                rows, columns, _ = self.pixels.shape
+                pixels = self.picture.pixels
+                rows, columns, _ = pixels.shape
                 row = min(int((ymax - y) / (ymax - ymin) * rows), rows - 1)
                 column = min(int((x - xmin) / (xmax - xmin) * columns), columns - 1)
-                red, green, blue = (self.pixels[row, column] / 255).tolist()
+                red, green, blue = (pixels[row, column] / 255).tolist()
                 return red, green, blue
         return None if self.color is None else rgb(self.color)
 
     def on_start(self, world: WorldLike) -> None:  # noqa: ARG002
-        """Read the image, so that its errors are raised at once, and fill the caches."""
-        self._colored  # noqa: B018
+        """Read the image, so that its errors are raised at once."""
         if self.image is not None:
-            self.pixels  # noqa: B018
+            self.picture  # noqa: B018
 
     def paint(self, scene: Scene, area: Outline) -> None:
         """Paint the floor of an area.
@@ -148,11 +115,9 @@ class Floor(Addon):
             scene.polygon(area, fill=self.color)
         if self.bounds is not None:
             try:
-                scene.image(self.pixels, self.bounds)
+                scene.image(self.picture.pixels, self.bounds)
             except InputError:
-                xmin, xmax, ymin, ymax = self.bounds
                 scene.polygon(rectangle(*self.bounds), fill="#e6e9ed")
-                name = picture_name(str(self.image))
-                scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), f"{name} is not there")
+                self.paint_absent(scene, self.bounds)
         for outline, color in self.patches:
             scene.polygon(outline, fill=color)

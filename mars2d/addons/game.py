@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, NamedTuple
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.contest import Capture, Contest, Outcome, Teams, listed, mark, robots_of
+from mars2d.addons.contest import Capture, Outcome, Teams, listed, robots_of
+from mars2d.addons.elimination import Elimination, Exit, Float, Span, firsts, mark
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
 from mars2d.core.description import accepts, entry, integer, real, wrong
@@ -16,7 +19,9 @@ from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, edges_of, outside_polygon
 from mars2d.core.scene import Scene, faded
 
-Float = NDArray[np.float64]
+if TYPE_CHECKING:
+    import shapely
+
 CONTACT, SIGHT = "contact", "sight"
 GRASS = "#dcebdc"
 """The colour of the floor of a goal."""
@@ -35,24 +40,7 @@ def _capture(name: str, value: object) -> str | float:
     return distance
 
 
-@accepts(checks.OUTLINE | {"minItems": 3})
-def _goal(name: str, value: object) -> Outline | None:
-    return None if value is None else checks.outline(name, value, least=3)
-
-
-@accepts({"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 1})
-def _hunted(name: str, value: object) -> tuple[str | int, ...] | None:
-    return None if value is None else robots_of(name, value)
-
-
-class _Events(NamedTuple):
-    """What has happened: captures in order, and when [s] evaders reached the goal, by index."""
-
-    captures: tuple[Capture, ...]
-    safe: dict[int, float]
-
-
-class Game(Contest):
+class Game(Elimination):
     """A game of pursuit: robots of the first role hunt those of the second.
 
     >>> game = Game({"pursuer": ["red"], "evader": ["blue"]}, capture=0.4)
@@ -77,11 +65,11 @@ class Game(Contest):
         doc="'contact', 'sight', or the distance of a hunter's pose from an evader's at a capture",
     )  # fmt: skip
     goal: Outline | None = entry(
-        default=None, check=_goal, unit="m",
+        default=None, check=checks.optional(checks.outline, 3), unit="m",
         doc="the polygon that the evaders must reach; None: they must stay free",
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
-        default=None, check=_hunted,
+        default=None, check=checks.optional(robots_of),
         doc="the robots to catch, if not those of the second role, which then help them",
     )  # fmt: skip
     wanted: int | None = integer(
@@ -89,100 +77,7 @@ class Game(Contest):
         doc="the number of captures that the hunters need; None: all of the hunted",
     )  # fmt: skip
 
-    # -- how it stands, in a world -----------------------------------------------------------------
-
-    def on_start(self, world: WorldLike) -> None:
-        """Find the robots; raise InputError if one is not there, or has two roles."""
-        self._teams = self.players(world.scenario)
-        self._edges = _edges(world.scenario) if self.capture == SIGHT else None
-        self._events = _Events((), {})
-        self._time_is_over = False
-
-    def on_step(self, world: WorldLike) -> None:
-        """Note who is caught or safe; end the experiment when it is won, or when time is over."""
-        before = self._events
-        now = self._found(
-            (self._teams[0], self.free), np.array([world.time]), world.pose[None], world.contacts,
-            self._edges,
-        )  # fmt: skip
-        self._events = _Events(before.captures + now.captures, before.safe | now.safe)
-        for robot in (*(capture.evader for capture in now.captures), *now.safe):
-            world.hold(robot)
-        self._time_is_over = world.iteration >= world.scenario.last_iteration
-        if self.winner is not None:
-            world.stop(self._message(world))
-
-    @property
-    def captures(self) -> tuple[Capture, ...]:
-        """The captures so far, in order."""
-        return self._events.captures
-
-    @property
-    def caught(self) -> tuple[int, ...]:
-        """The indices of the caught robots, in order."""
-        return tuple(capture.evader for capture in self.captures)
-
-    @property
-    def capture_times(self) -> tuple[float, ...]:
-        """The times of the captures, seconds."""
-        return tuple(capture.time for capture in self.captures)
-
-    @property
-    def safe(self) -> tuple[int, ...]:
-        """The indices of the evaders that have reached the goal, in order."""
-        return tuple(self._events.safe)
-
-    @property
-    def free(self) -> tuple[int, ...]:
-        """The indices of the evaders that are neither caught nor safe in the goal."""
-        out = {*self.caught, *self._events.safe}
-        return tuple(evader for evader in self._teams[1] if evader not in out)
-
-    @property
-    def results(self) -> dict[int, float]:
-        """The results of robots that are out of the game: -1 if caught, 1 if safe."""
-        return dict.fromkeys(self.caught, -1.0) | dict.fromkeys(self.safe, 1.0)
-
-    @property
-    def score(self) -> dict[str, int]:
-        """The number of captures, and the number of evaders that are not caught, by role."""
-        return self._outcome(self._teams, self._events, self._time_is_over).score
-
-    @property
-    def winner(self) -> str | None:
-        """The role that has won, or None."""
-        return self._outcome(self._teams, self._events, self._time_is_over).winner
-
-    def _message(self, world: WorldLike) -> str:
-        """Return why the game is over, in words."""
-        names = [str(robot.name) for robot in world.scenario.robots]
-        evaders, wins = len(self._teams[1]), f": {self.winner} wins"
-        if len(self.captures) >= self._needed(self._teams):
-            time, hunter, evader = self.captures[-1]
-            count = len(self.captures)
-            which = "last" if count == evaders else ordinal(count)
-            whom = names[evader] + (f", the {which} of {evaders}," if evaders > 1 else "")
-            verb = "sees" if self.capture == SIGHT else "catches"
-            return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{wins}"
-        if self.goal is not None and self.winner == self.roles[1][0]:
-            count = len(self.safe)
-            who = f"{names[self.safe[0]]} has" if evaders == 1 else f"{count} of {evaders} have"
-            return f"{who} reached the goal after {world.time:g} s{wins}"
-        if self.goal is not None:
-            return f"time is over after {world.time:g} s{wins}"
-        count, done = len(self.free), "seen" if self.capture == SIGHT else "caught"
-        who = f"{count} of {evaders} were" if evaders > 1 else f"{names[self.free[0]]} was"
-        return f"{who} not {done} in {world.time:g} s{wins}"
-
-    # -- how it stands, by a record ----------------------------------------------------------------
-
-    def outcome(self, record: Any) -> Outcome:
-        """Return captures, score and winner of a record, loaded or just made."""
-        teams = self.players(record.scenario)
-        contacts = record.contacts[record.contact_rows < len(record)]  # before its last row
-        edges = _edges(record.scenario) if self.capture == SIGHT else None
-        events = self._found(teams, record.time, record.pose, contacts, edges)
-        return self._outcome(teams, events, len(record) > record.scenario.last_iteration)
+    # -- how it stands -----------------------------------------------------------------------------
 
     def players(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the hunters in a scenario, and of those that they hunt.
@@ -204,63 +99,89 @@ class Game(Contest):
             )  # fmt: skip
         return hunters, evaders
 
-    def _needed(self, teams: Teams) -> int:
-        """Return how many captures the hunters need."""
-        return len(teams[1]) if self.wanted is None else self.wanted
+    def exits(self, teams: Teams, span: Span) -> list[Exit]:
+        """Return the evaders that are caught, in order, then those that reach the goal before."""
+        if self.capture == CONTACT:
+            captures = _touches(teams, span)
+        elif self.capture == SIGHT:
+            captures = _approaches(teams, span, np.inf, _sights(teams, span))
+        else:
+            captures = _approaches(teams, span, float(self.capture), np.True_)
+        safe = []
+        if self.goal is not None:
+            x, y, _ = span.pose.swapaxes(0, 1)
+            inside = ~outside_polygon(x.ravel(), y.ravel(), np.array(self.goal))
+            safe = firsts(span.time, inside.reshape(x.shape), teams[1])
+        before = {robot: when for when, robot in safe}
+        caught: dict[int, Exit] = {}
+        for capture in captures:
+            if capture.time <= before.get(capture.robot, np.inf):
+                caught.setdefault(capture.robot, capture)
+        arrived = [Exit(when, robot, 1.0) for when, robot in safe if robot not in caught]
+        return [*caught.values(), *arrived]
 
-    def _outcome(self, teams: Teams, events: _Events, time_is_over: bool) -> Outcome:
+    def judged(self, teams: Teams, exits: Sequence[Exit], time_is_over: bool) -> Outcome:
+        """Return the captures, how many are caught and how many are not, and who has won."""
         (hunting, _), (evading, _) = self.roles
-        caught, needed = len(events.captures), self._needed(teams)
-        left = len(teams[1]) - caught  # those that are not caught
-        safe = left if time_is_over and self.goal is None else len(events.safe)
+        captures = tuple(Capture(e.time, e.hunter, e.robot) for e in exits if e.hunter is not None)
+        needed, left = self.wanted or len(teams[1]), len(teams[1]) - len(captures)
+        safe = left if time_is_over and self.goal is None else len(exits) - len(captures)
         winner = None
-        if caught >= needed:
+        if len(captures) >= needed:
             winner = hunting
         elif safe > len(teams[1]) - needed:
             winner = evading
         elif time_is_over:
             winner = hunting
-        return Outcome(events.captures, {hunting: caught, evading: left}, winner)
+        return Outcome(captures, {hunting: len(captures), evading: left}, winner)
 
-    def _found(
-        self,
-        teams: Teams,
-        time: Float,
-        pose: Float,
-        contacts: NDArray[np.void],
-        edges: Float | None,
-    ) -> _Events:
-        """Return the first capture of each evader, in order, and who was at the goal before one.
+    @property
+    def captures(self) -> tuple[Capture, ...]:
+        """The captures so far, in order."""
+        return self.judged(self._teams, self._exits, self._time_is_over).captures
 
-        time: (T,). pose: (T, 3, n). contacts: all in that time, in order. edges: (k, 4), those of
-        the obstacles, that hide an evader from a hunter; None if captures don't depend on them.
-        """
-        hunters, evaders = teams
-        if self.capture == CONTACT:
-            meetings = _touches(contacts, hunters, evaders)
-        else:
-            near = _sights(pose, hunters, evaders, edges) if edges is not None else None
-            reach = np.inf if near is not None else float(self.capture)
-            meetings = _approaches(time, pose, hunters, evaders, reach, near)
-        first: dict[int, Capture] = {}
-        for meeting in meetings:
-            first.setdefault(meeting.evader, meeting)
-        safe = self._arrivals(time, pose, evaders)
-        captures = [c for c in first.values() if c.time <= safe.get(c.evader, np.inf)]
-        caught = {capture.evader for capture in captures}
-        return _Events(tuple(captures), {e: when for e, when in safe.items() if e not in caught})
+    @property
+    def caught(self) -> tuple[int, ...]:
+        """The indices of the caught robots, in order."""
+        return tuple(capture.evader for capture in self.captures)
 
-    def _arrivals(self, time: Float, pose: Float, evaders: tuple[int, ...]) -> dict[int, float]:
-        """Return when [s] evaders were first in the goal, by index, in order."""
-        if self.goal is None or not len(time):
-            return {}
-        area = np.array(self.goal)
-        first = {}
-        for evader in evaders:
-            inside = ~outside_polygon(pose[:, 0, evader], pose[:, 1, evader], area)
-            if inside.any():
-                first[evader] = float(time[inside.argmax()])
-        return dict(sorted(first.items(), key=lambda robot_time: robot_time[1]))
+    @property
+    def capture_times(self) -> tuple[float, ...]:
+        """The times of the captures, seconds."""
+        return tuple(capture.time for capture in self.captures)
+
+    @property
+    def safe(self) -> tuple[int, ...]:
+        """The indices of the evaders that have reached the goal, in order."""
+        return tuple(robot for robot, result in self.results.items() if result > 0)
+
+    @property
+    def free(self) -> tuple[int, ...]:
+        """The indices of the evaders that are neither caught nor safe in the goal."""
+        return tuple(robot for robot in self._teams[1] if robot not in self.results)
+
+    def ending(self, world: WorldLike) -> str:
+        """Return why the game is over now, in words; "" while it goes on."""
+        if self.winner is None:
+            return ""
+        names = [str(robot.name) for robot in world.scenario.robots]
+        evaders, wins = len(self._teams[1]), f": {self.winner} wins"
+        if len(self.captures) >= (self.wanted or evaders):
+            time, hunter, evader = self.captures[-1]
+            count = len(self.captures)
+            which = "last" if count == evaders else ordinal(count)
+            whom = names[evader] + (f", the {which} of {evaders}," if evaders > 1 else "")
+            verb = "sees" if self.capture == SIGHT else "catches"
+            return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{wins}"
+        if self.goal is not None and self.winner == self.roles[1][0]:
+            count = len(self.safe)
+            who = f"{names[self.safe[0]]} has" if evaders == 1 else f"{count} of {evaders} have"
+            return f"{who} reached the goal after {world.time:g} s{wins}"
+        if self.goal is not None:
+            return f"time is over after {world.time:g} s{wins}"
+        count, done = len(self.free), "seen" if self.capture == SIGHT else "caught"
+        who = f"{count} of {evaders} were" if evaders > 1 else f"{names[self.free[0]]} was"
+        return f"{who} not {done} in {world.time:g} s{wins}"
 
     # -- how it is explained -----------------------------------------------------------------------
 
@@ -268,8 +189,8 @@ class Game(Contest):
 
     def aim(self, role: str, scenario: ScenarioLike) -> str:
         """Return how hunters or evaders win, in a few words."""
-        _, evaders = teams = self.players(scenario)
-        needed, whom = self._needed(teams), listed(scenario, evaders)
+        _, evaders = self.players(scenario)
+        needed, whom = self.wanted or len(evaders), listed(scenario, evaders)
         time = f"for {scenario.last_iteration * scenario.sampling_time:g} s"
         if role == self.roles[0][0]:
             verb = "see" if self.capture == SIGHT else "catch"
@@ -288,32 +209,28 @@ class Game(Contest):
         """What is a capture, and who has won, in a few sentences."""
         (hunting, hunters), (evading, evaders) = self.roles
         count = len(evaders if self.hunted is None else self.hunted)
-        needed = count if self.wanted is None else self.wanted
-        how = {
-            CONTACT: "touches an evader",
-            SIGHT: "sees an evader, with no obstacle between their middles",
-        }.get(str(self.capture), f"comes within {self.capture} m of an evader, middle to middle")
+        needed = self.wanted or count
         hunter = f"the {hunting}"
         if len(hunters) > 1:
             hunter = f"one of {len(hunters)} {hunting.removesuffix('s')}s"
+        evader = f"the {evading}" if self.hunted is None else "the hunted one"
+        evader = evader if count == 1 else f"one of {count}"
+        how = {
+            CONTACT: f"touches {evader}",
+            SIGHT: f"sees {evader}, with no obstacle between their middles",
+        }.get(str(self.capture), f"comes within {self.capture} m of {evader}, middle to middle")
         hunters_win, evaders_win = (
             f"{role} win" if role.endswith("s") else f"{role} wins" for role in (hunting, evading)
         )
-        how = how.replace("an evader", f"the {evading}" if count == 1 else f"one of {count}")
-        if self.hunted is not None:
-            how = how.replace(f"the {evading}", "the hunted one")
-        parts = [f"A capture is when {hunter} {how}."]
-        if count > 1:
-            parts.append("Who is caught stands still.")
-        captures = "the capture" if needed == 1 else f"{needed} captures"
-        parts.append(f"The {hunters_win} with {captures}.")
-        if self.goal is None:
-            parts.append(f"If time is over before, the {evaders_win}.")
-        else:
-            safe = _so_many_are(count, needed)
-            parts.append(f"The {evaders_win} when {safe} in the goal uncaught.")
-            parts.append(f"If time is over before, the {hunters_win}.")
-        return " ".join(parts)
+        goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal uncaught."
+        sentences = (
+            f"A capture is when {hunter} {how}.",
+            "Who is caught stands still." if count > 1 else "",
+            f"The {hunters_win} with {'the capture' if needed == 1 else f'{needed} captures'}.",
+            goal if self.goal is not None else "",
+            f"If time is over before, the {evaders_win if self.goal is None else hunters_win}.",
+        )
+        return " ".join(filter(None, sentences))
 
     # -- how it looks ------------------------------------------------------------------------------
 
@@ -324,25 +241,19 @@ class Game(Contest):
 
     def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Cross out the caught ones, ring those that are safe; draw the hunters' reach."""
-        scenario, teams = frame.scenario, self.players(frame.scenario)
-        pose = frame.pose[None]
-        if self.capture != CONTACT or self.goal is not None:
-            pose = np.concatenate([frame.path, pose])
-        time = np.arange(len(pose)) * np.float64(scenario.sampling_time)
-        edges = _edges(scenario) if self.capture == SIGHT else None
-        found = self._found(teams, time, pose, frame.contact_log(), edges)
+        scenario = frame.scenario
         if not isinstance(self.capture, str):
-            for hunter in teams[0]:
-                color = faded(scenario.colors[hunter], 0.5)
-                scene.circle(frame.pose[:2, hunter], self.capture, stroke=color)
-        for capture in found.captures:
-            above = bool(frame.pose[1, capture.evader] > frame.pose[1, capture.hunter])
-            if self.capture == SIGHT:
-                ends = [frame.pose[:2, robot] for robot in (capture.hunter, capture.evader)]
-                scene.line(ends, stroke=faded(scenario.colors[capture.hunter], 0.5), width=1.2)
-            mark(scene, frame, capture.evader, f"{round(capture.time, 1):g} s", above)
-        for robot, when in found.safe.items():
-            mark(scene, frame, robot, f"{round(when, 1):g} s", above=True, cross=False)
+            for robot in self.players(scenario)[0]:
+                color = faded(scenario.colors[robot], 0.5)
+                scene.circle(frame.pose[:2, robot], self.capture, stroke=color)
+        for leaving in self.exits_at(frame):
+            hunter, above = leaving.hunter, True
+            if hunter is not None:
+                above = bool(frame.pose[1, leaving.robot] > frame.pose[1, hunter])
+            if hunter is not None and self.capture == SIGHT:
+                ends = [frame.pose[:2, robot] for robot in (hunter, leaving.robot)]
+                scene.line(ends, stroke=faded(scenario.colors[hunter], 0.5), width=1.2)
+            mark(scene, frame, leaving, above=above)
 
 
 def _so_many_are(count: int, needed: int) -> str:
@@ -351,70 +262,57 @@ def _so_many_are(count: int, needed: int) -> str:
     return "it is" if count == 1 else f"{safe} of {count} {'is' if safe == 1 else 'are'}"
 
 
-def _edges(scenario: ScenarioLike) -> Float:
-    """Return the edges of all obstacles (k, 4): x1, y1, x2, y2."""
-    edges = [(*a, *b) for outline in scenario.obstacles for a, b in edges_of(outline)]
-    return np.array(edges, dtype=float).reshape(-1, 4)
-
-
-def _touches(
-    contacts: NDArray[np.void], hunters: tuple[int, ...], evaders: tuple[int, ...]
-) -> list[Capture]:
-    """Return a capture for each touch of a hunter and an evader, in the order of the contacts."""
-    if not len(contacts):
-        return []
-    a, b = contacts["a"], contacts["b"]
+def _touches(teams: Teams, span: Span) -> list[Exit]:
+    """Return an exit for each touch of a hunter and an evader, in the order of the contacts."""
+    hunters, evaders = teams
+    a, b = span.contacts["a"], span.contacts["b"]
     hunts = np.isin(a, hunters) & np.isin(b, evaders)
     hunted = np.isin(b, hunters) & np.isin(a, evaders)
     return [
-        Capture(float(contacts["time"][k]), int(h), int(e))
+        Exit(float(span.contacts["time"][k]), int(evader), -1.0, int(hunter))
         for k in np.flatnonzero(hunts | hunted)
-        for h, e in [(a[k], b[k]) if hunts[k] else (b[k], a[k])]
+        for hunter, evader in [(a[k], b[k]) if hunts[k] else (b[k], a[k])]
     ]
 
 
-def _sights(
-    pose: Float, hunters: tuple[int, ...], evaders: tuple[int, ...], edges: Float
-) -> NDArray[np.bool_]:
-    """Return which evaders are in sight of which hunters (T, h, e): no edge is between them.
-
-    pose: (T, 3, n). edges: (k, 4).
-    """
-    start = pose[:, :2, list(hunters)].transpose(0, 2, 1)[:, :, None, None]  # (T, h, 1, 1, 2)
-    end = pose[:, :2, list(evaders)].transpose(0, 2, 1)[:, None, :, None]
-    a, b = edges[:, :2], edges[:, 2:]
-    apart = _side(start, end, a) * _side(start, end, b) < 0
-    across = _side(a, b, start) * _side(a, b, end) < 0
-    return np.asarray(~(apart & across).any(axis=-1))
+def _lines(teams: Teams, span: Span) -> Sequence[Float]:
+    """Return the ends of the lines from hunters to evaders, two arrays (T, h, e, 2)."""
+    hunters, evaders = (span.pose[:, :2, list(team)].swapaxes(1, 2) for team in teams)
+    return np.broadcast_arrays(hunters[:, :, None], evaders[:, None])
 
 
-def _side(start: Float, end: Float, point: Float) -> Float:
-    """Return on which side of a line points lie: > 0 to its left. Arrays (..., 2)."""
-    way, to = end - start, point - start
-    return np.asarray(way[..., 0] * to[..., 1] - way[..., 1] * to[..., 0])
+def _sights(teams: Teams, span: Span) -> NDArray[np.bool_]:
+    """Return which evaders are in sight of which hunters (T, h, e): no edge is between them."""
+    import shapely
+
+    lines = shapely.linestrings(np.stack(_lines(teams, span), axis=-2))
+    hidden, _ = _edges(span.scenario.obstacles).query(lines.ravel(), predicate="crosses")
+    seen = np.ones(lines.size, dtype=bool)
+    seen[hidden] = False
+    return seen.reshape(lines.shape)
 
 
-def _approaches(
-    time: Float,
-    pose: Float,
-    hunters: tuple[int, ...],
-    evaders: tuple[int, ...],
-    reach: float,
-    seen: NDArray[np.bool_] | None = None,
-) -> list[Capture]:
+@lru_cache(maxsize=4)
+def _edges(obstacles: tuple[Outline, ...]) -> shapely.STRtree:
+    """Return the edges of all obstacles."""
+    import shapely
+
+    ends = [edge for outline in obstacles for edge in edges_of(outline)]
+    return shapely.STRtree(shapely.linestrings(np.reshape(ends, (-1, 2, 2))))
+
+
+def _approaches(teams: Teams, span: Span, reach: float, seen: Any) -> list[Exit]:
     """Return the first capture of each evader by the nearest hunter in reach, in order.
 
-    seen: (T, h, e), whom the hunters see, where they have to; None: where they need not.
+    seen: whom the hunters see (T, h, e).
     """
-    found = []
-    for k, evader in enumerate(evaders):
-        x, y = (pose[:, axis, list(hunters)] - pose[:, axis, evader, None] for axis in (0, 1))
-        distance = norms(x, y)
-        if seen is not None:
-            distance = np.where(seen[:, :, k], distance, np.inf)
-        near = distance.min(axis=1)
-        rows = np.flatnonzero((near <= reach) & np.isfinite(near))
-        if len(rows):
-            nearest_one = hunters[int(distance[rows[0]].argmin())]
-            found.append(Capture(float(time[rows[0]]), nearest_one, evader))
-    return sorted(found, key=lambda capture: capture.time)
+    hunters, evaders = teams
+    start, end = _lines(teams, span)
+    x, y = np.moveaxis(start - end, -1, 0)
+    distance = np.where(seen, norms(x, y), np.inf)
+    near = distance.min(axis=1)
+    there = (near <= reach) & np.isfinite(near)
+    return [
+        Exit(when, evaders[k], -1.0, hunters[distance[there[:, k].argmax(), :, k].argmin()])
+        for when, k in firsts(span.time, there, range(len(evaders)))
+    ]

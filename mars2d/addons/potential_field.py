@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property, lru_cache
 
 from mars2d.addons.base import Addon
 from mars2d.core.description import number, text
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
-from mars2d.core.plane import Outline, Point
+from mars2d.core.plane import Point
 from mars2d.core.scene import THEORY, Scene, faded
 from mars2d.geometry.potential_field import Goals, Potential
 
@@ -55,8 +54,8 @@ class PotentialField(Addon):
     def of(self, scenario: ScenarioLike) -> Potential:
         """Return the potential of a scenario, for robots as large as its largest."""
         radius = max(robot.radius for robot in scenario.robots)
-        names = ("attraction", "far", "repulsion", "reach")
-        return _potential(scenario.obstacles, radius, *(getattr(self, name) for name in names))
+        gains = {name: getattr(self, name) for name in ("attraction", "far", "repulsion", "reach")}
+        return _potential(scenario.obstacles, radius=radius, **gains)
 
     def plan(self, scenario: ScenarioLike) -> tuple[tuple[int, Point], ...]:
         """Return for each route the number of its points that the field leads to, and its end.
@@ -103,7 +102,10 @@ class PotentialField(Addon):
         if self.drawn is not None:
             index = scenario.index_of("PotentialField.drawn", self.drawn)
         arrow = 0.3 * self.spacing
-        for (x, y), (ux, uy) in self._arrows(frame, goals, index):
+        there = index < len(goals.routes) and goals.routes[index]
+        goal = goals.goal(index, frame) if there else None
+        field, spacing = self.of(scenario), self.spacing
+        for (x, y), (ux, uy) in field.arrows(goal, scenario.bounds, spacing) if goal else ():
             tail, tip = (x - arrow * ux, y - arrow * uy), (x + arrow * ux, y + arrow * uy)
             scene.arrow(tail, tip, fill=faded(THEORY, 0.45), width=1.0)
         for route, (reached, end) in zip(goals.routes, self.plan(scenario), strict=True):
@@ -111,33 +113,9 @@ class PotentialField(Addon):
                 scene.cross(end, CROSS, stroke="#ffffff", width=4.5)
                 scene.cross(end, CROSS, stroke=THEORY, width=2.5)
 
-    def _arrows(
-        self, frame: FrameLike, goals: Goals, robot: int
-    ) -> tuple[tuple[Point, Point], ...]:
-        if robot >= len(goals.routes) or not goals.routes[robot]:
-            return ()
-        scenario = frame.scenario
-        return self.of(scenario).arrows(goals.goal(robot, frame), scenario.bounds, self.spacing)
 
-
-@lru_cache(maxsize=8)
-def _potential(
-    obstacles: Sequence[Outline],
-    radius: float,
-    attraction: float,
-    far: float,
-    repulsion: float,
-    reach: float,
-) -> Potential:
-    """Return a potential; the same one for the same scenario, since it caches its arrows."""
-    return Potential(
-        obstacles,
-        radius=radius,
-        attraction=attraction,
-        far=far,
-        repulsion=repulsion,
-        reach=reach,
-    )
+_potential = lru_cache(maxsize=8)(Potential)
+"""The same potential for the same scenario, since it caches its arrows."""
 
 
 def _goals(scenario: ScenarioLike) -> Goals:

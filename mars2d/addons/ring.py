@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import inf
-from typing import Any, ClassVar
+from typing import ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from mars2d.addons.contest import MARK, Contest, Outcome, Teams, listed, mark
+from mars2d.addons.contest import Outcome, Teams, listed
+from mars2d.addons.elimination import MARK, Elimination, Exit, Span, firsts, mark
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
 from mars2d.core.description import entry, number
@@ -16,12 +15,11 @@ from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
 
-Float = NDArray[np.float64]
 CLAY = "#f3ead8"
 """The colour of the floor of a ring."""
 
 
-class Ring(Contest):
+class Ring(Elimination):
     """A ring, and two roles whose robots shove each other out of it, as in sumo.
 
     >>> ring = Ring({"red": ["red"], "blue": ["blue"]}, radius=1.5)
@@ -42,81 +40,39 @@ class Ring(Contest):
         default=(0.0, 0.0), check=checks.point, unit="m", doc="the middle of the ring, (x, y)"
     )
 
-    # -- how it stands, in a world -----------------------------------------------------------------
+    holds_last: ClassVar[bool] = False
 
-    def on_start(self, world: WorldLike) -> None:
-        """Find the robots; raise InputError if one is not there, or has two roles."""
-        self._teams = self.teams(world.scenario)
-        self._left: dict[int, float] = {}
+    # -- how it stands -----------------------------------------------------------------------------
 
-    def on_step(self, world: WorldLike) -> None:
-        """Note who has left; end the experiment when one role has lost, or when time is over."""
-        found = self._found(self._teams, np.array([world.time]), world.pose[None])
-        now = {robot: time for robot, time in found.items() if robot not in self._left}
-        self._left |= now
-        if not all(self.score.values()):
-            world.stop(self._message(world))
-        elif world.iteration >= world.scenario.last_iteration:
-            world.stop("a draw")
-        else:
-            for robot in now:
-                world.hold(robot)
+    def exits(self, teams: Teams, span: Span) -> list[Exit]:
+        """Return the robots that leave the ring, in order."""
+        x, y = (span.pose[:, k] - self.center[k] for k in (0, 1))
+        left = firsts(span.time, norms(x, y) > self.radius, (*teams[0], *teams[1]))
+        return [Exit(when, robot, -1.0) for when, robot in left]
 
-    @property
-    def out(self) -> tuple[int, ...]:
-        """The indices of the robots that have left the ring, in order."""
-        return tuple(self._left)
-
-    @property
-    def results(self) -> dict[int, float]:
-        """The results of robots that have left the ring: -1."""
-        return dict.fromkeys(self.out, -1.0)
-
-    @property
-    def score(self) -> dict[str, int]:
-        """The number of robots in the ring, by role."""
-        return self._outcome(self._teams, self._left).score
-
-    @property
-    def winner(self) -> str | None:
-        """The role that has won, or None."""
-        return self._outcome(self._teams, self._left).winner
-
-    def _message(self, world: WorldLike) -> str:
-        """Return why it is over, in words."""
-        winner = self.winner
-        if winner is None:
-            return "a draw"
-        loser, count = next((r, len(robots)) for r, robots in self.roles if r != winner)
-        who = "the other has" if count == 1 else f"all {count} of {loser} have"
-        return f"{winner} wins: {who} left the ring after {world.time:.2f} s"
-
-    # -- how it stands, by a record ----------------------------------------------------------------
-
-    def outcome(self, record: Any) -> Outcome:
-        """Return score and winner of a record, loaded or just made; there are no captures."""
-        teams = self.teams(record.scenario)
-        return self._outcome(teams, self._found(teams, record.time, record.pose))
-
-    def _outcome(self, teams: Teams, left: dict[int, float]) -> Outcome:
+    def judged(self, teams: Teams, exits: Sequence[Exit], time_is_over: bool) -> Outcome:  # noqa: ARG002
+        """Return how many robots of each role are in the ring, and who has won."""
+        left = {leaving.robot: leaving.time for leaving in exits}
         names = [role for role, _ in self.roles]
         lost = [max(left.get(robot, inf) for robot in team) for team in teams]
         score = [sum(robot not in left for robot in team) for team in teams]
         winner = None if lost[0] == lost[1] else names[lost[0] < lost[1]]
         return Outcome((), dict(zip(names, score, strict=True)), winner)
 
-    def _found(self, teams: Teams, time: Float, pose: Float) -> dict[int, float]:
-        """Return the times [s] at which robots were first outside, in order, by index.
+    def ending(self, world: WorldLike) -> str:
+        """Return why it is over now, in words; "" while it goes on."""
+        winner = self.winner
+        if winner is None:
+            over = self._time_is_over or not any(self.score.values())
+            return "a draw" if over else ""
+        loser, count = next((r, len(robots)) for r, robots in self.roles if r != winner)
+        who = "the other has" if count == 1 else f"all {count} of {loser} have"
+        return f"{winner} wins: {who} left the ring after {world.time:.2f} s"
 
-        time: (T,). pose: (T, 3, n).
-        """
-        x, y = (pose[:, k] - self.center[k] for k in (0, 1))
-        outside = norms(x, y) > self.radius
-        if not len(time):
-            return {}  # the run was over before its first row
-        first = {robot: outside[:, robot].argmax() for team in teams for robot in team}
-        left = {robot: float(time[row]) for robot, row in first.items() if outside[row, robot]}
-        return dict(sorted(left.items(), key=lambda robot_time: robot_time[1]))
+    @property
+    def out(self) -> tuple[int, ...]:
+        """The indices of the robots that have left the ring, in order."""
+        return tuple(self.results)
 
     # -- how it is explained -----------------------------------------------------------------------
 
@@ -147,8 +103,5 @@ class Ring(Contest):
     def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Draw the rim; cross out the robots that have left the ring, with the time."""
         scene.circle(self.center, self.radius, stroke=MARK, width=2.0)
-        pose = np.concatenate([frame.path, frame.pose[None]])
-        time = np.append(np.arange(len(frame.path)) * frame.scenario.sampling_time, frame.time)
-        for robot, when in self._found(self.teams(frame.scenario), time, pose).items():
-            above = bool(frame.pose[1, robot] > self.center[1])
-            mark(scene, frame, robot, f"{round(when, 1):g} s", above)
+        for leaving in self.exits_at(frame):
+            mark(scene, frame, leaving, above=bool(frame.pose[1, leaving.robot] > self.center[1]))

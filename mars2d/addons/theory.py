@@ -12,10 +12,6 @@ from mars2d.core.interfaces import FrameLike
 from mars2d.core.scene import Scene
 
 
-def _drawing(name: str, value: object) -> object:
-    return function(name, value, "the scene", "the frame")
-
-
 class Theory(Addon):
     """Draws the prediction of a formula, by a function of the experiment.
 
@@ -30,7 +26,9 @@ class Theory(Addon):
     """
 
     draws: Callable[[Scene, Any], Any] = entry(
-        check=_drawing, kw_only=False, doc="the function: draws(scene, frame)"
+        check=lambda name, value: function(name, value, "the scene", "the frame"),
+        kw_only=False,
+        doc="the function: draws(scene, frame)",
     )
 
     def theory(self, scene: Scene, frame: FrameLike) -> None:

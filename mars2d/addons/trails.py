@@ -9,8 +9,8 @@ import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core.arithmetic import ROUNDING
-from mars2d.core.checks import NAMES, names
-from mars2d.core.description import accepts, entry, number
+from mars2d.core.checks import names
+from mars2d.core.description import entry, number
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.scene import Scene, color_of, rgb
 
@@ -25,11 +25,6 @@ MAX_POINTS = 400
 
 STRENGTH = 0.85
 """The opacity of the colour right behind a robot; the trail ends in white."""
-
-
-@accepts(NAMES)
-def _names(name: str, value: object) -> tuple[str, ...] | None:
-    return names(name, value, "a list of robots' names, such as ['robot0', 'leader'], or None")
 
 
 class Trails(Addon):
@@ -47,7 +42,9 @@ class Trails(Addon):
         default=10.0, above=0, high=1e6, unit="s", doc="the duration of a trail"
     )
     robots: tuple[str, ...] | None = entry(
-        default=None, check=_names, doc="the names of robots with a trail; None: all robots"
+        default=None,
+        check=names("a list of robots' names, such as ['robot0', 'leader'], or None"),
+        doc="the names of robots with a trail; None: all robots",
     )
     width: float = number(
         default=2.5, above=0, high=50, unit="points", doc="width of the line, on the screen or page"

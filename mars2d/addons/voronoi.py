@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,7 +11,6 @@ from mars2d.core.errors import InputError, nearest
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline
 from mars2d.core.scene import THEORY, Scene, faded
-from mars2d.geometry.partition import Segment
 from mars2d.geometry.voronoi import Tessellation, Weight
 
 EDGE = "#5b6470b0"
@@ -24,13 +21,13 @@ class Voronoi(Addon):
 
     >>> from mars2d import Robot, Scenario, World
     >>> team = [Robot(pose=(-2, 0)), Robot(pose=(2, 0))]
-    >>> World(Scenario(robots=team, addons=[Voronoi()])).addons.voronoi.centroids.tolist()
+    >>> World(Scenario(robots=team, addons=[Voronoi()])).addons.voronoi.now.centroids.tolist()
     [[-2.5, 2.5], [0.0, 0.0]]
 
-    Laws find the cells of this instant as ``world.addons.voronoi.cells`` and so on; those of a
-    record are ``voronoi.of(record.frame(row))``. They are computed when asked for, once a
-    control step. The workspace may be of any shape. With a Density in the scenario masses,
-    centroids and the cost are weighted by it. See `mars2d.geometry.voronoi.Tessellation`.
+    Laws find the cells of this instant in ``world.addons.voronoi.now``, a
+    `mars2d.geometry.voronoi.Tessellation`; those of a record are ``voronoi.of(record.frame(row))``.
+    The workspace may be of any shape. With a Density in the scenario masses, centroids and the
+    cost are weighted by it.
 
     The cells are drawn in their robots' colours, and the centroids where theory is shown. A saved
     record has no functions: a Density of a function is lost with it, and the cells of the loaded
@@ -46,56 +43,23 @@ class Voronoi(Addon):
     )  # fmt: skip
 
     def of(self, frame: FrameLike) -> Tessellation:
-        """Return the cells at one instant, live or of a record; they have the same properties."""
+        """Return the cells at one instant, live or of a record."""
         return self._weighed(frame.scenario, frame.pose[:2])
-
-    @property
-    def cells(self) -> tuple[Any, ...]:
-        """The cells now, n polygons of shapely; some may be in several pieces, or empty."""
-        return self._now.cells
-
-    @property
-    def areas(self) -> NDArray[np.float64]:
-        """The cells' areas (n,), m^2."""
-        return self._now.areas
-
-    @property
-    def masses(self) -> NDArray[np.float64]:
-        """The integrals (n,) of the density over the cells."""
-        return self._now.masses
-
-    @property
-    def centroids(self) -> NDArray[np.float64]:
-        """The cells' weighted centroids (2, n), m."""
-        return self._now.centroids
-
-    @property
-    def cost(self) -> float:
-        """H, the sum over all robots of the integral of |q - p|^2 phi(q) over their cells."""
-        return self._now.cost
-
-    def neighbours(self, i: int) -> tuple[int, ...]:
-        """Return the robots whose cells share an edge with that of robot i in the workspace."""
-        return self._now.neighbours(i)
-
-    def edge(self, i: int, j: int) -> Segment | None:
-        """Return the ends of the edge that two robots' cells share in the workspace, or None."""
-        return self._now.edge(i, j)
 
     def on_start(self, world: WorldLike) -> None:
         """Take the world, and refuse a scenario that can't be divided."""
         self._world, self._found = world, (0, self._weighed(world.scenario, world.position))
 
     @property
-    def _now(self) -> Tessellation:
+    def now(self) -> Tessellation:
+        """The cells at this instant, computed once a control step."""
         if "_world" not in self.__dict__:
             raise InputError(
-                "Voronoi has cells in a world only, as world.addons.voronoi; those of a record are "
-                "voronoi.of(record.frame(row))"
+                "Voronoi has cells in a world only, as world.addons.voronoi.now; those of a record "
+                "are voronoi.of(record.frame(row))"
             )
-        if self._found[0] != self._world.iteration:
-            now = self._weighed(self._world.scenario, self._world.position)
-            self._found = self._world.iteration, now
+        if self._found[0] != (now := self._world.iteration):
+            self._found = now, self._weighed(self._world.scenario, self._world.position)
         return self._found[1]
 
     def _weighed(self, scenario: ScenarioLike, position: NDArray[np.float64]) -> Tessellation:

@@ -10,14 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.addons.base import Addon
 from mars2d.core.arithmetic import norms
-from mars2d.core.checks import POINT, point
+from mars2d.core.checks import POINT, items_of, lists_of, point
 from mars2d.core.description import accepts, entry, number, wrong
-from mars2d.core.errors import InputError, LawError, counted, shown
+from mars2d.core.errors import InputError, LawError, counted
 from mars2d.core.interfaces import FrameLike, WorldLike
 from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.core.scene import Scene, faded
-
-EXPECTED = "one list of points for each robot, such as [[(x, y), ...], [(x, y), ...]] in metres"
 
 PALE = 0.35
 """The opacity of waypoints that are reached."""
@@ -26,21 +24,16 @@ PALE = 0.35
 @accepts({"type": "array", "items": {"type": "array", "items": POINT}})
 def _routes(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of lists of points, of which some but not all may be empty."""
-    if not isinstance(value, (list, tuple)):
-        raise wrong(name, value, EXPECTED)
-    routes = []
-    for i, route in enumerate(value):
-        if not isinstance(route, (list, tuple, np.ndarray)):
-            raise wrong(f"{name}[{i}]", route, "a list of points, such as [(x, y), ...] in metres")
-        if len(route) and isinstance(route[0], (int, float, np.number)):
-            raise InputError(
-                f"{name} = {shown(value)}: expected {EXPECTED}; put one more pair of brackets "
-                "round it"
-            )
-        routes.append(tuple(point(f"{name}[{i}][{k}]", p) for k, p in enumerate(route)))
+    routes = tuple(
+        tuple(
+            point(f"{each}[{k}]", place)
+            for k, place in enumerate(items_of(each, route, "a list of points (x, y) in metres"))
+        )
+        for each, route in lists_of(name, value, "routes, one for each robot")
+    )
     if not any(routes):
-        raise wrong(name, value, f"{EXPECTED}, and at least one point")
-    return tuple(routes)
+        raise wrong(name, value, "one list of points for each robot, and at least one point")
+    return routes
 
 
 class Waypoints(Addon):
@@ -85,15 +78,8 @@ class Waypoints(Addon):
 
     def of(self, frame: FrameLike) -> tuple[int, ...]:
         """Return the number of waypoints of each route that are reached at a frame."""
-        before = self.passed(frame.path[:, :2].swapaxes(1, 2))
-        return self._further(before, frame.pose[:2].T)
-
-    def _further(self, before: Sequence[int], positions: NDArray[np.float64]) -> tuple[int, ...]:
-        """Return how many are reached once the robots have come to positions (n, 2)."""
-        return tuple(
-            done + self._along(route[done:], positions[None, i])
-            for i, (route, done) in enumerate(zip(self.routes, before, strict=True))
-        )
+        pose = np.concatenate([frame.path, frame.pose[None]])
+        return self.passed(pose[:, :2].swapaxes(1, 2))
 
     @property
     def reached(self) -> tuple[int, ...]:
@@ -146,7 +132,11 @@ class Waypoints(Addon):
 
     def on_step(self, world: WorldLike) -> None:
         """Note the waypoints that have been reached."""
-        self._reached = self._further(self._reached, world.position.T)
+        positions = world.position.T[None]
+        self._reached = tuple(
+            done + self._along(route[done:], positions[:, i])
+            for i, (route, done) in enumerate(zip(self.routes, self._reached, strict=True))
+        )
 
     def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Draw each route as a dotted line with its points; reached ones are paler."""

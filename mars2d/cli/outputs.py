@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -11,8 +10,8 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mars2d.cli.arguments import refuse
 from mars2d.core.errors import InputError, Mars2dError, one_line
-from mars2d.core.files import why_unwritable
 from mars2d.core.interrupt import interrupts
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell, warn
@@ -20,9 +19,9 @@ from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
 from mars2d.output.films.footage import Cut, shots
-from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster import require_pygame
 from mars2d.record.rows import Rows
+from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
@@ -30,16 +29,8 @@ from mars2d.world.record import Record
 if TYPE_CHECKING:
     from mars2d.record.frame import Frame
 
-OUTPUTS = {
-    "record": tuple(formats.FORMATS),
-    "figure": figure.SUFFIXES,
-    "video": film.SUFFIXES,
-    "html": (".html", ".htm"),
-}
-"""The arguments that name output files, with their possible suffixes."""
-
-KINDS = {"record": "record", "figure": "figure", "video": "film", "html": "page"}
-"""The words for the output files."""
+KINDS = {"video": "film", "html": "page"}
+"""The words for output files whose argument has another name."""
 
 FPS, SIZE = 25, (1280, 720)
 """Frames per second of a film, and its default size, pixels."""
@@ -57,32 +48,6 @@ Made = dict[str, Path]
 """The files that were made, by the names of their arguments."""
 
 
-def check_outputs(arguments: argparse.Namespace, outputs: Mapping[str, tuple[str, ...]]) -> None:
-    """Raise InputError before the run for an output file that can't be written after it.
-
-    outputs: the names of arguments that name files, with their possible suffixes.
-    """
-    for name, suffixes in outputs.items():
-        path: Path | None = getattr(arguments, name)
-        if path is None:
-            continue
-        why, folder = why_unwritable(path), path.parent
-        if path.suffix.lower() not in suffixes:
-            why = f"expected a name that ends in {' or '.join(suffixes)}"
-        elif not folder.is_dir():
-            why = f"there is no folder {folder}"
-        elif not os.access(folder, os.W_OK):
-            why = f"nothing can be written in {folder.absolute()}"
-        if why:
-            raise InputError(f"--{name} {path}: {why}")
-        if name == "video":
-            require_pygame("a film")
-            if path.suffix.lower() == ".mp4":
-                require_av(path)
-        if name == "record":
-            formats.require(path)
-
-
 # -- films -----------------------------------------------------------------------------------------
 
 
@@ -92,10 +57,17 @@ def check_film(arguments: argparse.Namespace, scenario: Scenario, last: float) -
         film.check_film(arguments.video, arguments.size or SIZE, FPS)
         speed = film_speed(scenario, arguments.speed)
         Cut.of(last, speed, FPS, arguments.start, arguments.end, "the run")
-        return
-    for name, dest in {"--size": "size", "--from": "start", "--to": "end"}.items():
-        if getattr(arguments, dest) is not None:
-            raise InputError(f"{name} needs --video OUT: it is of the film")
+    else:
+        refuse(arguments, "size from to", "needs --video OUT: it is of the film")
+
+
+def picture_and_film(arguments: argparse.Namespace, folder: Path, stop_time: float) -> None:
+    """Ask for a picture and a film of `DURATION` in a folder, where no window shows the run."""
+    require_pygame("a film")
+    folder.mkdir(exist_ok=True)
+    stem = folder / experiment_name(Path(arguments.experiment))
+    arguments.figure, arguments.video = stem.with_suffix(".png"), stem.with_suffix(".gif")
+    arguments.speed = arguments.speed or max(stop_time / DURATION, 1e-9)
 
 
 def film_speed(scenario: Scenario, speed: float | str | None) -> float:
@@ -142,7 +114,7 @@ def run_and_save(
 
     def rescue(kept: Record | None) -> None:
         if kept is not None and len(kept) and target is not None:
-            _say_kept(*_tried(arguments, {"record": lambda: save_record(target, kept)}), kept)
+            _say_kept(*produced(arguments, {"record": lambda: save_record(target, kept)}), kept)
 
     with interrupts(held=saving, rescue=rescue):
         try:
@@ -152,18 +124,16 @@ def run_and_save(
                 raise
             ended, record = error, error.record
         makers: dict[str, Make] = {"record": lambda: save_record(arguments.record, record)}
-        made, troubles = _tried(arguments, makers)
-
-    def save_figure() -> None:
-        with naming_lost_letters():
-            figure.save_figure(record, arguments.figure, _times_within(arguments.at, record))
+        made, troubles = produced(arguments, makers)
 
     makers = {
-        "figure": save_figure,
+        "figure": lambda: figure.save_figure(
+            record, arguments.figure, _times_within(arguments.at, record)
+        ),
         "html": lambda: record.save_html(arguments.html),
         "video": of_run or (lambda: save_film_of(record, arguments)),
     }
-    others, more = _tried(arguments, makers)
+    others, more = produced(arguments, makers)
     made, troubles = made | others, troubles + more
     if ended is None:
         return record, made, troubles
@@ -171,7 +141,7 @@ def run_and_save(
     raise ended
 
 
-def _tried(
+def produced(
     arguments: argparse.Namespace, makers: Mapping[str, Make]
 ) -> tuple[Made, list[Mars2dError]]:
     """Make the requested outputs independently of each other; return files made, and errors."""
@@ -180,7 +150,8 @@ def _tried(
     for name, make in makers.items():
         if (path := getattr(arguments, name)) is not None:
             try:
-                make()
+                with naming_lost_letters():
+                    make()
                 made[name] = path
             except Mars2dError as error:
                 troubles.append(error)
@@ -199,7 +170,7 @@ def _say_kept(made: Made, troubles: Iterable[Mars2dError], record: Record) -> No
 def conclude(made: Made, troubles: Sequence[Mars2dError]) -> None:
     """Print the files that were made, each with its kind; print all errors, and raise the last."""
     for name, path in made.items():
-        tell(f"{KINDS[name] + ':':<8}{one_line(path)}")
+        tell(f"{KINDS.get(name, name) + ':':<8}{one_line(path)}")
     for trouble in troubles[:-1]:
         warn(trouble)
     if troubles:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 import textwrap
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import pi
 from types import FunctionType
 from typing import Any
@@ -20,6 +21,9 @@ from mars2d.world.world import World
 
 ORDERED = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 """The comparisons that a number is meant for."""
+
+SENSED = re.compile(r".*\.sense\.(\w+)(\[.*\])?")
+"""A reading in a law's code, or an item of it."""
 
 _SLEEP = "sleep has no meaning in simulated time; compare robot.time"
 WAITING = {
@@ -44,10 +48,9 @@ def before(experiment: Experiment) -> Iterator[str]:
         theta = robot.pose[2]
         if _like_degrees(theta):
             yield f"{robot.name} starts at theta = {theta:g} rad{_meant(theta)}"
-    laws = {robot.controller: None for robot in experiment.scenario.robots if robot.controller}
-    for law in [*laws, *([experiment.control] if experiment.control else [])]:
-        yield from _flags_compared(law, experiment.scenario.robots)
-        yield from _waits(law)
+    robots = experiment.scenario.robots
+    laws = [*(robot.controller for robot in robots), experiment.control]
+    yield from _of_laws(filter(None, laws), robots)
 
 
 class Bounds:
@@ -100,61 +103,49 @@ def _bounds(robot: Robot) -> str:
     return f"{type(robot.drive).__name__}({', '.join(told)})"
 
 
-def _flags_compared(law: Callable[..., Any], robots: Sequence[Robot]) -> Iterator[str]:
-    """Yield a remark where a law compares the reading of a sensor that says yes or no."""
+def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Iterator[str]:
+    """Yield remarks on the code of laws, and of the functions that they name.
+
+    They are on calls that would wait, and on sensors' flags that are compared with numbers.
+    """
     flags = {
         sensor.key
         for robot in robots
         for sensor in robot.sensors
         if all(quantity.kind == "flag" for quantity in sensor.quantities)
     }
-    meant: dict[str, str] = {}
-    nodes = [*_nodes(law)] if flags else []
-    for _, node in nodes:
-        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            meant[node.targets[0].id] = _read(node.value, flags)
-    for place, node in nodes:
-        if not (isinstance(node, ast.Compare) and isinstance(node.ops[0], ORDERED)):
-            continue
-        for side in (node.left, *node.comparators):
-            name = meant.get(side.id, "") if isinstance(side, ast.Name) else _read(side, flags)
-            if name:
-                yield (
-                    f"{place}: robot.sense.{name} is True or False, "
-                    "and is compared with a number; RangeFinder measures distances"
-                )
-
-
-def _waits(law: Callable[..., Any]) -> Iterator[str]:
-    """Yield a remark on each call, in a law or a function that it names, that would wait."""
-    code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
-    named: list[Any] = [names.get(name) for name in code.co_names] if code else []
-    functions: list[Any] = [law, *(each for each in named if isinstance(each, FunctionType))]
+    functions: dict[Any, None] = {}
+    for law in laws:
+        code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
+        named = (names.get(name) for name in (code.co_names if code else ()))
+        functions |= dict.fromkeys([law, *(f for f in named if isinstance(f, FunctionType))])
     for function in functions:
+        kept: dict[str, str] = {}  # what is read, by the variable that keeps it
         for place, node in _nodes(function):
-            called = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
-            if called in WAITING:
+            sides: list[ast.expr] = []
+            if isinstance(node, ast.Call) and (called := ast.unparse(node.func)) in WAITING:
                 yield f"{place}: {called}(): {WAITING[called]}"
+            elif isinstance(node, ast.Assign):
+                kept[ast.unparse(node.targets[0])] = ast.unparse(node.value)
+            elif isinstance(node, ast.Compare) and isinstance(node.ops[0], ORDERED):
+                sides = [node.left, *node.comparators]
+            for side in map(ast.unparse, sides):
+                read = SENSED.fullmatch(kept.get(side, side))
+                if read and read[1] in flags:
+                    yield (
+                        f"{place}: robot.sense.{read[1]} is True or False, "
+                        "and is compared with a number; RangeFinder measures distances"
+                    )
 
 
-def _nodes(law: Callable[..., Any]) -> Iterator[tuple[str, ast.AST]]:
+def _nodes(function: Callable[..., Any]) -> Iterator[tuple[str, ast.AST]]:
     """Yield the file and line, and the node, of all in a function whose source is known."""
-    place = definition(law)
+    file = (definition(function) or "").partition(",")[0]
     try:
-        lines, first = inspect.getsourcelines(inspect.unwrap(law))
+        lines, first = inspect.getsourcelines(inspect.unwrap(function))
         tree = ast.parse(textwrap.dedent("".join(lines)))
     except (OSError, TypeError, SyntaxError):
         return
-    file = (place or "").partition(",")[0]
-    for node in ast.walk(tree) if file else ():
+    nodes = sorted(ast.walk(tree), key=lambda node: getattr(node, "lineno", 0))
+    for node in nodes if file else ():
         yield f"{file}, line {first + getattr(node, 'lineno', 1) - 1}", node
-
-
-def _read(node: ast.expr, flags: set[str]) -> str:
-    """Return the sensor whose reading an expression is, or ""."""
-    if isinstance(node, ast.Subscript):
-        node = node.value
-    if not isinstance(node, ast.Attribute) or node.attr not in flags:
-        return ""
-    owner = node.value
-    return node.attr if isinstance(owner, ast.Attribute) and owner.attr == "sense" else ""

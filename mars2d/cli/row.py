@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mars2d.cli.arguments import preferences_of
 from mars2d.cli.outputs import conclude, run_and_save
-from mars2d.cli.runs import opens_window, run_headless, show, source_of
+from mars2d.cli.runs import opens_window, run_headless, source_of
 from mars2d.core.errors import InputError, shown
 from mars2d.core.terminal import aligned, tell, warn
 from mars2d.output.formats import log_to
@@ -15,6 +15,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.study.job import code_of
 from mars2d.study.measures import measure_named, measured
 from mars2d.study.table import Result, Table
+from mars2d.window import show
 from mars2d.world.record import Record
 
 
@@ -42,7 +43,10 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
 
     def run() -> tuple[Record, None]:
         if view:
-            return show(experiment, None, preferences_of(arguments), log=log), None
+            speed, look = experiment.scenario.animation.playback_speed, preferences_of(arguments)
+            return show.show_experiment(
+                experiment, speed, preferences=look, log=log, asks=True
+            ), None
         return run_headless(experiment, log=log).record, None
 
     log = log_to(arguments.record)

@@ -14,9 +14,7 @@ from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import courses, examples, experiment_name, title_of
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.screen.display import Preferences
 from mars2d.world.loop import simulate
-from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:
@@ -51,39 +49,6 @@ def require_display(otherwise: str) -> None:
     if not has_display():
         require_pygame("a window")
         raise InputError(otherwise)
-
-
-def show(
-    experiment: Experiment,
-    speed: float | str | None,
-    preferences: Preferences,
-    humans: Sequence[int] = (),
-    log: Log | None = None,
-    watchers: Sequence[Watcher] = (),
-    *,
-    kept: bool = False,
-    play: bool = False,
-) -> Record:
-    """Run in a window, at the experiment's own speed unless one is given.
-
-    humans: robots that are driven by hand; then the speed is one to drive at. log, watchers, play:
-    as of `show_experiment`. kept: whether the record is saved; else the window asks, where hands
-    have changed the run.
-    """
-    from mars2d.window.show import show_experiment
-
-    scenario = experiment.scenario
-    own = speed_by_hand(scenario, humans) if humans or play else scenario.animation.playback_speed
-    return show_experiment(
-        experiment,
-        own if speed is None else speed,
-        watchers,
-        preferences,
-        humans=humans,
-        log=log,
-        asks=not kept,
-        play=play,
-    )
 
 
 def speed_by_hand(scenario: Scenario, robots: Sequence[int] = ()) -> float:

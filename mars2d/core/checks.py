@@ -26,9 +26,6 @@ MAX_COORDINATE = 1e6
 COORDINATE: Schema = {"type": "number", "minimum": -MAX_COORDINATE, "maximum": MAX_COORDINATE}
 POINT: Schema = {"type": "array", "items": COORDINATE, "minItems": 2, "maxItems": 2}
 OUTLINE: Schema = {"type": "array", "items": POINT, "minItems": 2}
-NAMES: Schema = {
-    "type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True
-}  # fmt: skip
 
 
 def items_of(name: str, value: object, expected: str, most: int = MAX_ITEMS) -> list[Any]:
@@ -83,7 +80,7 @@ def outline(name: str, value: object, least: int = 2, *, closed: bool = True) ->
     least: how many vertices it must have. closed: False for an open line of any number of them.
     """
     what = "two vertices for a wall or more for a polygon" if least == 2 else "a polygon's vertices"
-    what = what if closed else "a wall's vertices"
+    what = what if closed else "a line's vertices"
     expected = f"{what}, such as [(x, y), ...] in metres"
     items = items_of(name, value, expected)
     points = [point(f"{name}[{i}]", item) for i, item in enumerate(items)]
@@ -99,6 +96,12 @@ def outline(name: str, value: object, least: int = 2, *, closed: bool = True) ->
     if ring:
         _check_ring(name, points)
     return tuple(points)
+
+
+@accepts(OUTLINE)
+def line(name: str, value: object) -> Outline:
+    """Check an open line of two or more vertices, which may cross itself."""
+    return outline(name, value, closed=False)
 
 
 def _check_ring(name: str, points: list[Point]) -> None:
@@ -123,17 +126,16 @@ def _check_ring(name: str, points: list[Point]) -> None:
 @accepts({"type": "array", "items": OUTLINE})
 def polylines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of open lines, each of two or more vertices."""
-    lines = _lists(name, value, "walls")
-    return tuple(outline(each, item, closed=False) for each, item in lines)
+    return tuple(line(each, item) for each, item in lists_of(name, value, "walls"))
 
 
 @accepts({"type": "array", "items": OUTLINE})
 def outlines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of outlines."""
-    return tuple(outline(each, item) for each, item in _lists(name, value, "outlines"))
+    return tuple(outline(each, item) for each, item in lists_of(name, value, "outlines"))
 
 
-def _lists(name: str, value: object, what: str) -> list[tuple[str, Any]]:
+def lists_of(name: str, value: object, what: str) -> list[tuple[str, Any]]:
     """Return the items of a list of lists of points, each with its name."""
     items = items_of(name, value, f"a list of {what}, each [(x, y), ...] in metres")
     first = items[0] if items else None
@@ -181,18 +183,23 @@ def listing(kind: type, example: str) -> Check:
     return check
 
 
-def names(name: str, value: object, expected: str) -> tuple[str, ...] | None:
-    """Check a list of one or more different names, or None."""
-    if value is None:
-        return None
-    if not isinstance(value, (tuple, list)) or not value:
-        raise wrong(name, value, expected)
-    if not all(isinstance(item, str) for item in value):
-        raise wrong(name, value, expected)
-    for item in value:
-        if value.count(item) > 1:
-            raise InputError(f"{name}: {item!r} stands there twice")
-    return tuple(value)
+def names(expected: str, least: int = 1) -> Check:
+    """Return a check for a list of at least so many different names, or None."""
+
+    @accepts({"type": "array", "items": {"type": "string"}, "minItems": least, "uniqueItems": True})
+    def check(name: str, value: object) -> tuple[str, ...] | None:
+        if value is None:
+            return None if least else ()
+        if not isinstance(value, (tuple, list)) or len(value) < least:
+            raise wrong(name, value, expected)
+        for item in value:
+            if not isinstance(item, str):
+                raise wrong(name, value, expected)
+            if value.count(item) > 1:
+                raise InputError(f"{name}: {item!r} stands there twice")
+        return tuple(value)
+
+    return check
 
 
 def unique(name: str, keys: list[str]) -> None:

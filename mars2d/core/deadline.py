@@ -30,6 +30,9 @@ LOOK = 0.1
 SOON = 3
 """After as many looks at the same call somebody may be asked whether to go on waiting."""
 
+UNANSWERED = 15
+"""After as many more looks, code of which no step was done waits in C or in the system."""
+
 _Pending = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 
 
@@ -56,7 +59,8 @@ class Deadline:
     calls: returns what changes with each call of the user's code, which is then all that is broken
     off, and Late says so of the call; a debugger is waited for. Else `alive` is the sign of life.
     meanwhile: called in the main thread while a call takes long, with the file and line; returns
-    the reason to break it off at once, or "".
+    the reason to break it off at once, or "". Where the call waits in the system or in C, it is
+    called in the watching thread, and `blocked` is set: a reason then means to give up.
     """
 
     def __init__(
@@ -72,7 +76,7 @@ class Deadline:
         self._signs, self._looks, self._fired = 0, 0, False
         self._thread, self._block = 0, sys._getframe()
         self._ask = _Pending(self._asked)  # kept: the interpreter calls it later
-        self._waits = False
+        self._asked_at, self.blocked = 0, False  # after which look; 0 once it is answered
         self._due: type[BaseException] | None = None  # the exception that the next look raises
 
     def alive(self) -> None:
@@ -109,13 +113,17 @@ class Deadline:
             sign, line = self._signs if self._calls is None else self._calls(), self._line()
             due, self._due = self._due, None
             if sign != last or (self._calls is not None and not line):
-                last, self._looks, self._fired = sign, 0, False
+                last, self._looks, self._fired, self.blocked = sign, 0, False, False
                 continue
             self._looks += 1
             waited = self._looks * look
+            if due is not None and self.blocked:  # it would not arrive
+                if self._give_up is not None:
+                    self._give_up(line)
+                continue
             if due is None and waited > (GRACE if self._fired else self.patience):
                 if self._fired and self._give_up is not None:
-                    self._give_up(self.where)
+                    self._give_up(line)
                 due = _late(f"did not return within {self.patience:g} s" if self._calls else "")
             if due is not None:
                 with self._lock:
@@ -124,15 +132,24 @@ class Deadline:
                     self.where, self._looks, self._fired = line, 0, True
                     thread = ctypes.c_ulong(self._thread)  # between two steps of its Python code
                     ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(due))
-            elif self._meanwhile is not None and self._looks >= SOON and not self._waits:
-                self._waits = True
+            elif self._meanwhile is not None and self._looks >= SOON and not self._asked_at:
+                self._asked_at = self._looks
                 ctypes.pythonapi.Py_AddPendingCall(self._ask, None)
+            elif self._asked_at and self._looks - self._asked_at > UNANSWERED:
+                self.blocked = True
+                self._consult()
 
     def _asked(self, _: object) -> int:
         """Ask whether to go on waiting; the interpreter calls it in the main thread.
 
         The answer waits for the next look: raised here, it would be lost.
         """
+        self.blocked = False
+        self._consult()
+        self._asked_at = 0
+        return 0
+
+    def _consult(self) -> None:
         try:
             line = self._line()
             if self._meanwhile is not None and line:
@@ -140,9 +157,6 @@ class Deadline:
                 self._due = _late(why) if why else None
         except BaseException as error:
             self._due = type(error)
-        finally:
-            self._waits = False
-        return 0
 
     def _line(self) -> str:
         """Return the line of the user's code that the block is in; "" if a debugger looks at it."""

@@ -249,8 +249,7 @@ def _distance(record: Rows, name: str, other: str, bodies: tuple[int, ...]) -> S
 def _energy(record: Rows) -> Signal:
     """Return the kinetic energy of all bodies, and the work that has made it."""
     energy = record.energy
-    known = not np.isnan(energy.work[:1]).any()
-    values = {"kinetic, of all" if known else "kinetic, by mean velocities": energy.total}
+    values = {"kinetic, of all": energy.total}
     values |= {f"work of {what}": energy.by(what) for what in WORK}
     return Signal("energy", "J", np.stack(list(values.values()), axis=-1), (), curves=tuple(values))
 

@@ -111,14 +111,14 @@ class Frame:
     @property
     def energy(self) -> Energy | None:
         """The kinetic energies of robots and props, and the work since the start; see `Energy`."""
-        if not self.work.size or np.isnan(self.work).any():
+        if not self.work.size:
             return None
         return energy_of(self.scenario, self._poses, self.exact_velocity, self.work)
 
     @property
     def momentum(self) -> Momentum | None:
         """The momenta of robots and props; None if unknown."""
-        if not self.work.size or np.isnan(self.work).any():
+        if not self.work.size:
             return None
         return momentum_of(self.scenario, self._poses, self.exact_velocity)
 

@@ -17,7 +17,7 @@ from mars2d.core.errors import counted
 from mars2d.core.scene import Scene
 from mars2d.record.columns import Texts, blocks
 from mars2d.record.contact import CONTACT, count_meetings, pair_forces, rows_of
-from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
+from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
 from mars2d.record.message import MESSAGE, in_flight
@@ -31,13 +31,6 @@ COLUMNS = (
 )  # fmt: skip
 """The columns of every record, with a row for each control step."""
 
-FORMER = COLUMNS[:6]
-"""The columns of records from before velocities and work were recorded."""
-
-
-def _not_given() -> Float:
-    return np.empty(0)
-
 
 @dataclass(frozen=True, eq=False)
 class Rows:
@@ -47,8 +40,7 @@ class Rows:
     ``time``, after saturation; it takes effect at command_time (T,). prop_pose: (T, 3, p). effort:
     (T, n), the largest share of its bounds that a drive used in the control step before. velocity,
     prop_velocity: (T, 3, n) and (T, 3, p) = x', y' [m/s], theta' [rad/s] at ``time``, before its
-    command takes effect; where they are not given, the means over the control step before. work:
-    (T, 6) J since the start, of what `mars2d.record.energy.WORK` names; nan where it is not given.
+    command takes effect. work: (T, 6) J since the start, of what `mars2d.record.energy.WORK` names.
     sensors: for each sensor's name an array (T, m, ...) of readings, of the m robots in
     ``sensor_robots[name]``. contacts: a row for each control step, pair and normal, with the fields
     of `mars2d.record.CONTACT`. messages: a row for each message and receiver, with the fields of
@@ -58,8 +50,8 @@ class Rows:
     missing: the user's own parts that a file could not hold. interventions: changes that were made
     to the world from outside, in order; `scenario` is the one at the start. options: the options
     with which the experiment was opened, by the names of ``--set``; files keep numbers, texts, and
-    lists of these. branches: runs in a
-    window that were left for this one, which are kept in files of their own.
+    lists of these. branches: runs in a window that were left for this one, which are kept in files
+    of their own.
     """
 
     scenario: Scenario
@@ -70,9 +62,9 @@ class Rows:
     command_time: Float
     prop_pose: Float
     effort: Float
-    velocity: Float = field(default_factory=_not_given)
-    prop_velocity: Float = field(default_factory=_not_given)
-    work: Float = field(default_factory=_not_given)
+    velocity: Float
+    prop_velocity: Float
+    work: Float
     sensors: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     sensor_robots: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
     contacts: NDArray[np.void] = field(default_factory=lambda: np.empty(0, dtype=CONTACT))
@@ -89,19 +81,10 @@ class Rows:
     branches: tuple[Rows, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
-        self._complete()
         for name in (*COLUMNS, "contacts", "messages"):
             object.__setattr__(self, name, sealed(getattr(self, name)))
         sensors = {name: sealed(values) for name, values in self.sensors.items()}
         object.__setattr__(self, "sensors", sensors)
-
-    def _complete(self) -> None:
-        """Put mean velocities and nan in place of velocities and work that are not given."""
-        for name, pose in (("velocity", self.pose), ("prop_velocity", self.prop_pose)):
-            if getattr(self, name).ndim == 1:
-                object.__setattr__(self, name, _mean_velocity(self.time, pose))
-        if self.work.ndim == 1:
-            object.__setattr__(self, "work", np.full((len(self.time), len(WORK)), np.nan))
 
     def __len__(self) -> int:
         return len(self.time)
@@ -155,11 +138,6 @@ class Rows:
         return np.concatenate([self.velocity, self.prop_velocity], axis=-1)
 
     @property
-    def kept(self) -> tuple[str, ...]:
-        """Those of `COLUMNS` that were recorded: `FORMER` where the work is unknown."""
-        return FORMER if np.isnan(self.work[:1]).any() else COLUMNS
-
-    @property
     def collisions(self) -> int:
         """How many times two bodies came to touch that did not touch before."""
         return count_meetings(blocks(self.contacts))
@@ -171,7 +149,7 @@ class Rows:
         ``message:FIELD``. The texts of messages are in ``contents`` (UTF-8, one after the other)
         and ``content_sizes`` (the bytes of each).
         """
-        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in self.kept}
+        columns: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in COLUMNS}
         columns |= {f"sensor:{name}": values for name, values in sorted(self.sensors.items())}
         # Field by field, since a structured array has undefined bytes between its fields.
         columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
@@ -267,11 +245,3 @@ def digest_of(columns: Mapping[str, NDArray[Any]], over_message: str) -> str:
             sha.update(block.tobytes())
     sha.update(over_message.encode())
     return sha.hexdigest()
-
-
-def _mean_velocity(time: Float, pose: Float) -> Float:
-    """Return the means (T, 3, k) over the control step before each row, 0 in the first."""
-    velocity = np.zeros_like(pose)
-    with np.errstate(over="ignore"):  # of numbers that no run has
-        velocity[1:] = np.diff(pose, axis=0) / np.diff(time)[:, None, None]
-    return velocity

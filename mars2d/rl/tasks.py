@@ -110,7 +110,7 @@ def sumo(**given: Any) -> Environment:
 
 def _covering(world: World, robot: RobotView) -> float:
     """Return by how much the cost of coverage H has fallen in the last step, m^4."""
-    return _gain(robot, world.addons.voronoi.cost)
+    return _gain(robot, world.addons.voronoi.now.cost)
 
 
 def coverage(**given: Any) -> Environment:

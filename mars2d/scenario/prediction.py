@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Sequence
 from typing import Any, Self
 
-from mars2d.core.description import Description, entry, real, text, wrong
+from mars2d.core.description import Description, choice, entry, real, text, wrong
 from mars2d.core.description import number as checked_number
 from mars2d.core.errors import InputError, counted
 
@@ -21,6 +21,9 @@ DIGITS = 12
 MAX_ZEROS = 6
 """The most decimals of an exact 0."""
 
+SIGNS = {"equal": "", "at least": ">= ", "at most": "<= "}
+"""What stands before the predicted number, by the kind of bound."""
+
 
 def _measured(name: str, value: object) -> float:
     """Check a number that may be NaN or infinite: a measurement can fail."""
@@ -32,8 +35,10 @@ def _measured(name: str, value: object) -> float:
 class Prediction(Description):
     """A number that a formula predicts, and the number that a run measured.
 
-    `measured` may be NaN or infinite if nothing could be measured: that is never ok. Raises
-    InputError for other fields that are not finite, and for a tolerance below 0.
+    Where a theory gives a bound, such as what a player gets for sure, `bound` says so. Where its
+    conditions do not hold, `Prediction.silent` gives the reason instead of numbers. `measured` may
+    be NaN or infinite if nothing could be measured: that is never ok. Raises InputError for other
+    fields that are not finite, and for a tolerance below 0.
 
     >>> fall = Prediction("time to fall", 0.45, 0.448, 0.01, "s")
     >>> fall.ok
@@ -48,6 +53,12 @@ class Prediction(Description):
     )
     unit: str = text(
         default="", kw_only=False, doc="the unit of all three numbers; empty for counts and ratios"
+    )
+    bound: str = choice(
+        of=tuple(SIGNS), default="equal", doc="how the measured number stands to the predicted one"
+    )
+    reason: str = text(
+        default="", doc="why the theory does not apply to the run; then the numbers do not count"
     )
 
     @classmethod
@@ -69,18 +80,43 @@ class Prediction(Description):
             raise InputError(f"Prediction.within({name!r}): {share:g} % of 0 is 0; {hint}")
         return cls(name, predicted, measured, abs(float(predicted)) * share / 100, unit)
 
+    @classmethod
+    def silent(cls, name: str, reason: str) -> Self:
+        """Return what stands for a prediction where the conditions of its theory do not hold.
+
+        >>> Prediction.silent("capture", "a wall is nearer than the meeting point").verdict
+        'not predicted'
+        """
+        return cls(name, 0.0, math.nan, 0.0, reason=reason)
+
     @property
-    def ok(self) -> bool:
-        """Whether the measured number is within the tolerance of the predicted one."""
-        return abs(self.measured - self.predicted) <= self.tolerance
+    def ok(self) -> bool | None:
+        """Whether the measured number is as predicted, within the tolerance; None if silent."""
+        if self.reason:
+            return None
+        above = self.measured - self.predicted
+        if self.bound == "equal":
+            return abs(above) <= self.tolerance
+        return math.isfinite(above) and (
+            above >= -self.tolerance if self.bound == "at least" else above <= self.tolerance
+        )
+
+    @property
+    def verdict(self) -> str:
+        """How it ended: ``ok``, ``NOT OK`` or ``not predicted``."""
+        return {True: "ok", False: "NOT OK", None: "not predicted"}[self.ok]
 
     def as_dict(self) -> dict[str, Any]:
-        """Return name, predicted, measured, tolerance and ok, as JSON can hold them.
+        """Return name, numbers, bound and ok, as JSON can hold them.
 
-        JSON has no NaN and infinities: a measured number of these is None.
+        JSON has no NaN and infinities: a measured number of these is None. A silent prediction has
+        its reason in place of numbers, and None as ok.
         """
-        found = {key: value for key, value in vars(self).items() if key != "unit"} | {"ok": self.ok}
-        return found if math.isfinite(self.measured) else found | {"measured": None}
+        if self.reason:
+            return {"name": self.name, "reason": self.reason, "ok": None}
+        found = {key: value for key, value in vars(self).items() if key not in {"unit", "reason"}}
+        found["measured"] = self.measured if math.isfinite(self.measured) else None
+        return found | {"ok": self.ok}
 
 
 def table(predictions: Sequence[Prediction]) -> str:
@@ -91,22 +127,43 @@ def table(predictions: Sequence[Prediction]) -> str:
     if not predictions:
         return ""
     rows = [("predicted", "measured", "tolerance", "", "")]
-    for p in predictions:
-        numbers = number(p.predicted, p.tolerance), number(p.measured, p.tolerance)
-        tolerance = f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}"
-        rows.append((*numbers, tolerance, p.unit, "ok" if p.ok else "NOT OK"))
+    rows += [
+        ("", "", "", "", p.verdict) if p.reason else (*cells(p), p.unit, p.verdict)
+        for p in predictions
+    ]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     room = max(WIDTH - sum(widths) - 2 * len(widths), 8)
     names = [[""], *(textwrap.wrap(p.name, room) for p in predictions)]
     first = max(len(line) for name in names for line in name)
     lines = []
     for (*above, last), row in zip(names, rows, strict=True):
-        cells = [cell.rjust(w) for cell, w in zip(row[:3], widths, strict=False)]
-        cells += [row[3].ljust(widths[3]), row[4]]
-        lines += [*above, "  ".join([last.ljust(first), *cells]).rstrip()]
-    held = sum(p.ok for p in predictions)
-    lines.append(f"{held} of {counted(len(predictions), 'prediction')} ok")
-    return "\n".join(lines)
+        shown = [cell.rjust(w) for cell, w in zip(row[:3], widths, strict=False)]
+        shown += [row[3].ljust(widths[3]), row[4]]
+        lines += [*above, "  ".join([last.ljust(first), *shown]).rstrip()]
+    return "\n".join([*lines, summary(predictions), *_reasons(predictions)])
+
+
+def summary(predictions: Sequence[Prediction]) -> str:
+    """Return how many predictions hold, in words, such as ``3 of 4 predictions ok``."""
+    found = [p.ok for p in predictions]
+    silent, tested = found.count(None), len(found) - found.count(None)
+    parts = [f"{found.count(True)} of {counted(tested, 'prediction')} ok"] if tested else []
+    return ", ".join([*parts, f"{silent} not predicted"] if silent else parts)
+
+
+def _reasons(predictions: Sequence[Prediction]) -> list[str]:
+    """Return the reasons of silent predictions as lines, each reason once."""
+    reasons = dict.fromkeys(p.reason for p in predictions if p.reason)
+    wrapped = (textwrap.wrap(f"not predicted: {each}", WIDTH) for each in reasons)
+    return [line for lines in wrapped for line in lines]
+
+
+def cells(prediction: Prediction) -> tuple[str, str, str]:
+    """Return the predicted number with the sign of its bound, the measured one, the tolerance."""
+    p = prediction
+    tolerance = f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}"
+    predicted = SIGNS[p.bound] + number(p.predicted, p.tolerance)
+    return predicted, number(p.measured, p.tolerance), tolerance
 
 
 def number(value: float, tolerance: float) -> str:

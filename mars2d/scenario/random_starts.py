@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mars2d.bodies.rigid import Rigid, Triple
 from mars2d.core import checks
 from mars2d.core.arithmetic import norm, norms
-from mars2d.core.description import Description, accepts, entry, number
+from mars2d.core.description import Description, entry, number
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.plane import (
     Outline,
@@ -40,13 +40,6 @@ MARGIN = 1e-9
 """How far bodies start from each other and from walls at least, metres: rounding is less."""
 
 
-@accepts({"type": "array", "items": {"type": "string"}})
-def _names(name: str, value: object) -> tuple[str, ...]:
-    """Check a list of names, which may be empty."""
-    given = None if isinstance(value, (tuple, list)) and not value else value
-    return checks.names(name, given, "names of robots and props, such as ['red', 'box0']") or ()
-
-
 class RandomStarts(Description):
     """Where robots and props start at random: in an area, at a least distance, never overlapping.
 
@@ -61,9 +54,11 @@ class RandomStarts(Description):
     """
 
     bodies: Sequence[str] = entry(
-        default=(), check=_names, kw_only=False,
+        default=(),
+        check=checks.names("names of robots and props, such as ['red', 'box0']", 0),
+        kw_only=False,
         doc="the names of the robots and props; empty: all robots",
-    )  # fmt: skip
+    )
     area: Outline | None = entry(
         default=None, check=checks.optional(checks.outline, 3), unit="m",
         doc="the polygon in which their poses lie; None: the workspace",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property
+from math import inf
 from typing import Any, ClassVar, Self
 
 from mars2d.bodies.drives.base import Drive
@@ -12,7 +13,7 @@ from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
 from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import Description, choice, entry, number, text, wrong
-from mars2d.core.materials import check_static, surface_friction, surface_restitution
+from mars2d.core.materials import GRAVITY, check_static, surface_friction, surface_restitution
 from mars2d.core.plane import Point
 from mars2d.core.scene import optional_color
 from mars2d.geometry.shapes import Disc, Shape, known_shape
@@ -138,6 +139,12 @@ class Robot(Description):
         """Its mass [kg], and its moment of inertia about the centre of mass [kg m^2]."""
         about = self.chassis.moved(-self.mass_offset, 0.0) if self.mass_offset else self.chassis
         return inertia_of(about, self.mass, self.moment)
+
+    @property
+    def push(self) -> float:
+        """The most it can push with at rest: its drive's force, or what its wheels hold [N]."""
+        grip = self.drive.grip
+        return min(self.drive.max_force, inf if grip is None else grip * self.mass * GRAVITY)
 
     @property
     def surface(self) -> Surface:

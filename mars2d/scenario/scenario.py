@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mars2d.addons.base import Addon
 from mars2d.bodies.joints.base import AttachedJoint, Joint
 from mars2d.bodies.props.base import Prop
-from mars2d.bodies.rigid import Rigid
+from mars2d.bodies.rigid import Rigid, Surface
 from mars2d.core import checks
 from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import Description, choice, entry, number, snake_case, text, wrong
@@ -365,16 +365,28 @@ class Scenario(Description):
 
         a: an index of `bodies`. b: another, or -1 - k for obstacle k, as in contacts.
         """
-        one = self.bodies[a].surface
-        other = self.bodies[b].surface if b >= 0 else self.surfaces[-1 - b]
-        names = frozenset((material_of(one.friction), material_of(other.friction)))
-        for pair in self.material_pairs:
-            if pair.names == names and pair.friction is not None:
-                return max(pair.friction, pair.static_friction or 0.0)
-        still = (
-            s.friction if s.static_friction is None else s.static_friction for s in (one, other)
-        )
+        sides = self._surfaces(a, b)
+        pair = self._pair(*(side.friction for side in sides))
+        if pair is not None and pair.friction is not None:
+            return max(pair.friction, pair.static_friction or 0.0)
+        still = (s.friction if s.static_friction is None else s.static_friction for s in sides)
         return blended(self.friction_rule, *still)
+
+    def restitution_between(self, a: int, b: int) -> float:
+        """Return the coefficient of restitution of two bodies, numbered as for friction."""
+        bounces = [side.restitution for side in self._surfaces(a, b)]
+        pair = self._pair(*bounces)
+        if pair is not None and pair.restitution is not None:
+            return pair.restitution
+        return blended(self.restitution_rule, *bounces)
+
+    def _surfaces(self, a: int, b: int) -> tuple[Surface, Surface | Obstacle]:
+        return self.bodies[a].surface, self.bodies[b].surface if b >= 0 else self.surfaces[-1 - b]
+
+    def _pair(self, one: float, other: float) -> MaterialPair | None:
+        """Return the pair of the table whose materials gave two coefficients, if there is one."""
+        names = frozenset((material_of(one), material_of(other)))
+        return next((pair for pair in self.material_pairs if pair.names == names), None)
 
     @cached_property
     def last_iteration(self) -> int:

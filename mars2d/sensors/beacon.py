@@ -9,8 +9,7 @@ from typing import Any, ClassVar, NoReturn
 import numpy as np
 
 from mars2d.core import checks
-from mars2d.core.checks import NAMES
-from mars2d.core.description import accepts, entry, flag, number, wrong
+from mars2d.core.description import entry, flag, number
 from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, shown
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import Point
@@ -54,21 +53,6 @@ class Sightings(Mapping[str, Sighting]):
 
     def __repr__(self) -> str:
         return repr(self._sightings)
-
-
-@accepts(NAMES)
-def _names(name: str, value: object) -> tuple[str, ...] | None:
-    if value is None:
-        return None
-    expected = "a list of beacons' names, such as ['lamp'], or None"
-    if not isinstance(value, (tuple, list)) or not value:
-        raise wrong(name, value, expected)
-    for item in value:
-        if not isinstance(item, str):
-            raise wrong(name, value, expected)
-        if value.count(item) > 1:
-            raise InputError(f"{name}: {item!r} stands there twice")
-    return tuple(value)
 
 
 def _known(beacons: Mapping[str, Point]) -> list[str]:
@@ -115,7 +99,9 @@ class Beacon(Scanner):
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about its heading")
     through_walls: bool = flag(default=False, doc="whether it sees hidden beacons")
     names: tuple[str, ...] | None = entry(
-        default=None, check=_names, doc="the beacons that it looks for; None: all"
+        default=None,
+        check=checks.names("a list of beacons' names, such as ['lamp'], or None"),
+        doc="the beacons that it looks for; None: all",
     )
 
     def on_start(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mars2d.addons.contest import Contest
 from mars2d.core.errors import InputError, LawError, nearest, shown
 from mars2d.core.usercode import called, definition
-from mars2d.scenario.roles import contests_of
+from mars2d.scenario.roles import contest_of
 
 if TYPE_CHECKING:
     from mars2d.scenario.scenario import Scenario
@@ -32,13 +31,14 @@ EXPECTED = "expected a number, a word, or None where there is nothing to measure
 
 def capture_time(record: Record) -> float | None:
     """When the last evader of its contest was caught, seconds; nothing where one stayed free."""
-    time = _contest("capture_time", record.scenario).outcome(record).capture_time
+    contest = contest_of(record.scenario, "measure 'capture_time'")
+    time = contest.outcome(record).capture_time
     return None if math.isnan(time) else time
 
 
 def winner(record: Record) -> str | None:
     """The role that won its contest, a word; nothing where it stayed undecided."""
-    return _contest("winner", record.scenario).outcome(record).winner
+    return contest_of(record.scenario, "measure 'winner'").outcome(record).winner
 
 
 def end_time(record: Record) -> float | None:
@@ -84,18 +84,6 @@ def final_spread(record: Record) -> float | None:
 def effort(record: Record) -> float | None:
     """How much of their bounds the drives used, from 0 to 1: the mean over robots and time."""
     return float(record.effort[1:].mean()) if len(record) > 1 else None
-
-
-def _contest(measure: str, scenario: Scenario) -> Contest:
-    """Return a scenario's contest; raise InputError if it has none or several."""
-    contests = contests_of(scenario)
-    if len(contests) != 1:
-        found = f"{len(contests)} contests" if contests else "no contest"
-        raise InputError(
-            f"measure {measure!r}: the scenario has {found}: it needs one add-on as Game, which "
-            f"says who has won"
-        )
-    return contests[0]
 
 
 BUILT_IN: dict[str, Measure] = {
@@ -144,7 +132,7 @@ def measure_named(
         known = nearest(name, [*BUILT_IN, *more], most=20)
         raise InputError(f"there is no measure {name!r}{known}")
     if scenario is not None and name in ("capture_time", "winner"):
-        _contest(name, scenario)
+        contest_of(scenario, f"measure {name!r}")
     return BUILT_IN[name]
 
 

@@ -152,8 +152,6 @@ def _done(
             future = _next(done)
             try:
                 result = future.result()
-                if isinstance(result, _Packed):
-                    result = pickle.loads(result.content)
             except (BrokenExecutor, CancelledError) as error:
                 if not own:
                     raise _gone(error) from error
@@ -255,12 +253,6 @@ def _as_workers_need_it() -> Iterator[None]:
 # -- in a worker -----------------------------------------------------------------------------------
 
 
-class _Packed(NamedTuple):
-    """A result as bytes, on its way back."""
-
-    content: bytes
-
-
 def _attempt(function: Callable[[T], R], task: T) -> R | Failure:
     try:
         return function(task)
@@ -268,12 +260,12 @@ def _attempt(function: Callable[[T], R], task: T) -> R | Failure:
         return Failure(reason(error))
 
 
-def _attempt_packed(packed: bytes, limit: float | None) -> _Packed | Failure:
+def _attempt_packed(packed: bytes, limit: float | None) -> Any:
     """Attempt a function and a task; where it does not end at the limit, end this process."""
 
-    def call(packed: bytes) -> _Packed:
+    def call(packed: bytes) -> Any:
         function, task = pickle.loads(packed)
-        return _Packed(cloudpickle.dumps(function(task)))
+        return function(task)
 
     with Path(os.devnull).open("w") as nothing:
         if limit is not None:

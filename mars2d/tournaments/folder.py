@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
+import os
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, replace
@@ -13,8 +15,8 @@ from typing import Any
 from mars2d.core.errors import InputError
 from mars2d.core.files import growing, writing
 from mars2d.physics.settings import versions
-from mars2d.tournaments.isolation.limits import Limits, Verdict
-from mars2d.tournaments.match import Match, Played
+from mars2d.tournaments.isolation.limits import Verdict
+from mars2d.tournaments.match import Played
 from mars2d.tournaments.schedule import Schedule
 
 PLAYED = "played.jsonl"
@@ -24,28 +26,20 @@ FORMAT = 3
 """The version of the file's format; a folder with another version is refused."""
 
 
-def _prints(schedule: Schedule, limits: Limits) -> dict[int, str]:
+def _prints(schedule: Schedule) -> dict[int, str]:
     """Return a hash for each match, by number, of everything that determines its result.
 
     That is the experiment, laws, options, seed, limits and versions, but not the match's number.
     """
-    code = {
-        file: _hash(match.code[role].values())
-        for match in schedule.matches
-        for role, file in match.files.items()
-    }
-    others = sorted(schedule.files - {*map(Path, code)})
-    common = _hash([f"{versions()} {limits}".encode(), *(path.read_bytes() for path in others)])
-    return {
-        match.number: _hash(
-            [
-                common.encode(),
-                repr((match.options, match.seed, match.laws)).encode(),
-                *(code[file].encode() for file in match.files.values()),
-            ]
-        )
-        for match in schedule.matches
-    }
+    laws = {Path(file) for match in schedule.matches for file in match.files.values()}
+    others = [path.read_bytes() for path in sorted(schedule.files - laws)]
+    common = _hash([f"{versions()} {schedule.limits}".encode(), *others])
+    prints = {}
+    for match in schedule.matches:
+        settings = f"{common} {match.options} {match.seed} {match.laws}".encode()
+        code = itertools.chain(*(each.values() for each in match.code.values()))
+        prints[match.number] = _hash([settings, *code])
+    return prints
 
 
 def _hash(parts: Iterable[bytes]) -> str:
@@ -65,9 +59,9 @@ class Folder:
     InputError for a folder that holds anything else, or can't be written.
     """
 
-    def __init__(self, path: Path, schedule: Schedule, limits: Limits, replays: bool) -> None:
-        self._path, self._schedule = path, schedule
-        self._prints = _prints(schedule, limits)
+    def __init__(self, path: Path, schedule: Schedule, replays: bool) -> None:
+        self._path, self._head = path / PLAYED, _head(schedule)
+        self._prints = _prints(schedule)
         if path.exists() and not path.is_dir():
             raise InputError(f"{path}: this is a file; expected a folder")
         if not path.absolute().parent.is_dir():
@@ -85,17 +79,9 @@ class Folder:
         self._write({"sum": _sum(row), **row})
 
     def __enter__(self) -> Folder:
-        self._file = growing(self._path / PLAYED)
-        try:
-            self._file.seek(0)
-            data = self._file.read()
-            if not data:
-                self._write(_head(self._schedule))
-            elif not data.endswith(b"\n"):
-                self._file.write(b"\n")  # after a line that was not written to its end
-        except BaseException:
-            self._file.close()
-            raise
+        self._file = growing(self._path)
+        if not self._file.seek(0, os.SEEK_END):
+            self._write(self._head)
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -103,14 +89,15 @@ class Folder:
             self._file.close()
 
     def _write(self, row: Mapping[str, Any]) -> None:
-        with writing(self._path / PLAYED):
-            self._file.write(json.dumps(row).encode() + b"\n")
+        """Begin a line, since the one before may not have been written to its end."""
+        with writing(self._path):
+            self._file.write(b"\n" * bool(self._file.tell()) + json.dumps(row).encode())
             self._file.flush()
 
 
-def played_before(path: Path, schedule: Schedule, limits: Limits) -> tuple[Played, ...]:
+def played_before(path: Path, schedule: Schedule) -> tuple[Played, ...]:
     """Return the matches of a schedule that a folder holds; the folder need not exist."""
-    return _known(path, schedule, _prints(schedule, limits)) if path.is_dir() else ()
+    return _known(path, schedule, _prints(schedule)) if path.is_dir() else ()
 
 
 def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[Played, ...]:
@@ -126,11 +113,10 @@ def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[P
         return ()
     with writing(log):
         lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
-    head = _json(lines[0]) if lines else _head(schedule)
-    if head != _head(schedule):
-        written = head if isinstance(head, dict) else {}
-        other = written.get("experiment")
-        same = written.get("mars2d tournament") == FORMAT and other
+    head, expected = _json(lines[0]) if lines else {}, _head(schedule)
+    if lines and head != expected:
+        other = head.get("experiment") if isinstance(head, dict) else None
+        same = other and head == {**expected, "experiment": other}
         of = f"of a tournament of {other}" if same else "not of this version"
         raise InputError(f"{path}: is {of}; name another folder by --out")
     known = {}
@@ -145,11 +131,12 @@ def _known(path: Path, schedule: Schedule, prints: Mapping[int, str]) -> tuple[P
             )
         if not kept["error"]:
             known[kept.pop("print")] = kept
-    return tuple(
-        _played(known[mark], match)
-        for match in schedule.matches
-        if (mark := prints[match.number]) in known
-    )
+    played = []
+    for match in schedule.matches:
+        if kept := known.get(prints[match.number]):
+            verdicts = {role: Verdict(*each) for role, each in kept["verdicts"].items()}
+            played.append(Played(**{**kept, "match": match, "verdicts": verdicts}))
+    return tuple(played)
 
 
 def _sum(row: Mapping[str, Any]) -> str:
@@ -159,11 +146,6 @@ def _sum(row: Mapping[str, Any]) -> str:
 
 def _head(schedule: Schedule) -> dict[str, Any]:
     return {"mars2d tournament": FORMAT, "experiment": Path(schedule.experiment).name}
-
-
-def _played(kept: Mapping[str, Any], match: Match) -> Played:
-    verdicts = {role: Verdict(*verdict) for role, verdict in kept["verdicts"].items()}
-    return Played(**{**kept, "match": match, "verdicts": verdicts})
 
 
 def _json(line: str) -> Any:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import csv
-import html
 import io
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from functools import cached_property
+from html import escape
+from itertools import groupby
 from math import inf
 from pathlib import Path
 from statistics import fmean
@@ -16,10 +18,9 @@ from typing import TYPE_CHECKING, Any
 from mars2d.core.errors import InputError, one_line
 from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
-from mars2d.study.statistics import Interval, proportion
+from mars2d.study.statistics import proportion
 from mars2d.study.table import cell, word_cell
-from mars2d.tournaments.match import Played, settled
-from mars2d.tournaments.rules import Rules
+from mars2d.tournaments.match import Played
 from mars2d.tournaments.schedule import Schedule
 
 if TYPE_CHECKING:
@@ -32,33 +33,33 @@ UNPROTECTED = (
 WIN, DRAW = 1.0, 0.5
 """The points for a match; a loss gives none."""
 
-COUNTS = ("played", "won", "drawn", "lost", "forfeits")
-"""The numbers of matches in a standing, as all tables name and order them."""
-
 
 @dataclass(frozen=True)
 class Standing:
-    """A law's place in the league.
+    """A law's place in the league: a row of its table.
 
-    law: its name. role: the one it played, or empty if laws play all roles. played: matches with a
-    result. forfeits: matches lost because the law failed. points: 1 for a win, 1/2 for a draw.
-    share: of all points that it could have won, with Wilson's confidence interval. capture_time:
-    the mean over matches in which the evaders were caught, seconds; if laws play all roles, only
-    over those in which it was the hunter. None if there are none. place: in its table, from 1;
-    laws with equal points per match share a place, and the next ones come after all of them.
+    role: the one it played, or empty if laws play all roles. place: in its table, from 1; laws with
+    equal points per match share a place, and the next ones come after all of them. law: its name.
+    played: matches with a result. forfeits: matches lost because the law failed. points: 1 for a
+    win, 1/2 for a draw. share: of all points that it could have won, with Wilson's 95 % confidence
+    interval from share_low to share_high. capture_time: the mean over matches in which the evaders
+    were caught, seconds; if laws play all roles, only over those in which it was the hunter. None
+    if there are none.
     """
 
-    law: str
     role: str
+    place: int
+    law: str
     played: int
     won: int
     drawn: int
     lost: int
     forfeits: int
     points: float
-    share: Interval
+    share: float
+    share_low: float
+    share_high: float
     capture_time: float | None
-    place: int = 0
 
 
 def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
@@ -69,15 +70,14 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     place is that of their points.
     """
     laws = {role: {each.match.laws[role] for each in played} for role in roles}
-    tables: list[tuple[str, Sequence[str]]] = [(role, (role,)) for role in roles]
     if not set.isdisjoint(*laws.values()):
-        tables = [("", roles)]
+        laws = {"": set.union(*laws.values())}
     standings = []
-    for title, within in tables:
-        every = {law for role in within for law in laws[role]}
-        table = [_standing(law, title, within, roles, played) for law in every]
-        table.sort(key=lambda standing: _order(standing, roles))
-        rates = [_rate(standing) for standing in table]
+    for role, every in laws.items():
+        sign = -1 if role in roles[1:] else 1
+        table = [_standing(law, role, roles, played) for law in every]
+        table.sort(key=lambda each: (-_rate(each), sign * _time(each), each.law))
+        rates = [_rate(each) for each in table]
         standings += [replace(each, place=rates.index(_rate(each)) + 1) for each in table]
     return standings
 
@@ -86,39 +86,37 @@ def _rate(standing: Standing) -> float:
     return standing.points / max(standing.played, 1)
 
 
-def _standing(
-    law: str,
-    title: str,
-    within: Sequence[str],
-    roles: Sequence[str],
-    played: Sequence[Played],
-) -> Standing:
+def _time(standing: Standing) -> float:
+    return inf if standing.capture_time is None else standing.capture_time
+
+
+def _standing(law: str, role: str, roles: Sequence[str], played: Sequence[Played]) -> Standing:
     counted = [
-        (role, each)
+        (own, each)
         for each in played
-        for role in within
-        if each.match.laws[role] == law and not each.error
+        for own in ([role] if role else roles)
+        if each.match.laws[own] == law and not each.error
     ]
-    won = sum(each.winner == role for role, each in counted)
-    drawn = sum(is_draw(each) for _, each in counted)
-    points = WIN * won + DRAW * drawn
+    points = [points_of(each, own) for own, each in counted]
     times = [
         each.capture_time
-        for role, each in counted
-        if each.capture_time is not None and (title or role == roles[0])
+        for own, each in counted
+        if each.capture_time is not None and (role or own == roles[0])
     ]
-    return Standing(
-        law=law,
-        role=title,
-        played=len(counted),
-        won=won,
-        drawn=drawn,
-        lost=len(counted) - won - drawn,
-        forfeits=sum(role in each.verdicts for role, each in counted),
-        points=points,
-        share=proportion(points, len(counted)),
-        capture_time=fmean(times) if times else None,
-    )
+    won, drawn = points.count(WIN), points.count(DRAW)
+    lost = len(points) - won - drawn
+    forfeits = sum(own in each.verdicts for own, each in counted)
+    counts = (len(points), won, drawn, lost, forfeits)
+    share = proportion(sum(points), len(points))
+    of_all = (share.mean, share.low, share.high)
+    time = fmean(times) if times else None
+    return Standing(role, 0, law, *counts, sum(points), *of_all, time)
+
+
+def points_of(played: Played, role: str) -> float:
+    """Return the points that the law of a role took in a match."""
+    drawn = played.winner is None and not played.verdicts and not played.error
+    return WIN * (played.winner == role) + DRAW * drawn
 
 
 def matches_of(count: int) -> str:
@@ -126,134 +124,88 @@ def matches_of(count: int) -> str:
     return "1 match" if count == 1 else f"{count} matches"
 
 
-def group_of(law: str) -> str:
-    """Return the group that a law is of: the name of its file, without folders."""
-    return law.rpartition("/")[2]
-
-
-def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
-    """Return a group's row in the grading sheet, from its roles and matches."""
-    reasons = [each.verdicts[role] for role, each in matches if role in each.verdicts]
-    firsts = {verdict.kind: verdict.text for verdict in reversed(reasons)}
-    kinds = Counter(verdict.kind for verdict in reasons)
-    return {
-        "group": group,
-        "matches": len(matches),
-        "points": sum(points_of(each, role) for role, each in matches),
-        "forfeits": len(reasons),
-        "reasons": "; ".join(
-            f"{matches_of(count)}: {kind}: {firsts[kind]}" for kind, count in kinds.items()
-        ),
-    }
-
-
-def points_of(played: Played, role: str) -> float:
-    """Return the points that the law of a role took in a match."""
-    return WIN * (played.winner == role) + DRAW * is_draw(played)
-
-
-def is_draw(played: Played) -> bool:
-    """Return whether a match has no winner although no law failed."""
-    return played.winner is None and not played.verdicts and not played.error
-
-
-def _order(standing: Standing, roles: Sequence[str]) -> tuple[float, float, str]:
-    time = inf if standing.capture_time is None else standing.capture_time
-    evades = standing.role in roles[1:]
-    return -_rate(standing), -time if evades else time, standing.law
-
-
-def head_to_head(played: Iterable[Played], roles: Sequence[str]) -> Mapping[tuple[str, str], float]:
-    """Return the points that each law of the first role took from each law of the second."""
-    points: dict[tuple[str, str], float] = {}
-    for each in played:
-        if not each.error:
-            first, second = (each.match.laws[role] for role in roles)
-            won = points_of(each, roles[0])
-            points[first, second] = points.get((first, second), 0.0) + won
-    return points
-
-
 # -- the tournament --------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Tournament:
-    """The results of a tournament.
+    """The results of a tournament: of the matches of its schedule, in order."""
 
-    title, experiment: those of the scenario. roles: those of its contest. matches: their results,
-    in order. standings: best first, role by role if each law plays only one. settings: the options
-    in which rounds differ. rules: of the game, for people.
-    """
-
-    title: str
-    experiment: str
-    roles: tuple[str, ...]
+    schedule: Schedule
     matches: tuple[Played, ...] = field(repr=False)
-    standings: tuple[Standing, ...]
-    settings: tuple[str, ...] = ()
-    rules: Rules | None = field(default=None, repr=False)
 
-    @classmethod
-    def of(cls, schedule: Schedule, matches: Iterable[Played]) -> Tournament:
-        """Return the tournament of a schedule from the matches that were played, in any order."""
-        done = tuple(settled(schedule.matches, matches))
-        return cls(
-            title=schedule.title,
-            experiment=schedule.experiment,
-            roles=schedule.roles,
-            matches=done,
-            standings=tuple(league(done, schedule.roles)),
-            settings=schedule.settings,
-            rules=schedule.rules,
-        )
+    @cached_property
+    def standings(self) -> tuple[Standing, ...]:
+        """How each law stands, best first, role by role if each law plays only one."""
+        return tuple(league(self.matches, self.schedule.roles))
 
     @property
     def unprotected(self) -> bool:
         """Whether a match was played where the system does not keep laws from harming others."""
         return any(not played.protected for played in self.matches)
 
+    def laws(self, *roles: str) -> list[str]:
+        """Return the laws that play any of these roles, best first."""
+        playing = {played.match.laws[role] for played in self.matches for role in roles}
+        return [law for law in dict.fromkeys(s.law for s in self.standings) if law in playing]
+
+    def rounds(self) -> dict[str, list[Played]]:
+        """Return the matches of each round, by the settings in which rounds differ, as text."""
+        rounds: dict[str, list[Played]] = {}
+        for played in self.matches:
+            rounds.setdefault(self.schedule.round_of(played.match), []).append(played)
+        return rounds
+
+    def head_to_head(self) -> dict[str, dict[str, list[float]]]:
+        """Return the points that each law took from each other, match by match.
+
+        From the laws of the first role to those of the second; if a law plays both, from all to
+        all. Laws that did not meet have an empty list.
+        """
+        first, second = self.schedule.roles
+        rows, columns = self.laws(first), self.laws(second)
+        swapped = not set(rows).isdisjoint(columns)
+        if swapped:
+            rows = columns = self.laws(first, second)
+        points: dict[str, dict[str, list[float]]] = {
+            row: {column: [] for column in columns} for row in rows
+        }
+        for played in self.matches:
+            if not played.error:
+                one, other = (played.match.laws[role] for role in (first, second))
+                points[one][other].append(points_of(played, first))
+                if swapped:
+                    points[other][one].append(points_of(played, second))
+        return points
+
+    # -- tables --------------------------------------------------------------------------------
+
     def rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each match: its number, settings, seed, laws and result.
 
         ``verdict`` names the role and fault of each law that failed, such as ``pursuer: slow``.
         """
-        return tuple(self._row(played) for played in self.matches)
-
-    def _row(self, played: Played) -> dict[str, Any]:
-        match = played.match
-        settings = {name: match.options.get(name) for name in self.settings}
-        verdicts = [f"{role}: {verdict.kind}" for role, verdict in played.verdicts.items()]
-        return {
-            "match": match.number,
-            **settings,
-            "seed": match.seed,
-            **{role: match.laws[role] for role in self.roles},
-            "winner": played.winner,
-            **{f"{role}_score": played.score.get(role) for role in self.roles},
-            "capture_time": played.capture_time,
-            "steps": played.steps,
-            "verdict": "; ".join(verdicts),
-            "message": played.message,
-            "digest": played.digest,
-        }
+        roles = self.schedule.roles
+        return tuple(
+            {
+                "match": played.match.number,
+                **{name: played.match.options.get(name) for name in self.schedule.settings},
+                "seed": played.match.seed,
+                **{role: played.match.laws[role] for role in roles},
+                "winner": played.winner,
+                **{f"{role}_score": played.score.get(role) for role in roles},
+                "capture_time": played.capture_time,
+                "steps": played.steps,
+                "verdict": "; ".join(f"{role}: {v.kind}" for role, v in played.verdicts.items()),
+                "message": played.message,
+                "digest": played.digest,
+            }
+            for played in self.matches
+        )
 
     def standing_rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each law: its place in its table, and its results."""
-        return tuple(
-            {
-                "role": standing.role,
-                "place": standing.place,
-                "law": standing.law,
-                **{name: getattr(standing, name) for name in COUNTS},
-                "points": standing.points,
-                "share": standing.share.mean,
-                "share_low": standing.share.low,
-                "share_high": standing.share.high,
-                "capture_time": standing.capture_time,
-            }
-            for standing in self.standings
-        )
+        return tuple(map(asdict, self.standings))
 
     def grade_rows(self) -> tuple[dict[str, Any], ...]:
         """Return a row for each group, which is the name of its files: matches, points, forfeits.
@@ -264,7 +216,7 @@ class Tournament:
         for played in self.matches:
             if not played.error:
                 for role, law in played.match.laws.items():
-                    groups.setdefault(group_of(law), []).append((role, played))
+                    groups.setdefault(law.rpartition("/")[2], []).append((role, played))
         return tuple(_grade(group, groups[group]) for group in sorted(groups))
 
     def _table(self, name: str) -> tuple[dict[str, Any], ...]:
@@ -295,16 +247,30 @@ class Tournament:
         return target
 
     def _repr_html_(self) -> str:
-        """Return the league as a table, for a notebook."""
-        rows = self.standing_rows()
-        lines = [[*rows[0]] if rows else [], *([_shown(v) for v in row.values()] for row in rows)]
-        cells = ("".join(f"<td>{html.escape(cell)}</td>" for cell in line) for line in lines)
-        body = "".join(f"<tr>{row}</tr>" for row in cells)
-        return f"<table><caption>{html.escape(self.title)}</caption>{body}</table>"
+        """Return the league as tables, for a notebook."""
+        found = ""
+        for standings, rows in league_tables(self):
+            lines = [[*rows[0]], *(row.values() for row in rows)]
+            cells = ("".join(f"<td>{escape(text)}</td>" for text in line) for line in lines)
+            body = "".join(f"<tr>{row}</tr>" for row in cells)
+            found += f"<table><caption>{escape(standings[0].role)}</caption>{body}</table>"
+        return found
 
 
-def _shown(value: Any) -> str:
-    return f"{value:.3g}" if isinstance(value, float) else "" if value is None else str(value)
+def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
+    """Return a group's row in the grading sheet, from its roles and matches."""
+    reasons = [each.verdicts[role] for role, each in matches if role in each.verdicts]
+    firsts = {verdict.kind: verdict.text for verdict in reversed(reasons)}
+    kinds = Counter(verdict.kind for verdict in reasons)
+    return {
+        "group": group,
+        "matches": len(matches),
+        "points": sum(points_of(each, role) for role, each in matches),
+        "forfeits": len(reasons),
+        "reasons": "; ".join(
+            f"{matches_of(count)}: {kind}: {firsts[kind]}" for kind, count in kinds.items()
+        ),
+    }
 
 
 def _cell(value: Any) -> str:
@@ -312,3 +278,33 @@ def _cell(value: Any) -> str:
     if value is None or value != value:  # noqa: PLR0124 - nan
         return ""
     return word_cell(one_line(" ".join(value.split()))) if isinstance(value, str) else cell(value)
+
+
+# -- the league as text ----------------------------------------------------------------------------
+
+ALWAYS_SHOWN = ("place", "law", "points", "share (95 %)", "played")
+"""The columns that are always shown; others are left out if they have no values."""
+
+
+def league_tables(tournament: Tournament) -> Iterator[tuple[list[Standing], list[dict[str, str]]]]:
+    """Yield each league table: its standings, and their rows as text, by the columns' headings."""
+    for _, group in groupby(tournament.standings, key=lambda standing: standing.role):
+        standings = [*group]
+        rows = [_texts(standing) for standing in standings]
+        shown = {k for row in rows for k in row if k in ALWAYS_SHOWN or row[k] not in ("0", "-")}
+        yield standings, [{k: text for k, text in row.items() if k in shown} for row in rows]
+
+
+def _texts(standing: Standing) -> dict[str, str]:
+    """Return a standing as text, by the headings of its columns."""
+    share = f"{standing.share:.2f} ({standing.share_low:.2f} to {standing.share_high:.2f})"
+    time = standing.capture_time
+    counts = ("played", "won", "drawn", "lost", "forfeits")
+    return {
+        "place": f"{standing.place}",
+        "law": standing.law,
+        "points": f"{standing.points:g}",
+        "share (95 %)": share if standing.played else "-",
+        **{name: f"{getattr(standing, name)}" for name in counts},
+        "caught after": "-" if time is None else f"{time:.1f} s",
+    }

@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from math import isnan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mars2d.addons.contest import Outcome
-from mars2d.core.errors import LawError
-from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.roles import contest_of
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.roles import contest_of, roles_of
+from mars2d.tournaments.isolation import run_isolated
 from mars2d.tournaments.isolation.jail import is_protected
 from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits, Verdict
-from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 from mars2d.world.verify import rerun
 
-if TYPE_CHECKING:
-    from mars2d.tournaments.isolation import Guard
-
-
 TIME_OUTS = 2
 """In how many matches a law may run out of time, before it forfeits the rest."""
+
+LATE = Verdict(
+    "late", f"ran out of time in {TIME_OUTS} matches before, and forfeits the rest", time=0.0
+)
+"""On a law in a match that is not played any more."""
 
 
 @dataclass(frozen=True)
@@ -77,13 +77,19 @@ class Played:
         return cls(match, message=f"no result: {error}", error=error)
 
     @classmethod
-    def not_played(cls, match: Match, roles: Sequence[str]) -> Played:
-        """Return a match that some roles forfeit without playing, since they ran out of time."""
-        told = f"ran out of time in {TIME_OUTS} matches before, and forfeits the rest"
-        verdicts = {role: Verdict("late", told, 0.0) for role in roles}
-        winner = _left(verdicts, tuple(match.laws))
-        message = _forfeits(match, verdicts, winner)
-        return cls(match, winner=winner, message=message, verdicts=verdicts)
+    def forfeited(
+        cls, match: Match, verdicts: Mapping[str, Verdict], roles: Iterable[str], **more: Any
+    ) -> Played:
+        """Return a match that the laws with verdicts have lost; the other one, if any, has won."""
+        faults = []
+        for role, verdict in verdicts.items():
+            when = "" if verdict.kind == "late" else f" after {verdict.time:g} s"
+            faults.append(
+                f"{match.laws[role]} forfeits as {role}{when}: {verdict.kind}: {verdict.text}"
+            )
+        winner = next((role for role in roles if role not in verdicts), None)
+        message = "; ".join([*faults, f"{winner or 'nobody'} wins"])
+        return cls(match, winner=winner, message=message, verdicts=verdicts, **more)
 
 
 def settled(planned: Iterable[Match], played: Iterable[Played]) -> list[Played]:
@@ -96,9 +102,9 @@ def settled(planned: Iterable[Match], played: Iterable[Played]) -> list[Played]:
     time_outs: Counter[str] = Counter()
     results = []
     for match in planned:
-        late = [role for role, law in match.laws.items() if time_outs[law] >= TIME_OUTS]
+        late = {role: LATE for role, law in match.laws.items() if time_outs[law] >= TIME_OUTS}
         if late:
-            results.append(Played.not_played(match, late))
+            results.append(Played.forfeited(match, late, match.laws))
         elif result := known.get(match.number):
             results.append(result)
             slow = [role for role, v in result.verdicts.items() if v.kind in OUT_OF_TIME]
@@ -120,68 +126,27 @@ def replayed(match: Match, limits: Limits, replays: bool = False) -> tuple[Playe
 
     The match is run again from its recorded commands: if that leads elsewhere, it has no result.
     """
-    from mars2d.tournaments.isolation import Guard
+    from mars2d.output.pages.replay import replay_data
 
     experiment = open_experiment(match.experiment, match.options, seed=match.seed)
     contest = contest_of(experiment.scenario, match.experiment)
-    roles = tuple(role for role, _ in contest.roles)
-    teams = dict(zip(roles, contest.teams(experiment.scenario), strict=True))
+    teams = roles_of(experiment.scenario)
     laws = {role: (Path(file), teams[role]) for role, file in match.files.items()}
-    with Guard(experiment.scenario, laws, match.seed, limits, match.code) as guard:
-        record = _record(experiment, guard)
+    record, verdicts, output = run_isolated(experiment, laws, limits, match.code)
     if len(record) and (departure := rerun(record)):
         error = f"run again from its recorded commands, it departs at {departure}"
         return Played.without_result(match, error), record
-    verdicts = dict(guard.verdicts)
     outcome = contest.outcome(record) if len(record) else Outcome((), {}, None)
-    caught = bool(outcome.captures) and not verdicts and not isnan(outcome.capture_time)
-    winner = _left(verdicts, roles) if verdicts else outcome.winner
-    played = Played(
-        match,
-        winner=winner,
-        score={role: float(score) for role, score in outcome.score.items()},
-        capture_time=outcome.capture_time if caught else None,
-        message=_forfeits(match, verdicts, winner) if verdicts else record.over_message,
-        verdicts=verdicts,
-        output={role: text for role, text in guard.output.items() if text},
-        digest=record.digest,
-        steps=max(len(record) - 1, 0),
-        replay=_replay(record) if replays else "",
-        protected=is_protected(),
-    )
-    return played, record
-
-
-def _record(experiment: Experiment, guard: Guard) -> Record:
-    """Return the record of a match, even if the failure of a guarded law ended it."""
-    try:
-        return simulate(replace(experiment, scenario=guard.scenario)).record
-    except LawError as error:
-        if not guard.verdicts or error.record is None:
-            raise
-        record: Record = error.record
-        return record
-
-
-def _left(verdicts: Mapping[str, Verdict], roles: tuple[str, ...]) -> str | None:
-    """Return the only role whose law has not failed, or None."""
-    left = [role for role in roles if role not in verdicts]
-    return left[0] if len(left) == 1 else None
-
-
-def _forfeits(match: Match, verdicts: Mapping[str, Verdict], winner: str | None) -> str:
-    """Say which laws have forfeited a match, and why."""
-    faults = []
-    for role, verdict in verdicts.items():
-        when = "" if verdict.kind == "late" else f" after {verdict.time:g} s"
-        faults.append(
-            f"{match.laws[role]} forfeits as {role}{when}: {verdict.kind}: {verdict.text}"
-        )
-    return "; ".join([*faults, f"{winner} wins" if winner else "nobody wins"])
-
-
-def _replay(record: Record) -> str:
-    """Return the data of a record's replay, or empty if the record is."""
-    from mars2d.output.pages.replay import replay_data
-
-    return replay_data(record) if len(record) else ""
+    result: dict[str, Any] = {
+        "score": {role: float(score) for role, score in outcome.score.items()},
+        "output": output,
+        "digest": record.digest,
+        "steps": max(len(record) - 1, 0),
+        "replay": replay_data(record) if replays and len(record) else "",
+        "protected": is_protected(),
+    }
+    if verdicts:
+        return Played.forfeited(match, verdicts, teams, **result), record
+    time = None if isnan(outcome.capture_time) else outcome.capture_time
+    message = record.over_message
+    return Played(match, outcome.winner, capture_time=time, message=message, **result), record

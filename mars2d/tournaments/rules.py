@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from mars2d.addons.contest import Contest
@@ -12,6 +13,7 @@ from mars2d.core.errors import counted
 from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
+from mars2d.scenario.roles import contest_of, roles_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.tournaments.isolation.limits import Limits
 
@@ -44,96 +46,88 @@ EDGE = {
 class Role:
     """A role in words.
 
-    colors: of its robots, each once. robots: their names. aim: how it wins, or "". drive: how they
-    move. command: of which two numbers. sees: what its law may know.
+    colors: of its robots, each once. aim: how it wins, or "". facts: about its robots and what its
+    law may do, by term.
     """
 
     name: str
     colors: tuple[str, ...]
-    robots: tuple[str, ...]
     aim: str
-    drive: str
-    command: str
-    sees: str
+    facts: Mapping[str, str]
 
     @classmethod
     def of(cls, name: str, team: Sequence[int], contest: Contest, scenario: Scenario) -> Role:
         """Return a role of a contest; team: its robots, by index."""
         robots = [scenario.robots[index] for index in team]
-        return cls(
-            name,
-            tuple(dict.fromkeys(scenario.colors[index] for index in team)),
-            tuple(str(robot.name) for robot in robots),
-            contest.aim(name, scenario),
-            " or ".join(dict.fromkeys(map(_drive, robots))),
-            " or ".join(dict.fromkeys(map(_command, robots))),
-            " or ".join(dict.fromkeys(map(_sees, robots))),
-        )
+        facts = {
+            "Robots": ", ".join(str(robot.name) for robot in robots),
+            "Drive": " or ".join(dict.fromkeys(map(_drive, robots))),
+            "A law returns": " or ".join(dict.fromkeys(map(_command, robots))),
+            "It sees": " or ".join(dict.fromkeys(map(_sees, robots))),
+        }
+        colors = dict.fromkeys(scenario.colors[index] for index in team)
+        return cls(name, tuple(colors), contest.aim(name, scenario), facts)
 
 
 @dataclass(frozen=True)
 class Rules:
     """The rules of a game in words.
 
-    game: as commands name it. title: of the scenario. story: the docstring of its file. counts:
-    what the referee counts. arena, time, steps: where, for how long, and how often laws are asked.
-    start: a picture of the start, SVG. limits: of each law.
+    game: as commands name it. title: of the scenario. story: the docstring of its file. roles: by
+    their names. facts: on the referee, the arena and the limits, by term. start: a picture of the
+    start, SVG.
     """
 
     game: str
     title: str
     story: str
-    roles: tuple[Role, ...]
-    counts: str
-    arena: str
-    time: str
+    roles: Mapping[str, Role]
+    facts: Mapping[str, str]
     start: str
-    limits: Limits = field(default_factory=Limits)
 
     @classmethod
-    def of(cls, experiment: Experiment, contest: Contest) -> Rules:
-        """Return the rules of an experiment with a contest."""
+    def of(cls, experiment: Experiment, limits: Limits) -> Rules:
+        """Return the rules of an experiment with a contest; limits: of each law."""
         scenario, path = experiment.scenario, experiment.source.path
+        contest = contest_of(scenario, experiment.source.name)
         game = experiment.source.name or scenario.title
         if path is not None and path in examples().values():
             game = experiment_name(path)
-        teams = zip(contest.roles, contest.teams(scenario), strict=True)
+        facts = {
+            "What is counted": contest.counts,
+            "Arena": _arena(scenario),
+            "Time": f"{scenario.stop_time:g} s at most; a law is asked every "
+            f"{scenario.sampling_time:g} s.",
+            "Points": "A match won gives 1 point, a draw ½.",
+            "Forfeit": f"A law forfeits the match by an error, by a command that is not two "
+            f"finite numbers, by more than {limits.tick:g} s for one step or {limits.match:g} s "
+            f"for all of a match, or by more than {limits.memory:g} MB.",
+        }
         return cls(
             game=game,
             title=scenario.title or experiment_name(Path(game)),
             story=_docstring(path),
-            roles=tuple(Role.of(name, team, contest, scenario) for (name, _), team in teams),
-            counts=contest.counts,
-            arena=_arena(scenario),
-            time=f"{scenario.stop_time:g} s at most; a law is asked every "
-            f"{scenario.sampling_time:g} s.",
+            roles={
+                name: Role.of(name, team, contest, scenario)
+                for name, team in roles_of(scenario).items()
+            },
+            facts=facts,
             start=scenario._repr_svg_(),
         )
-
-    @property
-    def colors(self) -> Mapping[str, tuple[str, ...]]:
-        """The colours of each role's robots."""
-        return {role.name: role.colors for role in self.roles}
 
 
 def _docstring(path: Path | None) -> str:
     """Return the docstring of a Python file, or ""."""
-    if path is None or path.suffix != ".py":
-        return ""
-    try:
-        return ast.get_docstring(ast.parse(path.read_bytes())) or ""
-    except (OSError, SyntaxError, ValueError):
-        return ""
+    with suppress(OSError, SyntaxError, ValueError):
+        if path is not None and path.suffix == ".py":
+            return ast.get_docstring(ast.parse(path.read_bytes())) or ""
+    return ""
 
 
 def _drive(robot: Robot) -> str:
-    drive = robot.drive
-    bounds = [
-        words.format(bound)
-        for name, words in BOUNDS.items()
-        if (bound := getattr(drive, name, None)) is not None and bound < 1e3
-    ]
-    return ", ".join([type(drive).__name__, *bounds])
+    bounds = {words: getattr(robot.drive, name, None) for name, words in BOUNDS.items()}
+    told = [words.format(bound) for words, bound in bounds.items() if bound and bound < 1e3]
+    return ", ".join([type(robot.drive).__name__, *told])
 
 
 def _command(robot: Robot) -> str:

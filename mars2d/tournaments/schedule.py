@@ -6,17 +6,20 @@ import glob
 import itertools
 import os
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.scenario.examples import examples, experiment_name
-from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.policy import SUFFIX as POLICY
-from mars2d.scenario.roles import contest_of
+from mars2d.scenario.roles import contest_of, roles_of
 from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
+from mars2d.tournaments.isolation.limits import LIMITS, Limits
 from mars2d.tournaments.isolation.source import law_code
 from mars2d.tournaments.match import Match
 from mars2d.tournaments.rules import Rules
@@ -38,17 +41,22 @@ class Schedule:
     """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
 
     title, experiment: those of the scenario. roles: those of its contest, in order. settings: the
-    options in which rounds differ. files: those that were read for the experiment itself. rules: of
-    the game, in the first round.
+    options in which rounds differ. limits: of each law. files: those that were read for the
+    experiment itself. rules: of the game, in the first round.
     """
 
     title: str
     experiment: str
     roles: tuple[str, ...]
     settings: tuple[str, ...]
-    matches: tuple[Match, ...]
-    files: frozenset[Path] = frozenset()
-    rules: Rules | None = None
+    limits: Limits
+    matches: tuple[Match, ...] = field(repr=False)
+    files: frozenset[Path] = field(repr=False)
+    rules: Rules = field(repr=False)
+
+    def round_of(self, match: Match) -> str:
+        """Return the name of a match's round: the settings in which rounds differ."""
+        return ", ".join(f"{name} = {match.options.get(name)}" for name in self.settings)
 
 
 def schedule(
@@ -60,6 +68,7 @@ def schedule(
     first_seed: int = 0,
     settings: Mapping[str, Any] | None = None,
     stop_time: float | None = None,
+    limits: Limits = LIMITS,
 ) -> Schedule:
     """Return the schedule in which each law of a role plays each of the other, with all seeds.
 
@@ -67,25 +76,16 @@ def schedule(
     InputError for anything that can't be played.
     """
     if not isinstance(experiment, (str, Path)):
-        raise InputError(
-            f"experiment = {shown(experiment)}: expected a file, or the name of an example"
-        )
+        raise wrong("experiment", experiment, "a file, or the name of an example")
     plan = Plan(settings_of(settings), seeds_of(seeds, first_seed))
     always = {} if stop_time is None else {"stop_time": stop_time}
     rounds = [{**point, **always} for point in plan.points()]
-    opened = open_experiment(experiment, rounds[0], seed=plan.seeds[0])
-    contest = contest_of(opened.scenario, str(experiment))
-    parts = contest.roles
-    names = tuple(role for role, _ in parts)
-    for options in (probe | always for probe in plan.probes()):  # before any match, not after many
-        scenario = open_experiment(experiment, options, seed=plan.seeds[0]).scenario
-        other = contest_of(scenario, str(experiment))
-        other.teams(scenario)
-        if tuple(role for role, _ in other.roles) != names:
+    opened, names = _opened(experiment, rounds[0], plan.seeds[0])
+    for probe in plan.probes():  # before any match, not after many
+        if _opened(experiment, probe | always, plan.seeds[0])[1] != names:
             raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
     _check_names(plan.settings, names)
-    beside = None if opened.source.path is None else opened.source.path.parent
-    taking_part = entrants(names, roles or {}, players or (), beside)
+    taking_part = entrants(names, roles or {}, players or (), _beside(opened))
     pairings = [
         {role: str(law) for role, law in zip(names, laws, strict=True)}
         for laws in itertools.product(*taking_part.values())
@@ -118,10 +118,20 @@ def schedule(
         experiment=named,
         roles=names,
         settings=tuple(plan.settings),
+        limits=limits,
         matches=matches,
         files=frozenset(opened.source.written),
-        rules=Rules.of(opened, contest),
+        rules=Rules.of(opened, limits),
     )
+
+
+def game_rules(
+    experiment: str, limits: Limits, settings: Mapping[str, Any], stop_time: float | None, seed: int
+) -> Rules:
+    """Return the rules of a game in its first round, for which nobody need play."""
+    first = next(Plan(settings_of(settings), (seed,)).points())
+    always = {} if stop_time is None else {"stop_time": stop_time}
+    return Rules.of(_opened(experiment, {**first, **always}, seed)[0], limits)
 
 
 def trial_matches(
@@ -131,18 +141,30 @@ def trial_matches(
 
     Raises InputError for a role or a file that is not there, and for a law of another role.
     """
-    opened = open_experiment(experiment, options)
-    names = tuple(name for name, _ in contest_of(opened.scenario, experiment).roles)
+    opened, names = _opened(experiment, options)
     if role not in names:
         raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
-    beside = None if opened.source.path is None else opened.source.path.parent
-    files = law_files(laws, beside)
+    files = law_files(laws, _beside(opened))
     check_meant(role, files, names)
     each = itertools.product(files, range(TRIALS))
     return tuple(
         Match(number, experiment, options, seed, {role: file.stem}, {role: str(file)})
         for number, (file, seed) in enumerate(each, 1)
     )
+
+
+def _opened(
+    experiment: str | Path, options: Mapping[str, Any], seed: int | None = None
+) -> tuple[Experiment, tuple[str, ...]]:
+    """Return an experiment with a contest, and its roles."""
+    opened = open_experiment(experiment, options, seed=seed)
+    contest_of(opened.scenario, str(experiment))
+    return opened, tuple(roles_of(opened.scenario))
+
+
+def _beside(opened: Experiment) -> Path | None:
+    """Return the folder of an experiment's file."""
+    return None if opened.source.path is None else opened.source.path.parent
 
 
 def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
@@ -185,53 +207,29 @@ def law_files(named: Files, beside: Path | None = None) -> tuple[Path, ...]:
     parts = [part.strip() for each in given for part in str(each).split(",") if part.strip()]
     if given and not parts:
         raise InputError(f"{named!r}: {EXPECTED}")
-    return tuple(dict.fromkeys(file for part in parts for file in _files(part, beside)))
-
-
-def _files(part: str, beside: Path | None) -> list[Path]:
     folders = [Path.cwd()] if beside is None else [Path.cwd(), beside]
+    return tuple(dict.fromkeys(file for part in parts for file in _files(part, folders)))
+
+
+def _files(part: str, folders: Sequence[Path]) -> list[Path]:
+    """Return the files that one name stands for; their paths have no `..`."""
     for folder in folders:
         path = folder / part
-        if path.is_dir():
-            inside = _laws(path.iterdir())
-            if not inside:
-                raise InputError(f"{part}: no law in this folder; {EXPECTED}")
-            return inside
+        if path.is_file() and path.suffix in SUFFIXES:
+            return [Path(os.path.normpath(path))]
         if path.is_file():
-            if path.suffix not in SUFFIXES:
-                raise InputError(f"{part}: expected the file of a law, which ends in .py or .onnx")
-            return [_plain(path)]
-        found = _laws(map(Path, glob.glob(str(path))))  # noqa: PTH207 - of absolute patterns, too
-        if found:
-            return found
-    raise InputError(f"{part}: no such file; {EXPECTED}{_near(part, folders)}")
-
-
-def _laws(paths: Iterable[Path]) -> list[Path]:
-    """Return those files that can be laws, sorted."""
-    return sorted(
-        _plain(path)
-        for path in paths
-        if path.suffix in SUFFIXES and path.is_file() and not path.name.startswith("_")
-    )
-
-
-def _plain(path: Path) -> Path:
-    """Return an absolute path without `..`, which is the same however the file was named."""
-    return Path(os.path.normpath(path.absolute()))
-
-
-def _near(part: str, folders: Sequence[Path]) -> str:
-    """Return the nearest existing name, as the end of a message."""
+            raise InputError(f"{part}: expected the file of a law, which ends in .py or .onnx")
+        inside = path.iterdir() if path.is_dir() else glob.glob(str(path))  # noqa: PTH207 - absolute
+        found = [Path(os.path.normpath(each)) for each in inside]
+        laws = [each for each in found if each.suffix in SUFFIXES and each.name[0] != "_"]
+        if laws:
+            return sorted(filter(Path.is_file, laws))
+        if path.is_dir():
+            raise InputError(f"{part}: no law in this folder; {EXPECTED}")
     parent = Path(part).parent
-    names = {
-        str(parent / path.name)
-        for folder in folders
-        if (folder / parent).is_dir()
-        for path in (folder / parent).iterdir()
-        if path.suffix in SUFFIXES or path.is_dir()
-    }
-    return likely(part, names)
+    others = [path for folder in folders for path in (folder / parent).glob("*")]
+    names = [str(parent / path.name) for path in others if path.is_dir() or path.suffix in SUFFIXES]
+    raise InputError(f"{part}: no such file; {EXPECTED}{likely(part, names)}")
 
 
 def entrants(
@@ -271,13 +269,12 @@ def names_of(files: Iterable[str | Path]) -> dict[str, str]:
     >>> names_of(["a/hunt.py", "b/hunt.py", "b/flee.py"])
     {'a/hunt.py': 'a/hunt', 'b/hunt.py': 'b/hunt', 'b/flee.py': 'flee'}
     """
-    paths = {str(file): Path(file).with_suffix("").parts for file in files}
     names = {}
-    for file, parts in paths.items():
-        others = [other for key, other in paths.items() if key != file]
-        depth = next(
-            (k for k in range(1, len(parts)) if all(o[-k:] != parts[-k:] for o in others)),
-            len(parts),
-        )
-        names[file] = repr("/".join(parts[-depth:]))[1:-1]
-    return names
+    for file in dict.fromkeys(map(Path, files)):
+        parts = file.with_suffix("").parts
+        names[str(file)] = ["/".join(parts[-k:]) for k in range(1, len(parts) + 1)]
+    counts = Counter(itertools.chain(*names.values()))
+    return {
+        file: repr(next((name for name in ends if counts[name] == 1), file))[1:-1]
+        for file, ends in names.items()
+    }

@@ -13,17 +13,14 @@ from mars2d.core.interrupt import interrupts
 from mars2d.study.progress import progress
 from mars2d.study.work import Failure, each_done, leave_if_imported_again, worker_count
 from mars2d.tournaments.folder import Folder
-from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits
+from mars2d.tournaments.isolation.limits import LIMITS, OUT_OF_TIME, Limits
 from mars2d.tournaments.league import Tournament
 from mars2d.tournaments.match import Match, Played, play, settled
 from mars2d.tournaments.page import save_html
 from mars2d.tournaments.schedule import Files, Schedule, schedule
 
-MATCHES, LEAGUE, GRADES, PAGE = "matches.csv", "league.csv", "grades.csv", "league.html"
-"""The files that are written to a tournament's folder at the end."""
-
-LIMITS = Limits()
-"""The default limits of a law."""
+PAGE = "league.html"
+"""The page in a tournament's folder."""
 
 
 class TournamentInterrupted(KeyboardInterrupt):
@@ -75,10 +72,10 @@ def tournament(
         first_seed=first_seed,
         settings=settings,
         stop_time=stop_time,
+        limits=limits,
     )
     return play_schedule(
         planned,
-        limits,
         None if out is None else Path(out),
         executor=executor,
         workers=workers,
@@ -89,7 +86,6 @@ def tournament(
 
 def play_schedule(
     planned: Schedule,
-    limits: Limits,
     out: Path | None = None,
     *,
     executor: Executor | None = None,
@@ -104,8 +100,8 @@ def play_schedule(
     """
     if executor is None:
         worker_count(workers)
-    function = partial(play, limits=limits, replays=replays)
-    with nullcontext() if out is None else Folder(out, planned, limits, replays) as folder:
+    function = partial(play, limits=planned.limits, replays=replays)
+    with nullcontext() if out is None else Folder(out, planned, replays) as folder:
         done = [] if folder is None else [*folder.before]
         bar = progress(len(planned.matches), len(done), unit="match", show=show_progress)
         interrupted = False
@@ -121,9 +117,11 @@ def play_schedule(
             interrupted = True
         finally:
             bar.close()
-    result = Tournament.of(planned, done)
+    result = Tournament(planned, tuple(settled(planned.matches, done)))
     if out is not None:
-        save_all(result, out)
+        for table in ("matches", "league", "grades"):
+            result.save_csv(out / f"{table}.csv", table)
+        save_html(result, out / PAGE)
     if interrupted:
         where = "were played" if out is None else f"are in {out}; the same command goes on"
         said = f"{len(result.matches)} of {len(planned.matches)} matches {where}"
@@ -157,11 +155,3 @@ def missing(planned: Schedule, played: Sequence[Played]) -> list[Match]:
     """Return the matches that are still to be played."""
     known = {each.match.number for each in settled(planned.matches, played)}
     return [match for match in planned.matches if match.number not in known]
-
-
-def save_all(result: Tournament, folder: Path) -> None:
-    """Write the tables and the page of a tournament to a folder."""
-    result.save_csv(folder / MATCHES)
-    result.save_csv(folder / LEAGUE, "league")
-    result.save_csv(folder / GRADES, "grades")
-    save_html(result, folder / PAGE)

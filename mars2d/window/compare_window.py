@@ -23,7 +23,7 @@ from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.trio import Trio
-from mars2d.window.widgets.keys import Key
+from mars2d.window.widgets.actions import Action
 
 Pixel = tuple[int, int]
 
@@ -121,10 +121,10 @@ class CompareWindow(PlayerWindow):
             self.notes.draw(surface, whole.plot, painter, time.monotonic())
         self.help.draw(surface, whole, painter, self._help())
 
-    def _help(self) -> list[tuple[str, list[Key]]]:
+    def _help(self) -> list[tuple[str, list[Action]]]:
         """Return the keys that do something here, in their groups."""
         return [
-            (group, [key for key in each if key.action in self._actions or not key.names])
+            (group, [key for key in each if key.name in self._actions])
             for group, each in keys.GROUPS.items()
             if group != "Mouse"
         ]

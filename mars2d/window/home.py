@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import pygame
 
 from mars2d.output.raster.layout import interface_scale
-from mars2d.scenario.examples import GAME, courses, games, thumbnail_of, title_of
+from mars2d.scenario.examples import GAME, courses, examples, games, thumbnail_of, title_of
 from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.rest import Rest
+from mars2d.window.widgets.actions import of_controls
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.cards import Card, Page, Shelf
 from mars2d.window.widgets.notes import Notes
@@ -38,8 +40,7 @@ class Home:
         self.painter, self.size = self.looks.painter, memory.size
         self.page, self.search = Page(), TextField()
         self.choice: tuple[str, ...] | None = None
-        switches = ["dark", "text"]
-        self._buttons = Buttons([switches], self.looks.actions, lambda _: False, keys=False)
+        self._buttons = Buttons([of_controls(("dark", "text"), self.looks.actions, keys=False)])
         self._open, self._held = True, False
         if note:
             self._notes.say(note, "error")
@@ -74,16 +75,25 @@ class Home:
     def _all_shelves(self) -> list[Shelf]:
         own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]
         new = Card("New drawing", "Draw a scenario with the mouse.", ("edit",), sign="+")
-        play = [self._example_card(name, "play") for name in games()]
-        of_courses = [
-            Shelf(course, [self._example_card(name) for name in names])
-            for course, names in courses().items()
+        found, play = courses(), games()
+        shelves = {"Play": play} | {
+            course: [name for name in names if name not in play] for course, names in found.items()
+        }
+        return [
+            Shelf("Your own", [new, *own]),
+            *(
+                Shelf(title, [self._example_card(name, plays=title == "Play") for name in names])
+                for title, names in shelves.items()
+            ),
         ]
-        return [Shelf("Your own", [new, *own]), Shelf("Play", play), *of_courses]
 
-    def _example_card(self, name: str, verb: str = "demo") -> Card:
+    def _example_card(self, name: str, *, plays: bool) -> Card:
         looks = "dark" if self.painter.theme.dark else "light"
-        return Card(*title_of(name), (verb, name), thumbnail_of(name, looks))
+        watch, play = ("demo", name), ("play", name)
+        others = {"Play": play, "Watch": watch} if plays else {}
+        picture = thumbnail_of(name, looks)
+        command = play if plays else watch
+        return Card(*title_of(name), command, picture, words=_words_of(name), others=others)
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -91,7 +101,7 @@ class Home:
         """Draw the home on a surface of any size."""
         size, painter = surface.get_size(), self.painter
         ui = painter.ui = interface_scale(size, self.looks.text, self.looks.scale)
-        theme, fonts, pad = painter.theme, painter.fonts, round(30 * ui)
+        theme, pad = painter.theme, round(30 * ui)
         header = pygame.Rect(0, 0, size[0], round(HEADER * ui))
         footer = pygame.Rect(0, 0, size[0], round(FOOTER * ui))
         footer.bottom = size[1]
@@ -102,8 +112,8 @@ class Home:
             surface.fill(theme.bar, bar)
         surface.fill(theme.edge, (0, header.bottom - 1, size[0], 1))
         surface.fill(theme.edge, (0, footer.top, size[0], 1))
-        name = fonts.render("MARS2D", 22 * ui, theme.ink, bold=True)
-        surface.blit(name, name.get_rect(midleft=(pad, header.centery)))
+        at = (pad, header.centery)
+        painter.write(surface, "MARS2D", 22 * ui, theme.ink, bold=True, midleft=at)
         here = pygame.display.get_init() and pygame.mouse.get_focused()
         pointer = pygame.mouse.get_pos() if here else None
         buttons = pygame.Rect(0, 0, round(96 * ui), round(44 * ui))
@@ -116,7 +126,7 @@ class Home:
 
     def _draw_search(self, surface: pygame.Surface, header: pygame.Rect, right: int) -> None:
         """Draw the field with the words to search for."""
-        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
+        ui, theme = self.painter.ui, self.painter.theme
         left = round(170 * ui)
         plate = pygame.Rect(0, 0, min(round(340 * ui), right - left), round(34 * ui))
         plate.midright = right, header.centery
@@ -124,8 +134,9 @@ class Home:
         self.painter.panel(surface, plate, theme.plate, 6 * ui, edge)
         inner = plate.inflate(-round(24 * ui), 0)
         if not self.page.places:
-            image = fonts.render("nothing like that", 13 * ui, theme.muted)
-            inner.width -= surface.blit(image, image.get_rect(midright=inner.midright)).width
+            words = "nothing like that"
+            end = self.painter.write(surface, words, 13 * ui, theme.muted, midright=inner.midright)
+            inner.width -= end.width
         self.search.draw(surface, inner, self.painter, 15 * ui, hint=HINT)
 
     def _draw_line(self, surface: pygame.Surface, footer: pygame.Rect, pad: int) -> None:
@@ -135,12 +146,10 @@ class Home:
         if card is None:
             return
         command = fonts.shorten(" ".join(("mars2d", *card.command)), 13 * ui, 0.45 * footer.width)
-        code = fonts.render(command, 13 * ui, theme.text, mono=True)
-        place = code.get_rect(midright=(footer.right - pad, footer.centery))
-        room = place.left - 2 * pad
-        line = fonts.render(fonts.shorten(card.line, 14 * ui, room), 14 * ui, theme.muted)
-        surface.blit(line, line.get_rect(midleft=(pad, footer.centery)))
-        surface.blit(code, place)
+        end, write = (footer.right - pad, footer.centery), self.painter.write
+        place = write(surface, command, 13 * ui, theme.text, mono=True, midright=end)
+        line = fonts.shorten(card.line, 14 * ui, place.left - 2 * pad)
+        write(surface, line, 14 * ui, theme.muted, midleft=(pad, footer.centery))
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -176,7 +185,8 @@ class Home:
             self.page.drag_bar(pixel[1], self.painter.ui)
         elif card is not None:
             self.page.chosen = card
-            self._choose()
+            on = (command for place, command in self.page.buttons if place.collidepoint(pixel))
+            self._choose(next(on, None))
 
     def _search(self, event: pygame.Event) -> bool:
         """Give an event to the field of search; return whether it was for it."""
@@ -204,8 +214,9 @@ class Home:
             self.page.move(*steps[event.key])
         elif event.key in pages:
             self.page.turn(pages[event.key])
-        elif event.key in (pygame.K_RETURN, pygame.K_KP_ENTER):
-            self._choose()
+        elif event.key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.page.card is not None:
+            others = [*self.page.card.others.values()]
+            self._choose(others[-1] if others and event.mod & pygame.KMOD_SHIFT else None)
         elif event.key == pygame.K_F11:
             self.looks.actions["screen"]()
         elif control and event.key in (pygame.K_q, pygame.K_w):
@@ -213,10 +224,10 @@ class Home:
         elif event.key == pygame.K_ESCAPE:
             self.search.clear()
 
-    def _choose(self) -> None:
-        """Close with the chosen card."""
+    def _choose(self, command: tuple[str, ...] | None = None) -> None:
+        """Close with the chosen card, or with a command of one of its buttons."""
         if self.page.card is not None:
-            self.choice, self._open = self.page.card.command, False
+            self.choice, self._open = command or self.page.card.command, False
 
     def open_file(self, path: Path) -> None:
         """Close with a file that was dropped on the window, or say why it can't be opened."""
@@ -226,6 +237,17 @@ class Home:
             self._notes.say(f"{path.name}: expected a file that ends in {suffixes}", "warning")
         else:
             self.choice, self._open = (command, str(path)), False
+
+
+@cache
+def _words_of(name: str) -> str:
+    """Return what is searched of an example: its course, its title in the window, its whole file.
+
+    So its docstring is found, and the names of all parts that it uses.
+    """
+    file = examples()[name]
+    course = next(course for course, names in courses().items() if name in names)
+    return f"{course} {file.read_text(encoding='utf-8')}"
 
 
 def _own_card(path: Path, picture: Path | None) -> Card:

@@ -47,7 +47,7 @@ def test_robots_gather_where_it_is_dense():
     def end(*density):
         robots = [Robot(drive=mars2d.Holonomic(max_linear_speed=5)).at(x, 0) for x in (-1, 1)]
         scenario = Scenario(robots=robots, addons=[Voronoi(), *density], stop_time=20)
-        law = lambda world: world.addons.voronoi.centroids - world.position  # noqa: E731
+        law = lambda world: world.addons.voronoi.now.centroids - world.position  # noqa: E731
         return mars2d.run(scenario, control=law).pose[-1, :2].mean(axis=1)
 
     assert end() == pytest.approx([0, 0], abs=0.01)

@@ -165,7 +165,7 @@ def test_a_floor_of_ones_own_must_return_a_colour(found):
         ({"patches": "red"}, "Floor.patches = 'red': expected a list of patches"),
         ({"image": "line.jpg", "bounds": (0, 1, 0, 1)}, "Floor.image = 'line.jpg': .*.png"),
         ({"image": "line.png"}, "Floor.bounds is missing: where the image lies"),
-        ({"bounds": (0, 1, 0, 1)}, "Floor.bounds = .*: given without an image"),
+        ({"bounds": (0, 1, 0, 1)}, "Floor.bounds is given without an image"),
         ({"image": "p.png", "bounds": (1, 0, 0, 1)}, r"Floor.bounds = .*xmin < xmax"),
         ({"image": "p.png", "bounds": (0, 1, 0)}, r"Floor.bounds = .*: expected \(xmin"),
         ({"image": "p.png", "bounds": (0, 1, 0, nan)}, r"Floor.bounds\[3\] = nan"),
@@ -266,4 +266,4 @@ def test_a_replay_shows_the_image_of_the_floor_when_its_file_is_gone(picture, tm
     loaded = mars2d.load(tmp_path / "r.npz").scenario
     assert [type(shape).__name__ for shape in floor_of(loaded).shapes] == ["Image"]
     (again,) = loaded.addons
-    assert np.array_equal(again.pixels, floor.pixels)
+    assert np.array_equal(again.picture.pixels, floor.picture.pixels)

@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario
 from mars2d.addons import Game, Map
 from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.sensors import RangeBearing
-from mars2d.world.verify import rerun
 from tests.cases import each_case
 from tests.worlds import finished
 
@@ -87,29 +85,6 @@ def test_who_is_caught_before_the_goal_is_not_safe_when_it_is_pushed_in():
         assert [capture.evader for capture in found.captures] == [1]
         assert found.winner == "guard"
     assert world.addons.game.safe == ()
-
-
-def test_a_loaded_record_tells_the_same_draws_the_same_and_runs_again(tmp_path):
-    world = finished(race([0.0, 1.0, 0.0], 2.0, starts=[-1.0, 1.5, -2.0], wanted=2, capture=0.8))
-    game = world.addons.game
-    loaded = mars2d.load(world.record.save(tmp_path / "race.npz"))
-    kept = loaded.scenario.addons[0]
-    assert kept == world.scenario.addons[0]
-    outcome = kept.outcome(loaded)
-    assert (outcome.score, outcome.winner) == (game.score, game.winner)
-    assert outcome.captures == game.captures
-    assert rerun(loaded) is None
-    drawn = []
-    for frame in (world.frame, loaded.frame(-1)):
-        drawn.append(Scene())
-        kept.draw(drawn[-1], frame)
-    live, replayed = (scene.shapes for scene in drawn)
-    assert [str(shape) for shape in live] == [str(shape) for shape in replayed]
-    kinds = [type(shape) for shape in live]
-    assert kinds == [Circle, *(Circle, Line, Line, Text), *(Circle, Text)]  # reach, caught, safe
-    floor = Scene()
-    kept.paint(floor, ())
-    assert len(floor.shapes) == 1
 
 
 # -- sight --------------------------------------------------------------------------------------

@@ -3,11 +3,8 @@
 import numpy as np
 import pytest
 
-import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Ring
-from mars2d.core.scene import Circle, Line, Scene, Text
-from mars2d.world.verify import rerun
 from tests.cases import each_case
 from tests.worlds import finished
 
@@ -80,28 +77,6 @@ def test_nobody_has_won_when_something_else_ends_it():
 
 
 # -- records ------------------------------------------------------------------------------------
-
-
-def test_a_loaded_record_tells_the_same_and_runs_again(tmp_path):
-    world = finished(bout([1.0, 0.5, 0.6, 0.0]))
-    ring = world.addons.ring
-    loaded = mars2d.load(world.record.save(tmp_path / "bout.npz"))
-    assert loaded.scenario.addons[0] == world.scenario.addons[0]
-    outcome = loaded.scenario.addons[0].outcome(loaded)
-    assert (outcome.score, outcome.winner, outcome.captures) == (ring.score, ring.winner, ())
-    assert np.isnan(outcome.capture_time)
-    assert rerun(loaded) is None
-    scenes = []
-    for frame in (world.frame, loaded.frame(-1), loaded.frame(0)):
-        scenes.append(Scene())
-        loaded.scenario.addons[0].draw(scenes[-1], frame)
-    live, replayed, before = (scene.shapes for scene in scenes)
-    assert [type(shape) for shape in live] == [Circle] + 3 * [Circle, Line, Line, Text]
-    assert [str(shape) for shape in live] == [str(shape) for shape in replayed]
-    assert [shape.text.strip() for shape in live if isinstance(shape, Text)] == [
-        "2 s", "3.1 s", "3.9 s",
-    ]  # fmt: skip
-    assert [type(shape) for shape in before] == [Circle]  # the rim alone
 
 
 # -- what is refused ----------------------------------------------------------------------------

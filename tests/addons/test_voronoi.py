@@ -25,7 +25,7 @@ def team(starts=STARTS, addons=(), **fields):
 
 
 def lloyd(world):
-    return world.addons.voronoi.centroids - world.position
+    return world.addons.voronoi.now.centroids - world.position
 
 
 # -- what laws find ---------------------------------------------------------------------------
@@ -33,8 +33,9 @@ def lloyd(world):
 
 def test_laws_find_the_cells_of_this_instant():
     world = World(team())
-    cells = world.addons.voronoi
     for _ in range(3):
+        cells = world.addons.voronoi.now
+        assert world.addons.voronoi.now is cells
         found = Tessellation(world.position, SQUARE)
         assert cells.areas.tolist() == found.areas.tolist()
         assert cells.masses.tolist() == found.areas.tolist()
@@ -50,7 +51,7 @@ def test_a_record_has_the_cells_that_the_law_saw():
     seen = []
 
     def law(world):
-        seen.append((world.addons.voronoi.cost, world.addons.voronoi.centroids.tolist()))
+        seen.append((world.addons.voronoi.now.cost, world.addons.voronoi.now.centroids.tolist()))
         return lloyd(world)
 
     record = mars2d.run(team(), control=law)
@@ -97,10 +98,12 @@ def slope(x, y):
 def test_the_only_density_of_a_scenario_weighs_the_cells():
     world = World(team(addons=[Density(slope)]))
     found = Tessellation(world.position, SQUARE, slope)
-    assert world.addons.voronoi.masses.tolist() == found.masses.tolist()
-    assert world.addons.voronoi.centroids.tolist() == found.centroids.tolist()
-    assert world.addons.voronoi.areas == pytest.approx(Tessellation(world.position, SQUARE).areas)
-    assert world.addons.voronoi.cost == world.scenario.addons[0].of(world.frame).cost
+    assert world.addons.voronoi.now.masses.tolist() == found.masses.tolist()
+    assert world.addons.voronoi.now.centroids.tolist() == found.centroids.tolist()
+    assert world.addons.voronoi.now.areas == pytest.approx(
+        Tessellation(world.position, SQUARE).areas
+    )
+    assert world.addons.voronoi.now.cost == world.scenario.addons[0].of(world.frame).cost
 
 
 def test_of_several_densities_the_named_one_counts():
@@ -109,7 +112,7 @@ def test_of_several_densities_the_named_one_counts():
     with pytest.raises(InputError, match=r"Voronoi.density is missing: .* slope or rise"):
         World(scenario)
     named = scenario.replace(addons=[Voronoi(density="slope"), *densities])
-    masses = World(named).addons.voronoi.masses
+    masses = World(named).addons.voronoi.now.masses
     assert masses.tolist() == Tessellation(np.transpose(STARTS), SQUARE, slope).masses.tolist()
 
 

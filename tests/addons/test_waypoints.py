@@ -149,7 +149,7 @@ def test_a_loaded_record_shows_the_same(tmp_path):
         ([(1, 0), (2, 0)], "put one more pair of brackets round it"),
         ([[(1, 0), (2, 0, 3)]], r"Waypoints.routes\[0\]\[1\] = \(2, 0, 3\): expected a point"),
         ([[(1, 0)], [(float("nan"), 0)]], r"Waypoints.routes\[1\]\[0\]"),
-        ("here", "expected one list of points for each robot"),
+        ("here", "expected a list of routes, one for each robot"),
         ([[(1, 0)], 7], r"Waypoints.routes\[1\] = 7: expected a list of points"),
     ],
 )

@@ -39,21 +39,21 @@ def plot(folder, tmp_path, monkeypatch, capsys):
 @each_case("kind", KINDS)
 def test_each_kind_of_figure_is_drawn_and_its_file_named(plot, kind):
     extra = ["--at", "0,2"] if kind == "snapshots" else []
-    assert plot(kind, *extra) == (0, f"duel_{kind}.png")
+    assert plot(kind, *extra) == (0, f"figure: duel_{kind}.png")
     assert Path(f"duel_{kind}.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_without_a_kind_the_paths_are_drawn_and_no_file_is_overwritten(plot, tmp_path):
-    assert plot() == (0, "duel_paths.png")
+    assert plot() == (0, "figure: duel_paths.png")
     first = (tmp_path / "duel_paths.png").read_bytes()
-    assert plot("--style", "projector") == (0, "duel_paths_2.png")
+    assert plot("--style", "projector") == (0, "figure: duel_paths_2.png")
     assert (tmp_path / "duel_paths.png").read_bytes() == first
     assert (tmp_path / "duel_paths_2.png").read_bytes() != first
 
 
 def test_a_file_that_is_named_is_written_over(plot, tmp_path):
     (tmp_path / "old.svg").write_text("old")
-    assert plot("signals", "--figure", "old.svg") == (0, "old.svg")
+    assert plot("signals", "--figure", "old.svg") == (0, "figure: old.svg")
     assert "<svg" in (tmp_path / "old.svg").read_text()
 
 

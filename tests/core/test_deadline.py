@@ -9,7 +9,7 @@ from mars2d.core import deadline
 from mars2d.core.deadline import VARIABLE, Deadline, patience
 from mars2d.core.errors import InputError, Late, LawError
 from mars2d.core.usercode import called
-from tests.processes import wait_until
+from tests.processes import PATIENCE, wait_until
 
 
 @pytest.fixture
@@ -100,6 +100,24 @@ def test_whoever_is_asked_meanwhile_may_end_it(soon):
     ):
         spin()
     assert all(where.startswith("test_deadline.py, line ") for where in asked)
+
+
+def test_code_that_waits_in_c_is_asked_about_all_the_same_and_given_up_at_once(soon):
+    seen, woken = [], threading.Event()
+
+    def meanwhile(where):
+        seen.append((limit.blocked, where.partition(",")[0]))
+        return "was not wanted any more"
+
+    def wait():
+        woken.wait(PATIENCE)  # a call in C: no step of Python is done
+        spin()
+
+    limit = Deadline(1000.0, lambda where: woken.set(), lambda: 0, meanwhile)
+    with pytest.raises(LawError), limit, called("go", wait):
+        wait()
+    assert woken.is_set()
+    assert seen[0] == (True, "test_deadline.py")
 
 
 def test_it_watches_its_own_thread_only_and_ends_with_the_block(soon):

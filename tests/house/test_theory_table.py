@@ -16,7 +16,10 @@ make_theory = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(make_theory)
 
 PAGE = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
-ROW = re.compile(r"^\| (?P<what>.+?) \| (?P<predicted>\S+)[^|]* \| (?P<measured>\S+).* \| ok \|$")
+ROW = re.compile(
+    r"^\| (?P<what>.+?) \| (?:[<>]= )?(?P<predicted>\S+)[^|]* "
+    r"\| (?P<measured>\S+).* \| ok(, rough)? \|$"
+)
 
 
 def rows(section: str) -> dict[str, float]:

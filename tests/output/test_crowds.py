@@ -146,3 +146,4 @@ def test_figures_of_a_hundred_robots_are_files_of_less_than_two_megabytes(tmp_pa
     for name, draw in figures.items():
         file = save_drawing(draw, tmp_path / f"{name}.svg")
         assert file.stat().st_size < 2e6, name
+    assert len(record._repr_svg_()) < 2e6

@@ -22,7 +22,6 @@ from mars2d.sensors import Proximity, RangeFinder
 from mars2d.sensors.base import Sensor
 
 ROOM = [(-6, -6), (6, -6), (6, 6), (-6, 6)]
-NOT_GIVEN = dict.fromkeys(("velocity", "prop_velocity", "work"), np.empty(0))
 
 
 def circles(world):
@@ -121,7 +120,9 @@ def circling(rows, turn):
     pose = np.stack([0.6 * np.cos(angle), 0.6 * np.sin(angle), angle + np.pi / 2], axis=1)
     return replace(
         short, time=time, pose=pose, command=np.zeros((rows, 2, len(turn))), command_time=time,
-        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, len(turn))), **NOT_GIVEN,
+        prop_pose=np.zeros((rows, 3, 0)), effort=np.zeros((rows, len(turn))),
+        velocity=np.zeros_like(pose), prop_velocity=np.zeros((rows, 3, 0)),
+        work=np.zeros((rows, 6)),
     )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""Window, figure, SVG and replay paint the same layers in the same order."""
+"""Window, figure, notebook and replay paint the same layers in the same order."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mars2d.core.scene import Circle, Scene
 from mars2d.output.figures.figure import plot_paths
 from mars2d.output.layers import rings
 from mars2d.output.layers.table import LAYERS, Layer, Layers
-from mars2d.output.pages.drawing import draw
+from mars2d.output.pages.notebook import draw
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
@@ -227,7 +227,7 @@ def test_a_replay_has_all_layers_in_the_order_of_the_table(browser, record, tabl
 
 
 @pytest.mark.slow
-def test_each_layer_of_the_scene_is_seen_in_window_figure_svg_and_replay(record, monkeypatch):
+def test_each_layer_of_the_scene_is_seen_in_window_notebook_and_replay(record, monkeypatch):
     """Each layer that is switched off is missed, and a page holds shapes of each."""
     monkeypatch.setattr(rings, "SMALL", 0.1)  # all robots have one
     from tests.output.test_html import held

@@ -1,4 +1,4 @@
-"""What was saved before the package became rooms opens: records of each format, a scenario file."""
+"""What was saved earlier opens: records of each format, a scenario file."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def scenario() -> Scenario:
 
 
 @each_case("ending", FORMATS)
-def test_a_record_saved_before_the_rooms_opens_with_the_same_digest_and_scenario(ending, scenario):
+def test_a_record_saved_earlier_opens_with_the_same_digest_and_scenario(ending, scenario):
     record = mars2d.load(HERE / "saved" / f"run.{ending}")
     assert record.digest == EXPECTED["digest"]
     assert record.versions["mars2d"] == EXPECTED["version"]
@@ -38,15 +38,6 @@ def test_a_record_saved_before_the_rooms_opens_with_the_same_digest_and_scenario
         assert len(getattr(record, name)) == EXPECTED[name] > 0, name
     assert record.scenario == scenario
     assert record.missing == LOST  # code of the user's own
-
-
-def test_velocities_of_a_record_saved_before_are_means_and_its_work_is_unknown():
-    record = mars2d.load(HERE / "saved" / "run.npz")
-    steps = np.diff(record.pose, axis=0) / record.scenario.sampling_time
-    np.testing.assert_allclose(record.velocity[1:], steps, atol=1e-12)
-    assert (record.velocity[0] == 0).all()
-    assert np.isnan(record.work).all()
-    assert not np.isnan(record.energy.kinetic).any()
 
 
 def test_a_scenario_saved_before_the_rooms_has_parts_of_all_families(scenario):

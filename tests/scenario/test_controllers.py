@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Car, Differential, Holonomic, InputError, LawError, Robot, Scenario, Unicycle
+from mars2d import Car, Differential, Holonomic, InputError, Robot, Scenario, Unicycle
 from mars2d.addons import Map, Waypoints
 from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.controllers import (
@@ -65,9 +65,9 @@ def test_before_the_last_waypoint_it_slows_down_by_its_gain():
     assert (omega == 0).all()
 
 
-def test_without_waypoints_it_says_which_robot_has_none():
-    with pytest.raises(LawError, match=r"this world has no add-on 'waypoints' \(robot0"):
-        alone(Robot(controller=FollowWaypoints(), pose=(1, 1, 0)), stop_time=1)
+def test_without_waypoints_it_stands_still():
+    record = alone(Robot(controller=FollowWaypoints(), pose=(1, 1, 0)), stop_time=1)
+    assert record.pose[-1].T.tolist() == [[1, 1, 0]]
 
 
 # -- along walls ---------------------------------------------------------------------------------

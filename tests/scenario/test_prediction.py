@@ -33,11 +33,37 @@ def test_a_prediction_holds_within_its_tolerance(measured, ok):
     assert Prediction("speed", 1.0, measured, 0.25).ok is ok
 
 
+@each_case(
+    ("bound", "measured", "ok"),
+    [("at least", 9.0, True), ("at least", 0.75, True), ("at least", 0.74, False),
+     ("at most", -9.0, True), ("at most", 1.25, True), ("at most", 1.26, False),
+     ("at least", math.inf, False), ("at most", -math.inf, False), ("at least", math.nan, False)],
+)  # fmt: skip
+def test_a_bound_holds_on_one_side(bound, measured, ok):
+    assert Prediction("speed", 1.0, measured, 0.25, bound=bound).ok is ok
+
+
+def test_where_a_theory_does_not_apply_it_says_why_and_counts_neither_way():
+    silent = Prediction.silent("capture", "a wall is nearer than the meeting point")
+    assert (silent.ok, silent.verdict) == (None, "not predicted")
+    assert silent.as_dict() == {"name": "capture", "reason": silent.reason, "ok": None}
+    free = Prediction("free for", 0.87, 1.2, 0.05, "s", bound="at least")
+    assert table([free, silent, silent.replace(name="nearest")]).splitlines() == [
+        "          predicted  measured  tolerance",
+        "free for   >= 0.870     1.200       0.05  s  ok",
+        "capture                                      not predicted",
+        "nearest                                      not predicted",
+        "1 of 1 prediction ok, 2 not predicted",
+        "not predicted: a wall is nearer than the meeting point",
+    ]
+
+
 def test_numbers_of_numpy_become_those_of_python():
     made = Prediction("n", np.int64(3), np.float32(2.5), np.float64(1), "m")
-    assert [type(v) for v in made.as_dict().values()] == [str, float, float, float, bool]
+    assert [type(v) for v in made.as_dict().values()] == [str, float, float, float, str, bool]
     assert made.as_dict() == {
-        "name": "n", "predicted": 3.0, "measured": 2.5, "tolerance": 1.0, "ok": True
+        "name": "n", "predicted": 3.0, "measured": 2.5, "tolerance": 1.0, "bound": "equal",
+        "ok": True,
     }  # fmt: skip
 
 
@@ -57,6 +83,7 @@ def test_a_share_of_the_predicted_number_is_a_tolerance():
         (lambda: Prediction("n", 1, 1), "Prediction.tolerance is missing"),
         (lambda: Prediction("a\nb", 1, 1, 1), "expected text in one line"),
         (lambda: Prediction("n", 1, 1, 1, 5), "Prediction.unit = 5"),
+        (lambda: Prediction("n", 1, 1, 1, bound="at leest"), "did you mean 'at least'?"),
         (lambda: Prediction("n", 1, 1, tolerence=1), "did you mean 'tolerance'?"),
         (lambda: Prediction.within("n", 0, 0, 2), "2 % of 0 is 0"),
         (lambda: Prediction.within("n", 1, 1, 0), "Prediction.within(percent) = 0"),

@@ -157,12 +157,9 @@ def test_the_command_line_chooses_who_does_the_runs(local):
     with chosen("--cluster", local.scheduler_address) as (executor, workers):
         assert workers is None
         assert list(each_done(abs, [-3], executor)) == [(0, 3)]
-    for words, said in (
-        (["--workers", "0"], "workers=0: expected a whole number from 1 to"),
-        (["--workers", "2", "--cluster", "tcp://10.0.0.5:8786"], "give it or --cluster"),
-    ):
-        with pytest.raises(InputError, match=said), chosen(*words):
-            pass
+    both = chosen("--workers", "2", "--cluster", "tcp://10.0.0.5:8786")
+    with pytest.raises(InputError, match="give it or --cluster"), both:
+        pass
 
 
 def test_a_task_that_ends_each_of_its_workers_is_the_one_that_fails(executor, tasks):

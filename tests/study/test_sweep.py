@@ -237,7 +237,7 @@ def test_records_are_kept_beside_a_table_of_an_experiment_in_a_file(here, how, s
     [
         ({"measures": "farr"}, "there is no measure 'farr'; did you mean 'far'?"),
         ({"measures": "two"}, "two(record, other) is no measure"),
-        ({"measures": "capture_time"}, "the scenario has no contest"),
+        ({"measures": "capture_time"}, "this experiment has none"),
         ({"measures": ["far", "far"]}, "measure 'far': is there twice"),
         ({"measures": 3}, "measures = 3: expected names"),
         ({"settings": {"gian": [1, 2]}}, "there is no option 'gian'; did you mean 'gain'?"),

@@ -59,15 +59,6 @@ def cannot_be_sent(_):
     return (k for k in range(3))
 
 
-class Unreadable:
-    def __reduce__(self):
-        return int, ("no number",)
-
-
-def cannot_be_read(_):
-    return Unreadable()
-
-
 def hangs(file):
     Path(file).write_text(str(os.getpid()))
     time.sleep(1000)
@@ -120,7 +111,6 @@ def test_each_task_comes_once_whatever_becomes_of_it(do):
         5: ("ends", 7),
         6: ("is_killed", None),
         8: ("cannot_be_sent", None),
-        9: ("cannot_be_read", None),
     }
     tasks = [odd.get(k, ("square", k)) for k in range(30)]
     before = dict(os.environ)
@@ -136,7 +126,6 @@ def test_each_task_comes_once_whatever_becomes_of_it(do):
     assert found[4] == Failure("SystemExit: 3")
     assert found[5] == found[6] == Failure("the process that ran it ended, twice")
     assert found[8] == Failure("TypeError: cannot pickle 'generator' object")
-    assert found[9].error.startswith("ValueError: invalid literal for int()")
 
 
 def test_tasks_are_made_as_they_are_needed_and_workers_end_with_the_iterator(do):

@@ -7,9 +7,9 @@ import platform
 import numpy as np
 import pytest
 
-from mars2d import LawError, Robot, Scenario, load_law
+from mars2d import Robot, Scenario, load_law
 from mars2d.scenario.experiment import Experiment
-from mars2d.tournaments.isolation import Guard, Limits
+from mars2d.tournaments.isolation import Limits, run_isolated
 from mars2d.tournaments.isolation.jail import is_protected
 from mars2d.world.loop import simulate
 from tests.cases import each_case
@@ -128,7 +128,7 @@ CHEATS = {
             threading.Thread(target=lambda: sum(0 for _ in iter(int, 1)), daemon=True).start()"""),
     "doctors what it sees": (None, "", """
         for each in gc.get_objects():
-            if type(each).__name__ == "MirrorWorld": each._seen = each._seen._replace(iteration=99)
+            if type(each).__name__ == "MirrorWorld": each.iteration, each.pose = 99, None
         sys.modules.pop("json", None)"""),
     "another clock and other limits": (None, "", """
         time.perf_counter = time.monotonic = lambda: 0.0
@@ -157,16 +157,13 @@ def match(tmp_path):
         cheat, honest = tmp_path / "cheats/cheat.py", tmp_path / "rivals/honest.py"
         robot = Robot(sees="positions")
         scenario = Scenario(robots=[robot.at(-2, 0), robot.at(2, 0)], stop_time=1.5)
-        with Guard(scenario, {"cheat": (cheat, [0]), "honest": (honest, [1])}, 1, LIMITS) as guard:
-            try:
-                record = simulate(Experiment(guard.scenario, seed=1)).record
-            except LawError as error:
-                record = error.record
+        roles = {"cheat": (cheat, [0]), "honest": (honest, [1])}
+        record, verdicts, _ = run_isolated(Experiment(scenario, seed=1), roles, LIMITS)
         laws = [lambda robot: (0.0, 0.0), load_law(honest)]
         robots = [r.replace(controller=c) for r, c in zip(scenario.robots, laws, strict=True)]
         alone = simulate(Experiment(scenario.replace(robots=robots), seed=1)).record
         assert honest.read_text() == HONEST
-        return guard.verdicts, record, alone
+        return verdicts, record, alone
 
     return play
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 import os
 import sys
@@ -13,19 +12,17 @@ from pathlib import Path
 import pytest
 
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, load_law
-from mars2d.addons import Communication, Game, Map
+from mars2d.addons import Addon, Communication, Game, Map
 from mars2d.bodies.props import Puck
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.neighbours import Neighbourhood, Within
 from mars2d.sensors import Bumper, Proximity, RangeFinder
-from mars2d.tournaments.isolation import Guard, Limits
+from mars2d.tournaments.isolation import Isolated, Limits, run_isolated
 from mars2d.tournaments.isolation.jail import is_protected
 from mars2d.tournaments.isolation.source import law_code
 from mars2d.world.loop import simulate
-from mars2d.world.world import World
 from tests.cases import each_case
 from tests.processes import wait_until
-from tests.worlds import untimed
 
 needs_proc = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 
@@ -48,13 +45,9 @@ def pair(**fields) -> Scenario:
     return Scenario(robots=[robot.at(-2, 0), robot.at(2, 0, pi)], stop_time=2.0)
 
 
-def played(scenario: Scenario, laws: dict, seed: int = 1, limits: Limits = LIMITS):
-    """Run a match to its end or its failure; return the record, the guard, and the error."""
-    with Guard(scenario, laws, seed, limits) as guard:
-        try:
-            return simulate(Experiment(guard.scenario, seed=seed)).record, guard, None
-        except LawError as error:
-            return error.record, guard, error
+def played(scenario: Scenario, laws: dict, seed: int = 1, limits: Limits = LIMITS) -> Isolated:
+    """Run a match to its end or its failure."""
+    return run_isolated(Experiment(scenario, seed=seed), laws, limits)
 
 
 # -- determinism ---------------------------------------------------------------------------------
@@ -181,12 +174,11 @@ def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path
             robots[i] = robots[i].replace(controller=load_law(file))
     for seed in (3, 4):
         here = simulate(Experiment(scenario.replace(robots=robots), seed=seed)).record
-        there, guard, error = played(scenario, laws, seed, Limits())
-        assert error is None, error
+        there, verdicts, _ = played(scenario, laws, seed, Limits())
+        assert verdicts == {}
         assert len(there) == len(here) > 20
         assert there.digest == here.digest
         assert there.messages.tobytes() == here.messages.tobytes()
-        assert guard.verdicts == {}
 
 
 # -- what a law may see --------------------------------------------------------------------------
@@ -201,19 +193,19 @@ def test_an_isolated_match_has_the_digest_of_one_in_this_process(match, tmp_path
         ("partial", "robot.send(1)", "robots can't talk: add Communication()"),
         ("full", "robot.world.addons", "robot.world.addons is not available to an isolated law"),
         ("full", "robot.world.rng", "available to an isolated law; there is robot.rng"),
-        ("full", "robot.world.robots[1].memory", "robots[1].memory is not available: it is anot"),
+        ("full", "robot.world.robots[1].memory", "another robot's memory is not available"),
     ],
 )
 def test_what_an_isolated_law_may_not_see_is_refused_in_words(
     sees, expression, words, tmp_path
 ) -> None:
     file = law(tmp_path, f"def control(robot):\n    {expression}\n    return 0, 0\n")
-    _, guard, error = played(pair(sees=sees), {"red": (file, [0])})
-    verdict = guard.verdicts["red"]
+    record, verdicts, _ = played(pair(sees=sees), {"red": (file, [0])})
+    verdict = verdicts["red"]
     assert verdict.kind == "error"
     assert verdict.text.startswith("law.py, line 2: ")
     assert words in verdict.text
-    assert untimed(error) == f"red: {verdict.text}"
+    assert f"red: {verdict.text}" in record.over_message
 
 
 # -- faults and verdicts -------------------------------------------------------------------------
@@ -246,13 +238,15 @@ def test_a_law_with_a_mistake_has_a_verdict_and_the_other_goes_on(fault, tmp_pat
     lines = (line.removeprefix("        ") for line in text.splitlines())
     nasty = law(tmp_path, "\n".join(lines))
     good = law(tmp_path, GOOD, "good.py")
-    record, guard, error = played(pair(), {"bad": (nasty, [0]), "good": (good, [1])}, 1, limits)
-    verdict = guard.verdicts.pop("bad")
+    laws = {"bad": (nasty, [0]), "good": (good, [1])}
+    record, verdicts, _ = played(pair(), laws, 1, limits)
+    verdict = verdicts.pop("bad")
     assert verdict.kind == kind, verdict
     assert words in verdict.text, verdict
     assert "\n" not in verdict.text
-    assert guard.verdicts == {}  # nobody else is to blame
-    assert record.over_message == f"Error: {error}"
+    assert verdicts == {}  # nobody else is to blame
+    assert record.over_message.startswith("Error: ")
+    assert f"bad: {verdict.text}" in record.over_message
 
 
 def test_what_a_law_prints_is_kept_in_order_however_it_is_printed(tmp_path) -> None:
@@ -266,9 +260,9 @@ def control(robot):
         print("\\u00e4\\ud800", file=sys.stderr)
     return 0, 0
 """
-    _, guard, error = played(pair(), {"a": (law(tmp_path, text), [0])})
-    assert error is None
-    assert guard.output["a"].startswith("loaded 0/\u00e4\\ud800\n1/2/3/")
+    _, verdicts, output = played(pair(), {"a": (law(tmp_path, text), [0])})
+    assert verdicts == {}
+    assert output["a"].startswith("loaded 0/\u00e4\\ud800\n1/2/3/")
 
 
 def test_a_law_is_what_was_read_and_reads_what_is_beside_it_and_what_is_allowed(tmp_path) -> None:
@@ -290,13 +284,10 @@ def control(robot):
     law(tmp_path / "laws", "SPEED = 99", "helper.py")
     for reads, verdicts in (([], ["a"] * is_protected()), ([table], [])):
         limits = dataclasses.replace(LIMITS, reads=reads)
-        with Guard(pair(), {"a": (file, [0])}, 1, limits, code) as guard:
-            world = World(guard.scenario, seed=1)
-            with contextlib.suppress(LawError):
-                world.step()
-        assert [*guard.verdicts] == verdicts, guard.verdicts
-        assert all("which read what is beside" in v.text for v in guard.verdicts.values())
-    assert world.command[:, 0].tolist() == pytest.approx([0.3, 0.3])
+        ran = run_isolated(Experiment(pair(), seed=1), {"a": (file, [0])}, limits, code)
+        assert [*ran.verdicts] == verdicts, ran.verdicts
+        assert all("which read what is beside" in v.text for v in ran.verdicts.values())
+    assert ran.record.command[0, :, 0].tolist() == pytest.approx([0.3, 0.3])
 
 
 # -- nothing is left behind ----------------------------------------------------------------------
@@ -327,44 +318,39 @@ def gained(before: tuple[int, int]) -> list[int]:
     return [now - then for now, then in zip(held(), before, strict=True) if now > then]
 
 
+class Broken(Addon):
+    """Fails in the first control step."""
+
+    def on_step(self, world):
+        raise RuntimeError("no fault of a law")
+
+
 @needs_proc
 def test_matches_leave_no_process_thread_or_file_behind(tmp_path) -> None:
     bad = "def control(robot):\n    return 0, 1 / (robot.index + robot.time - 0.1)\n"
     laws = {"a": (law(tmp_path, bad), [0]), "b": (law(tmp_path, GOOD, "good.py"), [1])}
     scenario = pair().replace(stop_time=0.2)
+    broken = scenario.replace(addons=[Broken()])
     played(scenario, laws)
     before, others = held(), descendants()
     for k in range(10):
         if k % 2:
-            _, guard, _ = played(scenario, laws)
-            assert guard.verdicts["a"].kind == "error"
+            assert played(scenario, laws).verdicts["a"].kind == "error"
         else:
-            with pytest.raises(RuntimeError), Guard(scenario, laws, 1, LIMITS) as guard:
-                World(guard.scenario, seed=1).step()
-                raise RuntimeError
+            with pytest.raises(LawError, match="no fault of a law"):
+                played(broken, laws)
     wait_until(lambda: not gained(before))
     wait_until(lambda: descendants() <= others)
 
 
-# -- what can't be guarded -----------------------------------------------------------------------
+# -- what can't be isolated ----------------------------------------------------------------------
 
 
-def test_a_guard_says_what_is_wrong_with_what_it_is_given(tmp_path) -> None:
+def test_wrong_robots_and_limits_are_errors(tmp_path) -> None:
     file = law(tmp_path, GOOD)
-    with pytest.raises(
-        InputError, match=r"Guard.laws\['a'\]: there is no robot 2; they are 0 to 1"
-    ):
-        Guard(pair(), {"a": (file, [2])}, 1)
-    with pytest.raises(InputError, match=r"Guard.laws: robot1 has the laws of a and b"):
-        Guard(pair(), {"a": (file, [1]), "b": (file, [1])}, 1)
+    with pytest.raises(InputError, match=r"laws\['a'\]: there is no robot 2; they are 0 to 1"):
+        played(pair(), {"a": (file, [2])})
+    with pytest.raises(InputError, match=r"laws: robot1 has two"):
+        played(pair(), {"a": (file, [1]), "b": (file, [1])})
     with pytest.raises(InputError, match=r"Limits.tick = 0: expected a number > 0"):
         Limits(tick=0)
-    guard = Guard(pair(), {"a": (file, [0])}, 1)
-    with pytest.raises(LawError, match="use the Guard in a with statement"):
-        World(guard.scenario, seed=1).step()
-    with guard:
-        World(guard.scenario, seed=1).step()
-        with pytest.raises(LawError, match="a Guard is for one run"):
-            World(guard.scenario, seed=1).step()
-    with pytest.raises(InputError, match="a Guard is for one run"), guard:
-        pass

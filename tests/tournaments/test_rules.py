@@ -7,36 +7,32 @@ import pytest
 from mars2d import Robot, Scenario
 from mars2d.addons import Game
 from mars2d.cli.command_line import main
-from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.roles import contest_of
-from mars2d.tournaments.page.rules import rules_page
-from mars2d.tournaments.rules import Rules
+from mars2d.tournaments.page import rules_page
 from tests.browser import Tab
 from tests.cases import each_case
+from tests.tournaments.leagues import rules_of
 
 EVIL = "<script>alert(1)</script> & \"quoted\" 'too'"
 
 
-def rules_of(game, **options):
-    opened = open_experiment(game, options)
-    return Rules.of(opened, contest_of(opened.scenario, str(game)))
-
-
 def test_rules_are_those_of_the_games_file():
     rules = rules_of("corner_game", mu=0.8)
-    hunter, evader = rules.roles
+    hunter, evader = rules.roles["pursuer"], rules.roles["evader"]
     assert rules.game == "corner_game"
     assert rules.story.startswith("Corner pursuit as a game")
-    assert (hunter.name, hunter.robots, hunter.aim) == ("pursuer", ("red",), "catch blue")
-    assert hunter.drive == "Holonomic, at most 0.4 m/s"
-    assert hunter.command == "(vx [m/s], vy [m/s])"
-    assert "positions" in hunter.sees
-    assert evader.aim == "stay free for 200 s"
-    assert rules.counts.startswith("A capture is when the pursuer touches the evader.")
-    assert rules.arena.startswith("x from -5 m to 5 m")
-    assert "Walls stand round it." in rules.arena
-    assert rules.time == "200 s at most; a law is asked every 0.1 s."
-    assert rules.colors == {"pursuer": ("#d62728",), "evader": ("#1f77b4",)}
+    assert (hunter.aim, evader.aim) == ("catch blue", "stay free for 200 s")
+    assert (hunter.colors, evader.colors) == (("#d62728",), ("#1f77b4",))
+    assert hunter.facts == {
+        "Robots": "red",
+        "Drive": "Holonomic, at most 0.4 m/s",
+        "A law returns": "(vx [m/s], vy [m/s])",
+        "It sees": "its own pose and velocity, and the positions of its neighbours",
+    }
+    facts = rules.facts
+    assert facts["What is counted"].startswith("A capture is when the pursuer touches the evader.")
+    assert facts["Arena"].startswith("x from -5 m to 5 m")
+    assert "Walls stand round it." in facts["Arena"]
+    assert facts["Time"] == "200 s at most; a law is asked every 0.1 s."
 
 
 @each_case(
@@ -69,16 +65,17 @@ def test_a_pursuit_says_what_is_counted(fields, hunter, evader, counted):
 def test_the_page_needs_nothing_else_and_fits_at_any_width(browser, tmp_path, size, scheme):
     path = tmp_path / "rules.html"
     rules = rules_of("sumo")
-    evil = replace(rules, story=f"{EVIL}\n\nNews: {EVIL}", counts=EVIL, title=EVIL)
+    evil = replace(rules, story=f"{EVIL}\n\nNews: {EVIL}", facts={"Time": EVIL}, title=EVIL)
     path.write_text(rules_page(evil), encoding="utf-8")
     tab = Tab(browser, size, color_scheme=scheme)
     tab.page.goto(path.as_uri())
     assert tab.page.locator("h1").inner_text() == f"{EVIL}: the rules"
     assert tab.page.locator(".story p").all_inner_texts() == [EVIL, f"News: {EVIL}"]
     assert tab.page.evaluate("document.documentElement.scrollWidth") <= size[0]
-    assert tab.page.locator(".start img").evaluate("image => image.naturalWidth") > 100
-    color = tab.page.locator(".dot").first.evaluate("dot => getComputedStyle(dot).backgroundColor")
-    assert (color == "rgb(214, 39, 40)") == (scheme == "light")
+    assert tab.page.locator("main > dl dd").inner_text() == EVIL
+    assert tab.page.locator("img").evaluate("image => image.naturalWidth") > 100
+    dark = tab.page.evaluate("document.documentElement.classList.contains('dark')")
+    assert dark == (scheme == "dark")
     assert tab.complaints == []
     assert tab.asked == [path.as_uri()]
     tab.close()

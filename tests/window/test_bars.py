@@ -10,7 +10,7 @@ from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, 
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.run import keys
-from mars2d.window.widgets.help import draw_help
+from mars2d.window.widgets.help import Help
 from tests.cases import each_case
 from tests.window.circling import Circling
 from tests.window.written import Written, painter
@@ -95,8 +95,10 @@ def test_a_banner_has_all_it_can_say(size, text, code, words):
 def helped(size, text=1.0, groups=None, page=0):
     layout, surface = Layout.of(size, text=text, controls=True), Written(size)
     groups = keys.GROUPS.items() if groups is None else groups
-    pages = draw_help(surface, layout, painter(layout, LIGHT), groups, page)
-    return layout, surface, pages
+    shown = Help()
+    shown.page = page
+    shown.draw(surface, layout, painter(layout, LIGHT), groups)
+    return layout, surface, shown.pages
 
 
 @each_case("size, text", [((640, 480), max(TEXT_SIZES)), ((1280, 720), 1.0)])

@@ -12,7 +12,6 @@ from mars2d.cli.command_line import main
 from mars2d.scenario import load_scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window import editor_window
-from mars2d.window.editor import keys
 from tests.cases import each_case
 from tests.processes import mars
 from tests.window.drawing import near, team
@@ -43,6 +42,29 @@ def test_boxes_and_balls_are_put_by_click_and_sized_by_drag(open_editor):
     hands.drag((-2, -2), (-1.5, -2), (-1.4, -2))
     hands.until(lambda s: s["props"][-1] == ["Ball", -2, -2, 0, 1.2])
     hands.until(lambda s: s["fault"] == "")
+
+
+def test_all_props_are_drawn(open_editor):
+    hands = open_editor(team((4, 4)))
+    hands.tool("l", "bar")
+    hands.drag((-3, 2), (-2, 2.5), (-3, 4))
+    hands.until(lambda s: near(s["props"][-1][1:5], (-3, 3, pi / 2, 2)))
+    hands.tool("t", "gate")
+    hands.drag((-1, 0), (0, 0), (1, 0))
+    hands.until(lambda s: near(s["props"][-1][1:5], (0, 0, 0, 2)))
+    hands.tool("u", "puck")
+    hands.drag((2, 2), (2.5, 2), (3, 2))
+    hands.until(lambda s: s["props"][-1] == ["Puck", 2, 2, 0, 2])
+    hands.tool("s", "solid")
+    for corner in ((-3, -3), (0, -3), (-3, 0)):
+        hands.click(*corner)
+    hands.press("Return")
+    hands.until(lambda s: near(s["props"][-1][1:], (-2, -2, 0)))
+    hands.until(lambda s: s["fault"] == "" and s["selection"] == [["prop", 3, 0]])
+    for corner in ((0, -3), (1, -2), (1, -3), (0, -2)):
+        hands.click(*corner)
+    hands.press("Return")
+    hands.until(lambda s: "crosses or touches itself" in s["notice"] and len(s["props"]) == 4)
 
 
 @pytest.mark.parametrize("end", ["Return", "Escape", "button"])
@@ -627,17 +649,3 @@ def test_it_looks_as_it_did(open_editor):
     hands.drag((-3, 1), (-3, 0), (-3, -1.6))
     hands.until(lambda s: s["fault"])
     compare("editor_fault", hands.still())
-
-
-# -- keys -----------------------------------------------------------------------------------------
-
-
-def test_every_key_of_the_table_does_something_and_no_two_are_the_same():
-    every = [key for _, group in keys.GROUPS[:4] for key in group]
-    names = [name for key in every for name in key.names]
-    assert len(names) == len(set(names))
-    for key in every:
-        for name in key.names:
-            assert keys.action_of(name, "", live=False) is key
-    assert keys.action_of("return", "", live=True).action == "now"
-    assert keys.action_of("return", "", live=False) is None

@@ -7,15 +7,18 @@ import pygame
 import pytest
 
 from mars2d.addons import Beacon, Map, Voronoi, Waypoints
-from mars2d.bodies.joints import Rope
+from mars2d.bodies.joints import Hinge, Rope
 from mars2d.bodies.props import Ball, Box
+from mars2d.core.errors import InputError
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
+from mars2d.scenario.controllers import FollowRobot
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor import Editor, keys
+from mars2d.window.editor import Editor
 from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk, History
 from mars2d.window.editor.document import Document
@@ -25,6 +28,7 @@ from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.verdict import judge
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.actions import action_of
 from mars2d.window.widgets.text_field import TextField
 from tests.cases import each_case
 from tests.window.strokes import pressed
@@ -51,7 +55,7 @@ def furnished():
 
 def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
     scenario = furnished()
-    draft, _ = Draft.of(scenario).with_outline(((-1, -1), (0, -1), (0, 0)))
+    draft = Draft.of(scenario).added("outline", ((-1, -1), (0, -1), (0, 0)))
     changed = draft.scenario()
     assert [addon.key for addon in changed.addons] == [addon.key for addon in scenario.addons]
     chart = changed.addons[1]
@@ -76,12 +80,67 @@ def test_with_a_robot_go_its_route_and_its_joints():
 
 
 def test_new_things_get_names_that_are_free():
-    draft = Draft.of(furnished())
-    draft, robot = draft.with_robot(Robot())
-    draft, box = draft.with_new_prop(Box())
-    draft, beacon = draft.with_beacon(Beacon((0, 0)))
-    names = [draft.name(item) for item in (robot, box, beacon)]
-    assert names == ["robot1", "box1", "beacon1"]
+    before = Draft.of(furnished())
+    draft = before.added("robot", Robot()).added("prop", Box()).added("beacon", Beacon((0, 0)))
+    names = [draft.name(item) for item in draft.new_since(before)]
+    assert names == ["box1", "robot1", "beacon0"]
+
+
+def tied(*joints):
+    """Return the draft of two boxes, one at (0, 0), the other at (2, 0), and of a robot."""
+    boxes = [Box(pose=(0, 0, 0)), Box(pose=(2, 0, pi / 2))]
+    return Draft.of(Scenario(robots=[Robot(pose=(-3, 3, 0))], props=boxes, joints=joints))
+
+
+def test_a_rope_goes_with_its_body_and_does_not_come_back_with_the_name():
+    draft = tied(Rope(a="box0", b="box1")).without([Item("prop", 0)]).added("prop", Box())
+    assert (draft.props[1].name, draft.joints) == ("box0", ())
+
+
+def test_copies_are_tied_as_their_models_are():
+    draft = tied(Rope(a="box0", b="box1"), Rope(a="box1", anchor_b=(2, 3)))
+    both = draft.copied([Item("prop", 0), Item("prop", 1)], Motion(by=(0.0, -3.0)))
+    assert [(j.a, j.b, j.anchor_b) for j in both.joints[2:]] == [
+        ("box2", "box3", (0, 0)),
+        ("box3", None, (2, 0)),
+    ]
+    assert judge(both).text == ""
+    one = draft.copied([Item("prop", 0)], Motion(by=(0.0, -3.0)))
+    assert len(one.joints) == 2
+
+
+def test_the_pin_of_a_hinge_stays_one_point_when_a_body_moves():
+    hinges = Hinge(a="box0", b="box1", anchor_a=(1, 0), anchor_b=(0, 1)), Hinge(a="box0")
+    draft = tied(*hinges).moved([Item("prop", 1)], Motion(pi / 2, (2.0, 0.0), (0.0, 0.5)))
+    assert draft.joints[0].anchor_b == (0, 1)
+    assert draft.joints[0].anchor_a == pytest.approx((2, -0.5))
+    assert judge(draft).text == ""
+    both = draft.moved([Item("prop", 0), Item("prop", 1)], Motion(by=(0.0, 1.0)))
+    assert both.joints[1].anchor_b == (0, 1)
+    assert judge(both).text == ""
+
+
+def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
+    robots = [Robot(name="red"), Robot(name="blue")]
+    draft = Draft.of(Scenario(robots=robots, random_starts=[RandomStarts()]))
+    red, blue = Item("robot", 0), Item("robot", 1)
+    x, y, _ = draft.pose(red)
+    moved = draft.moved([red], Motion(by=(3 - x, 3 - y)))
+    assert (draft.starts_at_random(red), moved.starts_at_random(red)) == (True, False)
+    assert moved.scenario().started(seed=9).robots[0].pose[:2] == (3, 3)
+    assert moved.scenario().started(seed=9).robots[1].pose != moved.robots[1].pose
+    assert moved.without([blue]).scenario().random_starts == ()
+
+
+def test_a_new_name_holds_wherever_the_body_is_mentioned():
+    follow = Robot(pose=(-3, 0, 0), controller=FollowRobot(leader="robot0"))
+    draft = Draft.of(furnished()).added("robot", follow)
+    draft = draft.renamed(Item("robot", 0), "Ada").renamed(Item("robot", 1), "Bo")
+    assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot1"]
+    assert draft.robots[2].controller.leader == "Ada"
+    assert draft.joints[0].a == "Bo"
+    with pytest.raises(InputError, match="'Bo' is the name of another body"):
+        draft.renamed(Item("robot", 0), "Bo")
 
 
 def test_things_turn_about_a_point_and_come_back():
@@ -122,8 +181,9 @@ def test_a_robot_that_can_not_stand_where_it_is(by, words, other):
 
 
 def test_a_waypoint_outside_the_workspace():
-    draft, item = Draft.of(furnished()).with_waypoint(0, (7.0, 0.0))
-    assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", {item})
+    draft = Draft.of(furnished()).added("waypoint", (7.0, 0.0), 0)
+    outside = {Item("waypoint", 0, 0)}
+    assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", outside)
 
 
 @each_case(
@@ -135,10 +195,9 @@ def test_a_waypoint_outside_the_workspace():
     ],
 )
 def test_outlines_that_are_none(outline, words):
-    draft, item = Draft.of(furnished()).with_outline(outline)
-    text, culprits = fault(draft)
+    text, culprits = fault(Draft.of(furnished()).added("outline", outline))
     assert text.startswith(words)
-    assert culprits == {item}
+    assert culprits == {Item("outline", 1)}
 
 
 # -- history, sketch, targets, prompts -------------------------------------------------------------
@@ -214,7 +273,7 @@ def test_a_prompt_shows_what_is_wrong_and_stays():
         taken.append(text)
         Document(None).named(text)
 
-    answer = Answer("return", "Enter", "save", take)
+    answer = Answer("Enter", "save", take)
     prompt = Prompt("Save as", answer, field=TextField("a", opened_by_key=True))
     prompt.handle(pygame.Event(pygame.TEXTINPUT, text="="))  # of the key that opened it
     for event in (*pressed("b"), *pressed("backspace"), *pressed("backspace"), *pressed("return")):
@@ -263,20 +322,39 @@ def test_a_draft_of_an_example_is_that_scenario_again_and_can_be_emptied(name):
     assert "no robot" in editor.judge.verdict.text
 
 
-def test_the_keys_in_the_document_are_those_of_the_editor():
+def test_the_keys_in_the_document_and_the_help_are_those_that_work():
     text = (Path(__file__).parents[2] / "docs" / "editor.md").read_text(encoding="utf-8")
-    rows = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]
-    wanted = [[" ".join(key.labels), key.help] for _, group in keys.GROUPS for key in group]
-    assert rows[rows.index(["Key", "What it does"]) :][: 1 + len(wanted)] == [
-        ["Key", "What it does"], *wanted,
-    ]  # fmt: skip
+    told = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]
+    listed = []
+    for live in (False, True):
+        editor = Editor(Scenario(), Looks(), live=live)
+        actions = [action for group in editor.groups.values() for action in group]
+        listed += [[" ".join(action.labels), action.help] for action in actions]
+        labels = [label for action in actions for label in (*action.labels, *action.also)]
+        assert len(labels) == len(set(labels))
+    rows = told[told.index(["Key", "What it does"]) + 1 :]
+    unique = [list(row) for row in dict.fromkeys(map(tuple, listed))]
+    assert sorted(rows[: len(unique)]) == sorted(unique)
 
 
-def test_the_page_of_help_lists_all_keys_that_work():
-    for live, action in ((True, "now"), (False, "run")):
-        listed = {key.action for _, group in keys.groups(live=live) for key in group}
-        assert action in listed
-        for _, group in keys.groups(live=live):
-            for key in group:
-                for name in key.names:
-                    assert keys.action_of(name, "", live=live) is key
+@each_case(
+    "key, typed, mod, name, live",
+    [
+        ("v", "v", 0, "select", False),
+        ("v", "V", pygame.KMOD_SHIFT, "select", False),
+        ("0", "=", pygame.KMOD_SHIFT, "pose", False),  # on a German keyboard
+        ("left", "", pygame.KMOD_SHIFT, "nudge", False),
+        ("backspace", "\b", 0, "delete", False),
+        ("z", "\x1a", pygame.KMOD_CTRL | pygame.KMOD_SHIFT, "redo", False),
+        ("return", "\r", 0, None, False),
+        ("return", "\r", 0, "now", True),
+        ("enter", "\r", pygame.KMOD_SHIFT, "start", True),
+        ("f5", "", 0, None, True),
+    ],
+)
+def test_keys_do_what_the_table_says(key, typed, mod, name, live):
+    editor = Editor(Scenario(), Looks(), live=live)
+    code = pygame.key.key_code(key)
+    event = pygame.Event(pygame.KEYDOWN, key=code, unicode=typed, mod=mod)
+    found = action_of(event, [action for group in editor.groups.values() for action in group])
+    assert (found and found.name) == name

@@ -174,7 +174,7 @@ def test_joints_tie_a_body_to_another_or_to_the_floor(open_editor, name):
         hands.click(*place)
         hands.until(lambda s: s["tool"] == "select")
     tied = [[name, "robot0", "robot1", [0, 0]], [name, "robot0", None, [0, 2]]]
-    hands.until(lambda s: s["joints"] == tied)
+    hands.until(lambda s: s["joints"] == tied and s["fault"] == "")
     hands.row(f"{name} to the floor")
     hands.entry("Remove it")
     hands.until(lambda s: s["joints"] == tied[:1])
@@ -210,6 +210,41 @@ def test_without_a_selection_the_panel_shows_the_scenario_and_who_stands_still(o
     hands.until(lambda s: s["base"] == ["Two of them", 30, "wall"])
     hands.row("robot1 lacks a law")
     hands.until(lambda s: s["selection"] == [["robot", 1, 0]])
+
+
+@pytest.mark.parametrize("title", ["1e3", "none"])
+def test_a_title_is_text_whatever_it_looks_like(open_editor, title):
+    hands = open_editor(team((0, 0)))
+    hands.row("Title")
+    hands.fill(title)
+    hands.until(lambda s: s["base"][0] == title and s["prompt"] is None)
+
+
+def test_what_nobody_gave_reads_as_what_it_is_and_can_be_taken_back(open_editor):
+    box = Box(pose=(0, 0), length=0.2, width=0.2, height=0.01, material="wood")
+    hands = chosen(open_editor, Scenario(robots=[Robot(pose=(3, 3, 0))], props=[box]))
+    assert ["Mass", "automatic (0.24 kg)"] in hands.state["rows"]
+    hands.row("Mass")
+    hands.fill("1.5")
+    hands.until(lambda s: ["Mass", "1.5 kg"] in s["rows"])
+    hands.row("Mass")
+    hands.fill("none")
+    hands.until(lambda s: ["Mass", "automatic (0.24 kg)"] in s["rows"])
+    hands.row("More")
+    hands.entry("Material")
+    hands.fill("steel")
+    hands.until(lambda s: ["Friction", "automatic (steel)"] in s["rows"])
+
+
+def test_a_body_gets_another_name_which_its_joints_use(open_editor):
+    scenario = team((0, 0), (2, 0)).replace(joints=[Rope(a="robot1", b="robot0")])
+    hands = chosen(open_editor, scenario)
+    hands.row("Name")
+    hands.fill("robot1")
+    assert "'robot1' is the name of another body" in hands.state["error"]
+    hands.fill("Ada")
+    hands.until(lambda s: s["joints"][0][:3] == ["Rope", "robot1", "Ada"])
+    assert ["Name", "Ada"] in hands.state["rows"]
 
 
 def test_a_value_that_is_refused_is_said_and_changes_nothing(open_editor):

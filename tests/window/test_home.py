@@ -75,18 +75,38 @@ def test_no_card_covers_another_at_any_size(memory, size, text):
 
 def test_what_is_typed_is_searched_for(memory):
     home, surface = shown(memory)
-    for letter in "push b":
-        home.handle(pygame.Event(pygame.TEXTINPUT, text=letter))
-    assert {card.title for card in all_cards(home)} >= {"Push box"}
-    assert len(all_cards(home)) < 6
-    press(home, pygame.K_BACKSPACE)
+
+    def found(words):
+        press(home, pygame.K_ESCAPE)
+        for letter in words:
+            home.handle(pygame.Event(pygame.TEXTINPUT, text=letter))
+        return {card.title for card in all_cards(home)}
+
+    assert "Push box" in found("push b")
+    assert found("RangeFinder") == found("range_finder") >= {"Obstacle avoidance"}, "a part"
+    assert len(found("contact")) > 10, "a course, docstrings, and the field physics"
     press(home, pygame.K_ESCAPE)
-    assert len(all_cards(home)) > len(examples())
-    for letter in "qq":
-        home.handle(pygame.Event(pygame.TEXTINPUT, text=letter))
+    assert len(all_cards(home)) == len(examples()) + 1, "each once, and a new drawing"
+    found("qq")
     home.draw(surface)
     press(home, pygame.K_RETURN)
     assert home.choice is None
+
+
+def test_a_game_has_one_card_with_two_buttons(memory):
+    home, _ = shown(memory)
+    game = games()[0]
+    assert {command for _, command in home.page.buttons} >= {("play", game), ("demo", game)}
+    for place, command in home.page.buttons[:2]:
+        home, _ = shown(memory)
+        home.handle(pygame.Event(pygame.MOUSEBUTTONDOWN, button=1, pos=place.center))
+        assert home.choice == command
+    for mod, verb in ((0, "play"), (pygame.KMOD_LSHIFT, "demo")):
+        home, _ = shown(memory)
+        press(home, pygame.K_DOWN)
+        key = {"key": pygame.K_RETURN, "unicode": "\r", "mod": mod}
+        home.handle(pygame.Event(pygame.KEYDOWN, **key))
+        assert home.choice == (verb, game)
 
 
 def test_arrows_and_enter_choose(memory):

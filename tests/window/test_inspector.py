@@ -33,7 +33,7 @@ from mars2d.sensors import (
     Sensor,
     SonarRing,
 )
-from mars2d.window.panels.forcemeter import Meter
+from mars2d.window.panels.forcemeter import reading_of
 from mars2d.window.panels.forceplot import draw_force
 from mars2d.window.panels.inspector import Inspector, sensor_plots
 from mars2d.window.panels.readout import contacts_of, dynamics_of, inbox, rounded, state_of
@@ -147,7 +147,7 @@ def test_what_moves_is_measured_over_the_control_step(world):
 
 def test_contacts_are_named_with_their_force(world):
     (line,) = contacts_of(world.frame, 0)
-    force = Meter().read(world.frame, 0).force[-1]
+    force = reading_of(world.frame, 0).force[-1]
     assert line == f"crate  {force:.1f} N"
     assert contacts_of(world.frame, 4)[0].startswith("red")
     assert contacts_of(world.frame, 1) == []
@@ -221,7 +221,7 @@ def rows_of(seen, color):
 def force_plot(frame, body=0):
     surface = pygame.Surface((320, 160), 0, 32)
     surface.fill("white")
-    draw_force(surface, surface.get_rect(), Painter(), frame, body, Meter().read(frame, body))
+    draw_force(Painter(), frame, body, reading_of(frame, body), surface, surface.get_rect())
     return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
 
 

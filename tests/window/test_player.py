@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pygame
 import pytest
 
 from mars2d.core.errors import LawError
@@ -180,10 +181,17 @@ def test_between_two_frames_props_move_and_contacts_are_those_under_way():
 
 
 def test_every_key_has_its_own_command():
-    names = [name for key in keys.KEYS for name in key.names]
-    assert len(names) == len(set(names))
-    assert len({key.action for key in keys.KEYS}) == len(keys.KEYS)
-    assert all(key.help and key.labels for key in (*keys.KEYS, *keys.MOUSE))
+    labels = [label for each in keys.ACTIONS for label in (*each.labels, *each.also)]
+    assert len(labels) == len(set(labels))
+    assert len({each.name for each in keys.ACTIONS}) == len(keys.ACTIONS)
+    assert all(each.help and each.labels for each in (*keys.ACTIONS, *keys.MOUSE))
+
+
+def pressed(name, character, *, manual, mod=0):
+    code = pygame.key.key_code(name)
+    event = pygame.Event(pygame.KEYDOWN, key=code, unicode=character, mod=mod)
+    action = keys.Keyboard().press(event, manual=manual)
+    return None if action is None else action.name
 
 
 @each_case(
@@ -194,9 +202,19 @@ def test_every_key_has_its_own_command():
         ("escape", "", "escape"), ("w", "w", None), ("left shift", "", None), ("return", "", None),
     ],
 )  # fmt: skip
-def test_what_keys_do(name, character, action):
-    key = keys.action_of(name, character, manual=False)
-    assert (key and key.action) == action
+def test_what_keys_do(keyboard, name, character, action):
+    assert pressed(name, character, manual=False) == action
+
+
+@each_case(
+    "name, mod, action",
+    [
+        ("=", pygame.KMOD_LSHIFT, "nearer"), ("=", 0, "nearer"), ("-", 0, "farther"),
+        ("[+]", 0, "nearer"), ("0", 0, "fit"), ("w", 0, "leave"), ("x", 0, None),
+    ],
+)  # fmt: skip
+def test_what_keys_do_with_ctrl(keyboard, name, mod, action):
+    assert pressed(name, "", manual=True, mod=mod | pygame.KMOD_LCTRL) == action
 
 
 def test_so_many_steps_are_done_as_pictures_allow_and_then_it_is_paused():
@@ -257,9 +275,8 @@ def test_at_speed_max_the_simulation_gets_nine_times_as_long_as_the_drawing():
         ("left shift", None), ("left ctrl", None),
     ],
 )  # fmt: skip
-def test_in_manual_mode_every_other_key_is_a_step(name, action):
-    key = keys.action_of(name, "", manual=True)
-    assert (key and key.action) == action
+def test_in_manual_mode_every_other_key_is_a_step(keyboard, name, action):
+    assert pressed(name, "", manual=True) == action
 
 
 # -- contacts -------------------------------------------------------------------------------------

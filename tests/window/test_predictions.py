@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pygame
-
 from mars2d.core.deadline import Deadline
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
@@ -59,12 +57,8 @@ class Desk:
         return self.panel.look(playing=playing)
 
     def drawn(self):
-        surface = Written((1280, 720))
-        self.panel._image = None
-        rect = pygame.Rect(0, 0, *self.size)
-        part = Written(rect.size)
-        self.panel._draw(part, self.panel._words(rect.width))
-        self.panel.draw(surface, rect, self.timeline.frame)
+        part = Written(self.size)
+        self.panel.draw(part, part.get_rect(), self.timeline.frame)
         return part
 
     @property
@@ -134,6 +128,19 @@ def test_a_run_changed_by_hand_has_no_predictions_and_a_new_start_has(tmp_path):
     desk.run(4)
     desk.look()
     assert "way" in desk.says
+
+
+def test_after_a_slider_r_runs_again_with_its_value_and_predicts(open_window):
+    window = open_window(0, experiment="push_box")
+    window.press("F3", "Right")
+    panel = window.shown._predictions
+    window.shown.parameters._set("mu", 0.4)
+    window.settle()
+    assert "R: again with mu = 0.4, and predict." in " ".join(panel._words(10_000))
+    window.press("r", "Right")
+    window.settle()
+    assert panel._timeline.options == {"mu": 0.4}
+    assert "of 6 predictions" in " ".join(panel._words(10_000))
 
 
 @THEMES

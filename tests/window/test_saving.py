@@ -14,7 +14,7 @@ from mars2d.output.films.filming import FPS, Filming
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.window.run.director import Director
 from mars2d.window.screen.player import Player
-from mars2d.window.screen.saving import free_name, save_picture, save_python, start_film
+from mars2d.window.screen.saving import Saver, free_name, saved, start_film
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
@@ -73,24 +73,32 @@ def test_names_are_numbered_and_made_at_once(tmp_path):
 
 def test_a_folder_that_cannot_be_written_is_told_in_words(tmp_path):
     with pytest.raises(InputError, match="nowhere: no file can be made here, No such file"):
-        save_picture(painted("red"), tmp_path / "nowhere", "walk")
+        free_name(tmp_path / "nowhere", "walk", ".png")
 
 
-def test_a_picture_is_kept_beside_others(tmp_path):
+def test_a_file_that_cannot_be_written_leaves_nothing_behind(tmp_path):
+    with pytest.raises(InputError, match="full"):
+        saved(tmp_path, "walk", ".csv", lambda path: (_ for _ in ()).throw(InputError("full")))
+    assert not list(tmp_path.iterdir())
+
+
+def test_pictures_and_scenarios_are_kept_beside_others(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "walk_1.png").write_text("mine")
-    path = save_picture(painted("red"), tmp_path, "walk")
-    assert path == tmp_path / "walk_2.png"
+    notes = Notes()
+    saver = Saver(notes, "walk")
+    saver.picture(painted("red"))
     assert (tmp_path / "walk_1.png").read_text() == "mine"
-    with Image.open(path) as picture:
+    with Image.open(tmp_path / "walk_2.png") as picture:
         assert picture.size == SIZE
         assert picture.getpixel((5, 5)) == (255, 0, 0)
-
-
-def test_a_scenario_is_kept_as_python(tmp_path):
     scenario = Scenario(title="Kept", robots=[Robot(pose=(1, 2, 3))])
-    path, copied = save_python(scenario, tmp_path, scenario.title)
-    assert (path, copied) == (tmp_path / "kept_1.py", False)  # there is no window
-    assert open_experiment(path).scenario == scenario
+    saver.python(scenario, None)
+    assert open_experiment(tmp_path / "walk_1.py").scenario == scenario
+    paths = tmp_path / "walk_2.png", tmp_path / "walk_1.py"
+    assert [note.text for note in notes._notes] == [
+        f"picture: {paths[0]}", f"scenario: {paths[1]}"
+    ], "there is no window, and no clipboard"  # fmt: skip
 
 
 # -- films ----------------------------------------------------------------------------------------

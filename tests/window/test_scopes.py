@@ -124,6 +124,9 @@ def test_a_function_of_ones_own_is_traced_and_its_mistakes_are_told(timeline):
 # -- plots ----------------------------------------------------------------------------------------
 
 
+NONE = dict.fromkeys(("scopes", "figure", "table"), None)
+
+
 class Scoped:
     """Scopes of a run on a surface that remembers its words."""
 
@@ -131,7 +134,7 @@ class Scoped:
         layout = Layout.of((1280, 720))
         self.timeline, self.gone = timeline, []
         self.scopes = Scopes(
-            painter(layout, theme), SimpleNamespace(source=timeline, go=self.gone.append), {},
+            painter(layout, theme), SimpleNamespace(source=timeline, go=self.gone.append), NONE,
             clock=lambda: 0.0,
         )  # fmt: skip
         self.surface = Written(size)
@@ -157,7 +160,7 @@ def test_the_cursor_has_the_values_of_the_row_that_is_shown(timeline):
 
 
 def test_what_is_switched_on_for_one_body_joins_the_plot_of_another():
-    scopes = Scopes(None, None, {})
+    scopes = Scopes(None, None, NONE)
     scopes.switch("speed", (0,))
     scopes.switch("speed", (2,))
     scopes.switch("energy", ())

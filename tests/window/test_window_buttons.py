@@ -225,7 +225,7 @@ def test_each_button_and_entry_is_pressed_by_one_of_these_tests():
 
 
 def test_every_button_has_a_key_of_the_same_label():
-    by_action = {key.action: key for key in keys.KEYS}
+    by_action = {each.name: each for each in keys.ACTIONS}
     groups = (*toolbar.TRANSPORT, toolbar.SEE, toolbar.CHANGE, toolbar.SAVE, toolbar.LOOK)
     for name in (name for group in groups for name in group):
         assert CONTROLS[name].key == by_action[name].labels[0], name

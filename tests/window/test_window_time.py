@@ -343,3 +343,14 @@ def test_while_a_law_takes_long_esc_breaks_it_off_and_ctrl_q_closes_the_window(o
         pygame.event.post(pygame.Event(pygame.KEYDOWN, key=key, mod=mod, unicode=""))
         assert shown._answer("walk.py, line 6") == how
     assert not shown._open
+
+
+def test_a_law_that_waits_in_c_is_named_and_only_ctrl_q_ends_it(open_window):
+    shown = open_window(0).shown
+    shown._limit.blocked, shown._passing = True, True
+    pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_ESCAPE, mod=0, unicode=""))
+    assert shown._answer("walk.py, line 6") == "", "nothing can break it off"
+    notes = [note.text for note in shown.notes._notes]
+    assert notes == ["waiting for walk.py, line 6; Ctrl Q ends the program, and saves"]
+    pygame.event.post(pygame.Event(pygame.QUIT))
+    assert shown._answer("walk.py, line 6") == "did not return before the window was closed"

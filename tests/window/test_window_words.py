@@ -123,10 +123,23 @@ def test_what_is_said_is_in_no_film(window):
 def test_at_any_size_of_text_the_arena_has_room_and_icons_no_less(window, size):
     sides = []
     for text in (1.0, 1.3, 1.7, 2.2):
-        words(window, size, text)
+        written = words(window, size, text)
         plot, buttons = window.layout.plot, window.toolbar.bars[1].places
         assert plot.width * plot.height >= 0.4 * size[0] * size[1]
         assert all(len(each.collidelistall([*buttons.values()])) == 1 for each in buttons.values())
         assert all(window.layout.tools.contains(each) for each in buttons.values())
-        sides.append(next(iter(buttons.values())).width)
+        sides.append(next(iter(buttons.values())).height)
+        labelled = size[0] >= 1100 * window.layout.ui
+        assert ("Save as Python" in written) == labelled, "an icon has a word where there is room"
     assert min(sides) >= (0.75 if size == (640, 400) else 1.0) * sides[0], sides
+
+
+def test_legends_lie_beside_the_workspace_where_there_is_room(window):
+    do(window, "forces")
+    for selects in (False, True):
+        for _ in range(2):
+            words(window, (1920, 1080))
+        image, corner = window._stage._legend
+        arena = window._seen_arena(window.player.frame)
+        assert not image.get_rect(topleft=corner).colliderect(arena), selects
+        do(window, "select")

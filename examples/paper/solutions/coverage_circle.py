@@ -29,7 +29,7 @@ HOOK = [(0, 0), (5, 0), (5, 2), (2, 2), (2, 3), (5, 3), (5, 5), (0, 5)]
 
 
 def cover(k, robot):
-    return k * (robot.world.addons.voronoi.centroids[:, robot.index] - robot.position)
+    return k * (robot.world.addons.voronoi.now.centroids[:, robot.index] - robot.position)
 
 
 def hollow(n):  # the distance of n robots from the middle, where nobody is, and H

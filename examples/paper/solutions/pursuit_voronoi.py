@@ -29,7 +29,7 @@ def control(world, k=0):
         if dist(evader, POINTS[k]) < 1e-9:
             near = [min(dist(point, hunter) for hunter in hunters) for point in POINTS]
             k = max((k + 1) % 4, (k - 1) % 4, key=lambda j, near=near: near[j])
-        edges = [world.addons.voronoi.edge(i, len(hunters)) for i in range(len(hunters))]
+        edges = [world.addons.voronoi.now.edge(i, len(hunters)) for i in range(len(hunters))]
         goals = [np.mean(edge, axis=0) if edge else evader for edge in edges]
         yield (np.transpose([*goals, POINTS[k]]) - world.position) / world.sampling_time
 

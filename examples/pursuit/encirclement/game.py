@@ -8,16 +8,17 @@ the evader is caught if and only if it is within the pursuers' convex hull. A qu
 Chernous'ko, A problem of evasion from many pursuers, J. Appl. Math. Mech. 40, 1976, escapes any
 number of points; so what counts is their width, and whether it runs straight.
 Prediction: a pursuer at the share g of its speed meets whoever runs straight on within asin g of
-its bearing, whatever the distance. So no way is left if no gap is wider than 2 asin g: for g = 1
-that is the hull, for n at even gaps n >= pi / asin g. At the angle b from the bearing, farther than
-that, the evader gets by at the distance d sin(b - asin g) at least, where d is that at the start.
+its bearing, whatever the distance. So no straight way is left if no gap is wider than 2 asin g: for
+g = 1 that is the hull, for n at even gaps n >= pi / asin g. At the angle b from the bearing, from
+asin g to asin g + pi / 2, it comes no nearer than d sin(b - asin g), where d is that at the start.
 """
 
-from math import asin, hypot, pi, sin
+from math import asin, hypot, pi
 
 import numpy as np
+import theory
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Robot, Scenario, load_law
 from mars2d.addons import Game, Theory
 
 SPEED, APART, WIDTH = 0.5, 3.0, 0.2  # m/s, of the evader; m, how far all start; m, of each
@@ -35,7 +36,7 @@ def scenario(
     def cones(scene, frame):  # the ways on which each pursuer meets the evader
         evader = frame.pose[:2, -1]
         for x, y in (frame.pose[:2, :-1].T - evader).tolist():
-            angles = np.arctan2(y, x) + np.linspace(-asin(ratio), asin(ratio), 20)
+            angles = np.arctan2(y, x) + asin(min(ratio, 1)) * np.linspace(-1, 1, 20)
             rim = evader + 0.3 * hypot(x, y) * np.transpose([np.cos(angles), np.sin(angles)])
             scene.polygon([evader, *rim], fill="#7b329430", stroke="#7b3294")
 
@@ -57,14 +58,4 @@ def scenario(
     )  # fmt: skip
 
 
-def checks(record):
-    path, last = record.pose[:, :2], record.pose.shape[2] - 1
-    run = path[-1, :, last] - path[0, :, last]
-    way = np.hypot(*np.diff(path[:, :, last], axis=0).T).sum()
-    if hypot(*run) > 0.999 * way:  # it ran straight on
-        x, y = path[0, :, :last] - path[0, :, [last]].T
-        off = np.abs((np.arctan2(y, x) - np.arctan2(*run[::-1]) + pi) % (2 * pi) - pi).min()
-        red, blue = record.scenario.robots[0].drive, record.scenario.robots[last].drive
-        miss = APART * sin(max(off - asin(red.max_linear_speed / blue.max_linear_speed), 0))
-        least = np.hypot(*(path[:, :, :last] - path[:, :, [last]]).transpose(1, 0, 2)).min()
-        yield Prediction("nearest", max(miss, WIDTH), least, 0.05, "m")
+checks = theory.checks

@@ -14,12 +14,13 @@ most. The guard does at mu v / b, so it is always between if mu > b / D = 0.51; 
 from math import cos, pi, sin
 
 import numpy as np
+import theory
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Robot, Scenario, load_law
 from mars2d.addons import Game, Theory
 
 SPEED, SIZE, NEAR, FAR, CAPTURE = 0.5, 0.4, 0.42, 3.0, 0.41  # m/s, of the hunter; m
-RATIO, VIOLET = NEAR / (NEAR + SIZE), "#7b3294"
+VIOLET = "#7b3294"
 HUNTER, ESCORT = "hunters/round.py", "escorts/between.py"
 
 
@@ -55,16 +56,4 @@ def scenario(mu: float = 0.6, hunter: str = HUNTER, escort: str = ESCORT, seed: 
     )
 
 
-def free(record):
-    """Whether the prey is free in the end: by the formula, and in the run."""
-    hunter, guard, _ = (robot.drive.max_linear_speed for robot in record.scenario.robots)
-    apart = np.hypot(*(record.pose[-1, :2, 0] - record.pose[-1, :2, 2]))
-    return int(guard / hunter > RATIO), int(apart > CAPTURE)
-
-
-def survives(record):
-    return free(record)[1]
-
-
-def checks(record):
-    yield Prediction("the prey is free in the end", *free(record), 0)
+checks, survives = theory.checks, theory.survives

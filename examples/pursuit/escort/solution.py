@@ -29,5 +29,5 @@ def scenario(mu: float = 0.75, seed: int = 0):
 
 def checks(record):
     hunter, guard, _ = (robot.drive.max_linear_speed for robot in record.scenario.robots)
-    enough = (WALK + (hunter + WALK) * base.RATIO) / hunter
+    enough = (WALK + (hunter + WALK) * base.theory.ratio(record)) / hunter
     yield Prediction("the prey is free", int(guard / hunter > enough), base.survives(record), 0)

@@ -8,14 +8,15 @@ goes 0.5 m/s, the attacker mu times that, both in any direction. The referee cou
 Law of both: head for the lowest point that the attacker reaches before the guard is 0.5 m away.
 Source: Isaacs, Differential Games, Wiley, 1965: guarding a target; Dorothy, Maity, Shishika and Von
 Moll, 2021, arXiv:2111.09205: a quicker guard can keep the attacker in its first Apollonius circle.
-Prediction: if all of its region lies above the line, the attacker is caught at the lowest point.
+Prediction: if all of its region lies above the line, the attacker is caught at the lowest point. A
+guard that keeps this law lets nobody lower, and no guard stops who keeps it higher: a saddle point.
 """
 
 import numpy as np
+import theory
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Robot, Scenario, load_law
 from mars2d.addons import Game, Theory
-from mars2d.geometry import dominance
 
 SPEED, CAPTURE, LINE, VIOLET = 0.5, 0.5, -1.8, "#7b3294"  # m/s, of the guard; m; m, its y
 GUARD, ATTACKER = "guards/lowest.py", "attackers/lowest.py"
@@ -23,15 +24,10 @@ FIELD = [(-7, -3), (7, -3), (7, 4), (-7, 4)]
 GOAL = [(-7, -3), (7, -3), (7, LINE), (-7, LINE)]
 
 
-def lowest(guard, attacker, mu):
-    region = dominance(attacker, guard, mu, CAPTURE)
-    return region[:, region[1].argmin()]
-
-
 def scenario(mu: float = 0.7, guard: str = GUARD, attacker: str = ATTACKER, seed: int = 0):
     def region(scene, frame):
         red, blue = frame.scenario.initial_pose[:2].T
-        below = dominance(blue, red, mu, CAPTURE)[:, 180:]  # all ways down
+        below = theory.region(red, blue, mu, CAPTURE)[:, 180:]  # all ways down
         scene.line(below.T, stroke=VIOLET, width=1.5)
         scene.circle(below[:, below[1].argmin()], 0, fill=VIOLET, pixels=5)
 
@@ -52,16 +48,4 @@ def scenario(mu: float = 0.7, guard: str = GUARD, attacker: str = ATTACKER, seed
     )
 
 
-def heights(record):
-    """How high above the line the attacker ends by the formula, and in the run [m]."""
-    (red, blue), (guard, attacker) = record.pose[0, :2].T, record.scenario.robots
-    mu = attacker.drive.max_linear_speed / guard.drive.max_linear_speed
-    return max(0, lowest(red, blue, mu)[1] - LINE), max(0, record.pose[-1, 1, 1] - LINE)
-
-
-def miss(record):
-    return -np.subtract(*heights(record))
-
-
-def checks(record):
-    yield Prediction("end: height above the line", *heights(record), 0.05, "m")
+checks, miss = theory.checks, theory.miss

@@ -13,8 +13,9 @@ less than acos(R / D) + acos(R / h). It falls by mu v / D - v / h a second: neve
 from math import acos, atan2, cos, pi, sin
 
 import numpy as np
+import theory
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Robot, Scenario, load_law
 from mars2d.addons import Game, Map, Theory
 from mars2d.sensors import Pose, RangeBearing
 
@@ -51,17 +52,4 @@ def scenario(mu: float = 1.4, seeker: str = SEEKER, hider: str = HIDER, seed: in
     )
 
 
-def times(record):
-    """When the hider is seen by the formula, at most the stop time, and in the run [s]."""
-    red, blue = (robot.drive.max_linear_speed for robot in record.scenario.robots)
-    falls, end = red / FAR - blue / NEAR, record.scenario.stop_time
-    angle = atan2(*record.pose[0, 1::-1, 1]) - acos(PILLAR / FAR) - acos(PILLAR / NEAR)
-    return min(end, angle / falls) if falls > 0 else end, record.time[-1]
-
-
-def miss(record):
-    return -np.subtract(*times(record))
-
-
-def checks(record):
-    yield Prediction("the hider is not seen for", *times(record), 1.0, "s")
+checks, miss = theory.checks, theory.miss

@@ -10,18 +10,15 @@ everywhere in the endless plane if and only if l > sqrt(1 - g^2) + g asin(g) - 1
 in radii, the pedestrian gets clear that steps aside when the car is g R ahead of it.
 """
 
-from math import asin, cos, pi, sin, sqrt
+from math import cos, pi, sin
 
 import numpy as np
+import theory
 
-from mars2d import Animation, Dubins, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Dubins, Holonomic, Robot, Scenario, load_law
 from mars2d.addons import Game, Theory
 
 SPEED, RADIUS, PERSON = 1.0, 2.0, 0.2  # m/s and m, of the car; m, the pedestrian's diameter
-
-
-def least(ratio):
-    return RADIUS * (sqrt(1 - ratio**2) + ratio * asin(ratio) - 1)
 
 
 def scenario(
@@ -50,20 +47,14 @@ def scenario(
     feet = Holonomic(max_linear_speed=ratio * SPEED, **hold)
     blue = red.replace(name="pedestrian", diameter=PERSON, drive=feet).at(0, 0)
     red = red.replace(controller=load_law(car)).at(5 * cos(way), 5 * sin(way), heading)
+    game = Game({"car": ["car"], "pedestrian": ["pedestrian"]})
     return Scenario(
         title="Homicidal chauffeur", robots=[red, blue.replace(controller=load_law(pedestrian))],
         workspace=[(-12, -12), (12, -12), (12, 12), (-12, 12)], on_exit="ignore",
         sampling_time=0.02, stop_time=40.0,
-        addons=[Game({"car": ["car"], "pedestrian": ["pedestrian"]}), Theory(barrier)],
+        addons=[game, Theory(barrier)] if ratio < 1 else [game],
         animation=Animation(base_colors=("red", "blue"), playback_speed=5),
     )  # fmt: skip
 
 
-def checks(record):
-    apart = np.hypot(*np.diff(record.pose[:, :2], axis=2)[..., 0].T)
-    (red, blue), stood = record.scenario.robots, not np.ptp(record.pose[:20, :2, 1], axis=0).any()
-    passed = np.flatnonzero((np.diff(apart) > 0) & (apart[:-1] < RADIUS))
-    if stood and (len(passed) or len(record.contacts)):  # a matador
-        first = apart[: passed[0] + 1].min() if len(passed) else apart[-1]
-        wins = max(least(blue.drive.max_linear_speed / SPEED), red.radius + blue.radius)
-        yield Prediction("distance at the first pass", wins, first, 0.04, "m")
+least, checks = theory.least, theory.checks

@@ -11,11 +11,12 @@ is R sin(v t / R) from the middle, on a circle half as large, and c behind him a
 (R / v) asin(1 - c / R).
 """
 
-from math import asin, cos, pi, sin
+from math import cos, pi, sin
 
 import numpy as np
+import theory
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Robot, Scenario, load_law
 from mars2d.addons import Game, Theory
 
 RADIUS, SPEED = 4.0, 0.5  # m, where the man's middle can be; m/s
@@ -52,13 +53,4 @@ def scenario(
     )  # fmt: skip
 
 
-def checks(record):
-    caught = record.scenario.addons[0].outcome(record).captures
-    lion, man = record.pose[:, :2].transpose(2, 0, 1)
-    reach, far = record.scenario.robots[0].diameter, np.hypot(*man.T)
-    cross = np.abs(lion[1:-1, 0] * man[1:-1, 1] - lion[1:-1, 1] * man[1:-1, 0])
-    if caught and np.ptp(far) < 0.02 * RADIUS and (cross < 0.1 * RADIUS).all():  # on his radius
-        meal = far[0] / SPEED * asin(1 - reach / far[0])
-        yield Prediction("meal", meal, caught[0].time, 0.1, "s")
-        off = np.hypot(*lion.T) - far[0] * np.sin(SPEED * record.time / far[0])
-        yield Prediction("lion beside the formula", 0, np.abs(off[:-1]).max(), 0.05, "m")
+checks = theory.checks

@@ -6,15 +6,16 @@ Setting: distributed, partial information: each knows its own pose and where the
 evader goes 0.5 m/s, the pursuer mu times that. A distance of 0.7 m is a capture.
 Law: the evader runs along a circle of the radius h to keep opposite; the pursuer comes after it.
 Source: obstacle tag: Isaacs, Differential Games, Wiley, 1965, problem 6.10.1. The formula is ours.
-Prediction: on the circle the angle a between them falls by (mu - 1) v / h a second. Equals run for
+Prediction: on one circle the angle a between them falls by (mu - 1) v / h a second. Equals run for
 ever; a chord of the capture distance l ends it, so t = (a h - 2 h asin(l / 2 h)) / ((mu - 1) v).
 """
 
-from math import acos, asin, atan2, cos, pi, sin
+from math import acos, atan2, cos, pi, sin
 
 import numpy as np
+import theory
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Robot, Scenario, load_law
 from mars2d.addons import Game, Map, Theory
 from mars2d.geometry import wrap
 
@@ -54,17 +55,4 @@ def scenario(mu: float = 1.25, pursuer: str = PURSUER, evader: str = EVADER, see
     )
 
 
-def times(record):
-    """When the evader is caught by the formula, at most the stop time, and in the run [s]."""
-    red, blue = (robot.drive.max_linear_speed for robot in record.scenario.robots)
-    (x, y), end = record.pose[0, :2, 1], record.scenario.stop_time
-    way = RADIUS * (atan2(y, x) - 2 * asin(CAPTURE / 2 / RADIUS))
-    return min(end, way / (red - blue)) if red > blue else end, record.time[-1]
-
-
-def miss(record):
-    return -np.subtract(*times(record))
-
-
-def checks(record):
-    yield Prediction("the evader is free for", *times(record), 1.0, "s")
+checks, miss = theory.checks, theory.miss

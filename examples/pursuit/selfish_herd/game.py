@@ -3,8 +3,9 @@
 Question: what does an animal gain from others beside it? Play with laws of your own:
 mars2d run selfish_herd --set flock=my_law.py --set number=24 --seed 3
 Setting: distributed, partial information: each knows its own pose and where all others are; all of
-the flock have the same law. A predator appears 4 m from the middle of a field and goes 0.5 m/s, the
-flock 0.3 m/s. A distance of 0.4 m is a capture. It needs `wanted` of them within 30 s.
+the flock have the same law, but the first one, if `other` is a law of its own. A predator appears
+anywhere in a field of 8 m by 8 m, but not within 0.6 m of one, and goes 0.5 m/s, the flock
+0.3 m/s. A distance of 0.4 m is a capture. It needs `wanted` of them within 30 s.
 Law of the predator: run at whoever is nearest. Of the flock: run straight away from it.
 Source: Hamilton, Geometry for the selfish herd, J. theor. Biol. 31, 295-311, 1971; the straight
 chase: Apollonius. Foster and Treherne, Nature 293, 466-467, 1981, have counted it at sea.
@@ -12,19 +13,18 @@ Prediction: the first victim is the one in whose domain of danger, its Voronoi c
 appears: of N, each with 1 / N on average. It is free for (d - l) / (v - u).
 """
 
-from math import cos, pi, sin
-
 import numpy as np
+import theory
 
-from mars2d import Animation, Holonomic, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Robot, Scenario, load_law
 from mars2d.addons import Game, Theory
 from mars2d.geometry import Tessellation, rectangle
 
-FAST, SLOW, CAPTURE, VIOLET = 0.5, 0.3, 0.4, "#7b3294"  # m/s, m/s, m
+FAST, SLOW, CAPTURE, NEAR, VIOLET = 0.5, 0.3, 0.4, 0.6, "#7b3294"  # m/s, m/s, m, m
 WOLF, FLOCK = "predators/nearest.py", "flocks/away.py"
 
 
-def scenario(number=12, wanted=3, predator: str = WOLF, flock: str = FLOCK, seed: int = 0):
+def scenario(number=12, wanted=3, predator=WOLF, flock=FLOCK, other="", seed: int = 0):
     def domains(scene, frame):
         wolf, sheep = np.split(frame.scenario.initial_pose[:2], [1], axis=1)
         victim = np.hypot(*(sheep - wolf)).argmin()
@@ -33,17 +33,21 @@ def scenario(number=12, wanted=3, predator: str = WOLF, flock: str = FLOCK, seed
             scene.polygon(cell.exterior.coords, stroke=VIOLET, width=1, fill=fill)
 
     rng, robot = np.random.default_rng(seed), Robot(diameter=0.3, sees="positions")
-    angle, grid = rng.uniform(0, 2 * pi), [(k // 7 - 3, k % 7 - 3) for k in range(49)]
-    at = 0.6 * rng.permutation(grid)[:number] + rng.uniform(-0.12, 0.12, (number, 2))
+    grid = [(k // 7 - 3, k % 7 - 3) for k in range(49)]
+    at = 0.9 * rng.permutation(grid)[:number] + rng.uniform(-0.2, 0.2, (number, 2))
+    places = rng.uniform(-4, 4, (100, 2))
+    apart = np.hypot(*(places[:, :, None] - at.T).swapaxes(0, 1))  # (100, number)
+    start = places[(apart.min(axis=1) > NEAR).argmax()]
     quick, slow = (Holonomic(max_linear_speed=speed) for speed in (FAST, SLOW))
     red = robot.replace(name="wolf", drive=quick, color="red", controller=load_law(predator))
     gray = robot.replace(drive=slow, color="gray", controller=load_law(flock))
     team = [gray.replace(name=f"sheep {k + 1}").at(*at[k]) for k in range(number)]
+    team[0] = team[0].replace(controller=load_law(other or flock))
     roles = {"predator": ["wolf"], "flock": range(1, number + 1)}
     game = Game(roles, capture=CAPTURE, wanted=min(wanted, number))
     return Scenario(
         title="The selfish herd",
-        robots=[red.at(4 * cos(angle), 4 * sin(angle)), *team],
+        robots=[red.at(*start), *team],
         workspace=None,
         stop_time=30.0,
         addons=[game, Theory(domains)],
@@ -51,19 +55,4 @@ def scenario(number=12, wanted=3, predator: str = WOLF, flock: str = FLOCK, seed
     )
 
 
-def first(record):
-    """The first victim and how long it is free [s], by the formula and in the run."""
-    apart = np.hypot(*(record.pose[0, :2, 1:] - record.pose[0, :2, :1]))
-    captures = record.scenario.addons[0].outcome(record).captures
-    time, _, victim = captures[0] if captures else (record.time[-1], 0, 0)
-    return apart.argmin() + 1, (min(apart) - CAPTURE) / (FAST - SLOW), victim, time
-
-
-def caught(record):
-    return len(record.scenario.addons[0].outcome(record).captures)
-
-
-def checks(record):
-    nearest, free, victim, time = first(record)
-    yield Prediction("the first victim: sheep", nearest, victim, 0)
-    yield Prediction("it is free for", free, time, 0.15, "s")
+checks, caught = theory.checks, theory.caught

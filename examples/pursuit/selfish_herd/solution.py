@@ -2,8 +2,8 @@
 
 1. With twice as many the risk of one is half. How many are eaten in 30 s changes little: the
    predator is as quick as before, and has to run to the next one.
-2. Who is at the edge has a large cell, who is in the middle a small one, in which a predator that
-   comes from outside never appears. So Hamilton's animals go to the middle; the flock is denser.
+2. Who is at the edge has a large cell, who is in the middle a small one, in which a predator seldom
+   appears. So Hamilton's animals go to the middle, and the flock gets denser.
 3. `stray` looks for the one with nobody beside it, and has a longer way to it.
 4. On a ring, Hamilton's pond, the domain of one is half of each gap beside it. Below, eight stand
    on a ring with gaps of 30 to 60 degrees, and the predator appears in the largest one, from 120

@@ -14,18 +14,12 @@ the same side, the nearest comes out of two circles; that is the way past if the
 from math import cos, pi, sin
 
 import numpy as np
+import theory
 
-from mars2d import Animation, Dubins, Prediction, Robot, Scenario, load_law
+from mars2d import Animation, Dubins, Robot, Scenario, load_law
 from mars2d.addons import Game, Theory
 
 SPEED, RADIUS, RATIO = 1.0, 2.0, 0.7  # m/s and m, of the pursuer; the evader's share of its speed
-
-
-def circles(pose, drive, times, side):
-    """Where a car is after times of its tightest turn to a side, in complex numbers."""
-    (x, y, theta), radius = pose, drive.turning_radius(drive.max_linear_speed)
-    turn = np.exp(1j * side * drive.max_angular_speed * times)
-    return x + 1j * y + side * radius * 1j * np.exp(1j * theta) * (1 - turn)
 
 
 def scenario(
@@ -38,7 +32,7 @@ def scenario(
     def ways(scene, frame):  # the tightest that each can go for the next two seconds
         for robot, pose in zip(frame.scenario.robots, frame.pose.T, strict=True):
             for side in (1, -1):
-                at = circles(pose, robot.drive, np.linspace(0, 2, 40), side)
+                at = theory.circles(pose, robot.drive, np.linspace(0, 2, 40), side)
                 scene.line(np.transpose([at.real, at.imag]), stroke="#7b3294", width=2)
 
     way, heading, other = np.random.default_rng(seed).uniform(0, 2 * pi, 3)
@@ -56,14 +50,4 @@ def scenario(
     )  # fmt: skip
 
 
-def checks(record):
-    drives = [robot.drive for robot in record.scenario.robots]
-    apart = np.hypot(*np.diff(record.pose[:, :2], axis=2)[..., 0].T)
-    turn = record.command[:, 1] / [drive.max_angular_speed for drive in drives]
-    jinks = np.flatnonzero((np.abs(turn[:-1, 1]) > 0.99) & (apart[:-1] < 1) & (np.diff(apart) < 0))
-    k = jinks[0] if len(jinks) else 0
-    past = k + apart[k : k + 100].argmin()
-    if k and turn[k:past].prod(axis=1).mean() > 0.9:  # both steer as hard as they can
-        side, times = np.sign(turn[k, 1]), np.linspace(0, 3, 600)
-        p, e = (circles(record.pose[k, :, i], drives[i], times, side) for i in (0, 1))
-        yield Prediction("first way past", max(np.abs(p - e).min(), 0.2), apart[past], 0.05, "m")
+checks = theory.checks

@@ -2,9 +2,10 @@
 
 1. The way left is below 0.1 m after 21.5 s without losses; after 24.6, 36.7 and 59.3 s with losses
    of 0.5, 0.8 and 0.9, the means of seeds 0 to 7.
-2. h = 0.2: z = (0.6 + sqrt(0.36 + 0.8)) / 2 = 0.8385, and 0.8385 is measured. At a gain of 1/s,
-   h = 1/2 and -2 h = -1: the team shakes and comes to no rest; at 1.2/s each robot goes at 2 m/s,
-   as fast as its drive allows. The way left shrinks all the same: they are together, but where?
+2. h = 0.2: z = (0.6 + sqrt(0.36 + 0.8)) / 2 = 0.8385, and 0.8385 is measured. With each m of the
+   ring, z^2 = (1 - 2 h) z + h m. m = 2 has the root -2 h, by which the whole team shakes, and
+   m = -2 has |z| = sqrt(2 h), by which neighbours shake against each other. Both come to 1 at
+   h = 1/2, a gain of 1/s: 0.10 m is left for ever, and at 1.2/s the drives' 2 m/s end the growth.
 3. The leader listens no more, and the others are a path of five robots whose both ends hear it. Its
    largest eigenvalue is 2 cos(pi / 6), in place of the ring's 2 cos(pi / 3), so that
    z^2 = (1 - 2 h) z + 2 h cos(pi / 6): z = 0.9772, and 0.9772 is measured below. They meet where

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,11 +55,6 @@ class Unit:
     name: str
     metres: float
     source: str
-
-    @classmethod
-    def named(cls, name: str, source: str) -> Self:
-        """Return one of the units of METRES."""
-        return cls(name, METRES[name], source)
 
 
 @dataclass(frozen=True)

@@ -72,7 +72,7 @@ def _unit(document: Document, *, named: bool) -> Unit:
     if code in UNITS:
         return Unit(*UNITS[code], f"as the header says ($INSUNITS = {code})")
     if code == 0:
-        return Unit.named("m", "supposed: the header names no unit")
+        return Unit("m", 1.0, "supposed: the header names no unit")
     known = ", ".join(f"{number} ({unit})" for number, (unit, _) in UNITS.items())
     raise InputError(
         f"$INSUNITS = {code} in the header: expected one of {known}; unit=... overrides it"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -44,9 +45,13 @@ def read_wkt(path: Path, unit: Unit | None) -> Drawing:
 
     unit: metres if None. Raises InputError.
     """
+    import shapely
+
     with broken(path.name, "WKT"):
-        texts = _statements(path.read_text(encoding="utf-8-sig"))
-        return _drawing(path.name, "WKT", unit, texts)
+        text = path.read_text(encoding="utf-8-sig").strip()
+        listed = re.sub(r"(\)|EMPTY)\s*\n\s*(?=[A-Za-z])", r"\1, ", text)
+        whole = shapely.from_wkt(f"GEOMETRYCOLLECTION ({listed})")
+        return _drawing(path.name, "WKT", unit, ((NO_LAYER, part) for part in _single(whole)))
 
 
 def _drawing(
@@ -55,7 +60,7 @@ def _drawing(
     """Return geometries of layers as a drawing, and count what is no area and no line."""
     import shapely
 
-    unit = unit or Unit.named("m", "supposed: the format names none")
+    unit = unit or Unit("m", 1.0, "supposed: the format names none")
     pieces: list[Piece] = []
     skipped: Counter[str] = Counter()
     for layer, geometry in found:
@@ -93,20 +98,6 @@ def _features(data: Any, layer: str) -> Iterator[tuple[str, shapely.Geometry]]:
         except Exception as error:  # shapely raises many kinds of errors
             raise InputError(f"{shown(data)}: expected GeoJSON, such as a Polygon") from error
         yield from ((layer, part) for part in _single(whole))
-
-
-def _statements(text: str) -> Iterator[tuple[str, shapely.Geometry]]:
-    """Yield each single geometry of a WKT file: a text ends where its brackets close."""
-    import shapely
-
-    statement = ""
-    for line in [*text.splitlines(), ""]:
-        statement = f"{statement} {line}".strip()
-        if statement and statement.count("(") <= statement.count(")"):
-            yield from ((NO_LAYER, part) for part in _single(shapely.from_wkt(statement)))
-            statement = ""
-    if statement:
-        raise InputError("its last geometry is not closed by )")
 
 
 def _single(geometry: shapely.Geometry) -> Iterator[shapely.Geometry]:

@@ -118,15 +118,13 @@ def _merged(lines: list[shapely.LineString], tolerance: float) -> list[shapely.L
     if not lines:
         return []
     points, line = shapely.get_coordinates(lines, return_index=True)
-    places = np.round(points / GRID).astype(np.int64)
-    ends = np.hstack([places[:-1], places[1:]])[line[1:] == line[:-1]]
-    back = ends[:, [2, 3, 0, 1]]
-    x1, y1, x2, y2 = ends.T
-    edges = np.unique(np.where(((x1 > x2) | ((x1 == x2) & (y1 > y2)))[:, None], back, ends), axis=0)
-    edges = edges[(edges[:, :2] != edges[:, 2:]).any(axis=1)]
+    places = np.round(points / GRID) @ (1, 1j)
+    ends = np.column_stack([places[:-1], places[1:]])[line[1:] == line[:-1]]
+    edges = np.unique(np.sort(ends), axis=0)
+    edges = edges[edges[:, 0] != edges[:, 1]]
     if not len(edges):
         return []
-    parts = shapely.linestrings(edges.reshape(-1, 2, 2) * GRID)
+    parts = shapely.linestrings(np.stack([edges.real, edges.imag], axis=-1) * GRID)
     merged = shapely.line_merge(shapely.multilinestrings(parts))
     found = shapely.get_parts(merged)
     simple = [shapely.LineString(simple_line(np.array(line.coords), tolerance)) for line in found]
@@ -139,6 +137,8 @@ def described(drawing: Drawing, found: Obstacles) -> list[tuple[str, str]]:
     """Return a description of a map and its obstacles, as pairs of a name and a text."""
     (width, height), (xmin, xmax, ymin, ymax) = drawing.size, drawing.bounds
     unit = f"{drawing.unit.name}, {drawing.unit.source}"
+    parts = [(len(found.outlines), "outline"), (len(found.walls), "wall")]
+    counts = ", ".join(counted(count, thing) for count, thing in parts if count)
     rows = [
         ("map", f"{drawing.source}, {drawing.kind}"),
         ("size", f"{width:.4g} m x {height:.4g} m"),
@@ -148,7 +148,7 @@ def described(drawing: Drawing, found: Obstacles) -> list[tuple[str, str]]:
         *drawing.notes,
         *_layers(drawing),
         ("not read", listed(drawing.skipped)),
-        ("obstacles", _counts(found)),
+        ("obstacles", counts or "none"),
         ("corners", f"{found.corners}, within {drawing.tolerance:g} m"),
     ]
     return [(name, text) for name, text in rows if text]
@@ -170,11 +170,6 @@ def _layers(drawing: Drawing) -> list[tuple[str, str]]:
     rest = sum(count for _, count, _ in both[MAX_LAYERS:])
     more = [("", f"and {len(both) - MAX_LAYERS} more, {counted(rest, 'piece')}")] if rest else []
     return [*rows, *more]
-
-
-def _counts(found: Obstacles) -> str:
-    parts = [(len(found.outlines), "outline"), (len(found.walls), "wall")]
-    return ", ".join(counted(count, thing) for count, thing in parts if count) or "none"
 
 
 def nearest_room(

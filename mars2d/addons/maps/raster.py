@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import replace
-from math import isfinite, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from mars2d.addons.maps.drawing import ALWAYS, COARSER, Drawing, Piece, Unit, broken, check_bytes
 from mars2d.core.arithmetic import cosine_sine
-from mars2d.core.description import real, wrong
+from mars2d.core.checks import pose
+from mars2d.core.description import Description, choice, entry, flag, number, text, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.extras import extra
 from mars2d.core.picture import opened_image
@@ -33,20 +34,39 @@ MAX_BYTES = 20_000_000
 MAX_CORNERS = 100_000
 """The most corners of occupied cells: an image with more is noise, not a map."""
 
-MODES = ("trinary", "scale", "raw")
-KEYS = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode")
-
-NEGATE = {"0": False, "1": True, "false": False, "true": True, "no": False, "yes": True}
-"""What YAML may say for negate."""
-
-OCCUPIED = 0.65
-"""The share above which a cell is occupied, unless the file gives one."""
-
 DARK = 127.5
 """The brightness below which a pixel of an image is solid, from 0 to 255."""
 
-MAX_CELL = 1000.0
-"""The largest size of a pixel, metres."""
+WORDS = {"true": True, "yes": True, "false": False, "no": False}
+"""What YAML may say for negate, besides 0 and 1."""
+
+RESOLUTION = number(above=1e-5, high=1e3, unit="m per pixel")
+
+
+class Grid(Description):
+    """An occupancy grid: the fields of its YAML file, as ROS's map_server has them."""
+
+    image: str = text(doc="the name of an image beside it")
+    resolution: float = RESOLUTION
+    origin: Pose = entry(default=(0, 0, 0), check=pose, doc="of its lower left corner")
+    negate: bool = flag(default=False, doc="whether dark pixels are free")
+    occupied_thresh: float = number(default=0.65, low=0, high=1, doc="a cell above it is occupied")
+    free_thresh: float = number(
+        default=None, low=0, high=1, optional=True, doc="a cell below it is free; None: 0.25"
+    )
+    mode: str = choice(default="trinary", of=("trinary", "scale", "raw"), doc="what pixels mean")
+
+    def _validate(self) -> None:
+        if self.free_thresh is None:
+            object.__setattr__(self, "free_thresh", min(0.25, self.occupied_thresh))
+        if self.free_thresh > self.occupied_thresh:
+            raise InputError(
+                f"free_thresh = {self.free_thresh:g}, occupied_thresh = {self.occupied_thresh:g}: "
+                "expected 0 <= free_thresh <= occupied_thresh <= 1"
+            )
+        if Path(self.image).suffix.lower() not in IMAGES:
+            expected = "the name of an image beside it, " + ", ".join(IMAGES)
+            raise wrong("image", self.image, expected)
 
 
 def read_picture(path: Path, resolution: float) -> Drawing:
@@ -58,7 +78,8 @@ def read_picture(path: Path, resolution: float) -> Drawing:
     dark = gray < DARK if alpha is None else (gray < DARK) & (alpha > 0)
     if not dark.any():
         raise InputError(f"{path.name}: expected walls; no pixel is darker than middle grey")
-    return _drawing(path.name, "an image", dark, _checked(path.name, resolution), (0.0, 0.0, 0.0))
+    cell = RESOLUTION.metadata["check"](f"{path.name}: resolution", resolution)
+    return _drawing(path.name, "an image", dark, cell, (0.0, 0.0, 0.0))
 
 
 def read_occupancy(path: Path) -> Drawing:
@@ -69,37 +90,25 @@ def read_occupancy(path: Path) -> Drawing:
     a pixel that is not opaque is unknown, and in raw alpha does not matter. Raises InputError.
     """
     name = path.name
-    fields = _fields(name, path)
-    resolution = _checked(name, fields["resolution"])
-    origin = _origin(name, fields.get("origin", [0, 0, 0]))
-    mode = str(fields.get("mode", "trinary")).lower()
-    if mode not in MODES:
-        raise wrong(f"{name}: mode", mode, "one of " + ", ".join(MODES))
-    negate = str(fields.get("negate", 0)).lower()
-    if negate not in NEGATE:
-        raise wrong(f"{name}: negate", negate, "0 or 1")
-    limit = _number(f"{name}: occupied_thresh", fields.get("occupied_thresh", OCCUPIED))
-    free = _number(f"{name}: free_thresh", fields.get("free_thresh", min(0.25, limit)))
-    if not 0 <= free <= limit <= 1:
-        raise InputError(
-            f"{name}: free_thresh = {free:g}, occupied_thresh = {limit:g}: expected "
-            "0 <= free_thresh <= occupied_thresh <= 1"
-        )
-    image = _beside(name, path, fields["image"])
-    gray, alpha = _read_image(f"{name}: image {image.name}", image)
+    grid = _grid(name, path)
+    image = path.parent / grid.image
+    if not image.is_file():
+        raise InputError(f"{name}: image = {grid.image!r}: there is no such file beside it")
+    check_bytes(f"{name}: image {grid.image}", image, MAX_BYTES)
+    gray, alpha = _read_image(f"{name}: image {grid.image}", image)
     unknown = np.zeros(gray.shape, dtype=bool)
-    if mode == "raw":
+    if grid.mode == "raw":
         share = np.rint(gray) / 100
         unknown = share > 1
     else:
-        if alpha is not None and mode == "scale":
+        if alpha is not None and grid.mode == "scale":
             unknown = alpha < 255
         elif alpha is not None:
             gray = (3 * gray + alpha) / 4
-        share = gray / 255 if NEGATE[negate] else 1 - gray / 255
-    occupied = (share > limit) & ~unknown
-    known_free = (share < free) & ~unknown
-    drawing = _drawing(name, "an occupancy grid", occupied, resolution, origin)
+        share = gray / 255 if grid.negate else 1 - gray / 255
+    occupied = (share > grid.occupied_thresh) & ~unknown
+    known_free = (share < grid.free_thresh) & ~unknown
+    drawing = _drawing(name, "an occupancy grid", occupied, grid.resolution, grid.origin)
     counts = [occupied.sum(), known_free.sum(), (~occupied & ~known_free).sum()]
     rows, columns = occupied.shape
     text = "{} x {}; {} occupied, {} free, {} unknown, which are free here"
@@ -123,68 +132,34 @@ def _drawing(name: str, kind: str, occupied: Mask, cell: float, origin: Pose) ->
     return Drawing(name, kind, unit, pieces, apart=True, extent=whole)
 
 
-def _checked(name: str, resolution: Any) -> float:
-    expected = f"metres per pixel, a number > 0 and <= {MAX_CELL:g}"
-    cell = _number(f"{name}: resolution", resolution, expected)
-    if not 1e-5 < cell <= MAX_CELL:
-        raise wrong(f"{name}: resolution", resolution, expected)
-    return cell
-
-
-def _number(name: str, value: Any, expected: str = "a number") -> float:
-    """Check a number, or the text of one, as `1e-05`, which Python's YAML does not know as one."""
-    try:
-        return real(name, float(value) if isinstance(value, str) else value, expected)
-    except ValueError:
-        raise wrong(name, value, expected) from None
-
-
-def _origin(name: str, value: Any) -> Pose:
-    expected = "the pose of the lower left pixel, such as [x, y, yaw] in metres and radians"
-    if not isinstance(value, list) or len(value) not in (2, 3):
-        raise wrong(f"{name}: origin", value, expected)
-    x, y, yaw = (_number(f"{name}: origin[{i}]", v) for i, v in enumerate([*value, 0.0][:3]))
-    if not isfinite(yaw) or abs(yaw) > 4 * pi:
-        raise wrong(f"{name}: origin", value, expected)
-    return x, y, yaw
-
-
-def _fields(name: str, path: Path) -> dict[str, Any]:
-    """Return the fields of a YAML file, plain values only."""
+def _grid(name: str, path: Path) -> Grid:
+    """Return the fields of a YAML file."""
     with extra("maps", f"{name}: an occupancy grid needs PyYAML", ALWAYS):
         import yaml
     with broken(name, "YAML"):
         fields = yaml.load(path.read_text(encoding="utf-8-sig"), Loader=yaml.BaseLoader)
-    if not isinstance(fields, dict):
-        raise InputError(f"{name}: expected an occupancy grid: image, resolution, origin, ...")
-    if fields.get("type") == "line_segments" or ("data" in fields and "image" not in fields):
-        raise InputError(
-            f"{name}: line_segments of flatland are not read; expected an occupancy grid: image, "
-            "resolution, ..., or its lines as WKT"
-        )
-    if "layers" in fields:
-        raise InputError(
-            f"{name}: a world of several layers, as flatland has them; expected the YAML file of "
-            "one occupancy grid: image, resolution, ..."
-        )
-    for key in KEYS:
-        near = [k for k in fields if k not in KEYS and nearest(key, [k])]
-        if key not in fields and (near or key in ("image", "resolution")):
-            said = f" in place of {near[0]}" if near else ""
-            raise InputError(f"{name}: expected {key}: ...{said}, as in an occupancy grid of ROS")
-    return fields
+        given = fields if isinstance(fields, dict) else {}
+        if given.get("type") == "line_segments" or "layers" in given:
+            raise InputError(
+                "a world of flatland, with layers or line_segments; expected the YAML file of one "
+                "occupancy grid: image, resolution, ..., or lines as WKT"
+            )
+        if "image" not in given:
+            raise InputError("expected an occupancy grid: image, resolution, origin, ...")
+        known = Grid.__dataclass_fields__
+        found = {k: _value(v) for k, v in given.items() if k in known or nearest(k, known)}
+        if "negate" in found:
+            found["negate"] = {0.0: False, 1.0: True}.get(found["negate"], found["negate"])
+        return Grid(**found)
 
 
-def _beside(name: str, path: Path, image: Any) -> Path:
-    """Return the image that a YAML file names, by a path from its own folder."""
-    expected = "the name of an image beside it, " + ", ".join(IMAGES)
-    if not isinstance(image, str) or Path(image).suffix.lower() not in IMAGES:
-        raise wrong(f"{name}: image", image, expected)
-    found = path.parent / image
-    if not found.is_file():
-        raise InputError(f"{name}: image = {image!r}: there is no such file beside it")
-    check_bytes(f"{name}: image {image}", found, MAX_BYTES)
-    return found
+def _value(value: Any) -> Any:
+    """Return what a text of YAML says; Python's own reader takes `1e-05` for a text."""
+    if isinstance(value, list):
+        return [_value(item) for item in value]
+    with contextlib.suppress(ValueError):
+        return float(value)
+    return WORDS.get(value.lower(), value)
 
 
 def _read_image(name: str, path: Path) -> tuple[Gray, Gray | None]:
@@ -214,39 +189,20 @@ def _cells(name: str, occupied: Mask) -> list[shapely.Polygon]:
     rows, columns = occupied.shape
     inside = np.zeros((rows + 2, columns + 2), dtype=bool)
     inside[1:-1, 1:-1] = occupied[::-1]  # the lower row first
-    across = inside[1:, 1:-1] != inside[:-1, 1:-1]  # edges along x: (rows + 1, columns)
-    along = (inside[1:-1, 1:] != inside[1:-1, :-1]).T  # edges along y: (columns + 1, rows)
-    corner = _ends(across) & _ends(along).T
-    count = int(corner.sum())
-    if count > MAX_CORNERS:
+    below, above = inside[:-1], inside[1:]
+    bends = (below[:, :-1] != below[:, 1:]) | (above[:, :-1] != above[:, 1:])
+    bends &= (below[:, :-1] != above[:, :-1]) | (below[:, 1:] != above[:, 1:])
+    if (count := int(bends.sum())) > MAX_CORNERS:
         raise InputError(
             f"{name}: the occupied cells have {count} corners, expected at most {MAX_CORNERS}: "
             f"is it a map? {COARSER}"
         )
-    y, x1, x2 = _runs(across, corner)
-    x, y1, y2 = _runs(along, corner.T)
-    ends = np.vstack([np.column_stack([x1, y, x2, y]), np.column_stack([x, y1, x, y2])])
-    lines = shapely.linestrings(ends.reshape(-1, 2, 2).astype(float))
-    faces = shapely.get_parts(shapely.polygonize(lines))
+    y, x = np.nonzero(below != above)
+    row, column = np.nonzero(inside[:, :-1] != inside[:, 1:])
+    across, along = np.stack([x - 1, y, x, y]), np.stack([column, row - 1, column, row])
+    ends = np.hstack([across, along]).T.reshape(-1, 2, 2).astype(float)
+    faces = shapely.get_parts(shapely.polygonize(shapely.linestrings(ends)))
     middle = np.floor(shapely.get_coordinates(shapely.point_on_surface(faces))).astype(int)
     column, row = middle.reshape(-1, 2).T
-    chosen: list[shapely.Polygon] = faces[inside[row + 1, column + 1]].tolist()
+    chosen: list[shapely.Polygon] = shapely.simplify(faces[inside[row + 1, column + 1]], 0).tolist()
     return chosen
-
-
-def _ends(edges: Mask) -> Mask:
-    """Return the points of each line that an edge touches, as a mask (lines, edges + 1)."""
-    points = np.zeros((edges.shape[0], edges.shape[1] + 1), dtype=bool)
-    points[:, :-1] |= edges
-    points[:, 1:] |= edges
-    return points
-
-
-def _runs(edges: Mask, corner: Mask) -> tuple[NDArray[np.int64], ...]:
-    """Return where edges (lines, k) run straight on between corners: line, first and last point."""
-    none = np.zeros((edges.shape[0], 1), dtype=bool)
-    before = np.hstack([none, edges[:, :-1]])
-    after = np.hstack([edges[:, 1:], none])
-    line, first = np.nonzero(edges & (~before | corner[:, :-1]))
-    _, last = np.nonzero(edges & (~after | corner[:, 1:]))
-    return line, first, last + 1

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,21 +13,21 @@ from mars2d.addons.maps.geo import read_geojson, read_wkt
 from mars2d.addons.maps.raster import IMAGES, MAX_BYTES, read_occupancy, read_picture
 from mars2d.addons.maps.svg import read_svg
 from mars2d.core.checks import point
-from mars2d.core.description import real, wrong
+from mars2d.core.description import number, real, wrong
 from mars2d.core.errors import InputError, likely
 
 
 class _Kind(NamedTuple):
-    """A kind of file: its reader, the largest file [bytes], and the options that it takes."""
+    """A kind of file: its reader, the largest file [bytes], and what it takes besides a path."""
 
     reader: Callable[..., Drawing]
     largest: int
-    options: tuple[str, ...] = ()
+    takes: tuple[str, ...] = ()
 
 
 KINDS = {
-    ".dxf": _Kind(read_dxf, 10_000_000, ("layers", "unit")),
-    ".svg": _Kind(read_svg, 10_000_000, ("layers", "unit")),
+    ".dxf": _Kind(read_dxf, 10_000_000, ("layers", "unit", "within")),
+    ".svg": _Kind(read_svg, 10_000_000, ("layers", "unit", "within")),
     **dict.fromkeys((".geojson", ".json"), _Kind(read_geojson, 10_000_000, ("layers", "unit"))),
     ".wkt": _Kind(read_wkt, 10_000_000, ("unit",)),
     **dict.fromkeys((".yaml", ".yml"), _Kind(read_occupancy, 64_000)),
@@ -40,6 +39,8 @@ SUFFIXES = tuple(KINDS)
 
 CURVES = 0.05
 """The share of the tolerance by which curves may be off, before corners are removed."""
+
+WITHIN = number(low=0, high=MAX_TOLERANCE, unit="m")
 
 FINEST = 1e-4
 """How far curves may always be off, even if the tolerance is smaller, metres."""
@@ -69,8 +70,8 @@ def read(
     kind = KINDS[suffix]
     options = {"layers": layers, "unit": unit, "resolution": resolution}
     for option, value in options.items():
-        if value is not None and option not in kind.options:
-            takers = [other for other, takes in KINDS.items() if option in takes.options]
+        if value is not None and option not in kind.takes:
+            takers = [other for other, takes in KINDS.items() if option in takes.takes]
             raise InputError(
                 f"{path.name}: {option} is for {', '.join(takers)}, not {suffix}; leave it None"
             )
@@ -78,14 +79,12 @@ def read(
         raise InputError(f"{path.name}: an image needs resolution, metres per pixel, such as 0.05")
     chosen = None if layers is None else _layers(layers)
     place = None if at is None else point("at", at)
-    tolerance = _tolerance(tolerance)
+    tolerance = WITHIN.metadata["check"]("tolerance", tolerance)
     _check_file(path, suffix)
-    given: list[Any] = [resolution] if suffix in IMAGES else []
-    if "unit" in kind.options:
-        given.append(_unit(unit))
-    if suffix in (".dxf", ".svg"):  # which have curves
-        given.append(max(CURVES * tolerance, FINEST))
-    drawing = kind.reader(path, *given).only(chosen)
+    within = max(CURVES * tolerance, FINEST)
+    given = {"unit": _unit(unit), "resolution": resolution, "within": within}
+    arguments = {name: value for name, value in given.items() if name in kind.takes}
+    drawing = kind.reader(path, **arguments).only(chosen)
     if place is not None:
         drawing = drawing.moved(place)
     drawing.check_size()
@@ -108,17 +107,6 @@ def _check_file(path: Path, suffix: str) -> None:
     check_bytes(path.name, path, KINDS[suffix].largest)
     if not path.stat().st_size:
         raise InputError(f"{path.name}: an empty file; expected a map")
-    if not os.access(path, os.R_OK):
-        raise InputError(f"{path}: can't be read: no permission")
-
-
-def _tolerance(value: object) -> float:
-    """Check a tolerance [m]."""
-    expected = f"metres, a number >= 0 and <= {MAX_TOLERANCE:g}"
-    result = real("tolerance", value, expected)
-    if not 0 <= result <= MAX_TOLERANCE:
-        raise wrong("tolerance", value, expected)
-    return result
 
 
 def _layers(value: Any) -> list[str]:
@@ -140,7 +128,7 @@ def _unit(value: Any) -> Unit | None:
     if isinstance(value, str):
         if value not in METRES:
             raise wrong("unit", value, expected + likely(value, METRES))
-        return Unit.named(value, "as given")
+        return Unit(value, METRES[value], "as given")
     metres = real("unit", value, expected)
     if not 1e-9 <= metres <= 1e6:
         raise wrong("unit", value, expected)

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from ezdxf.addons.drawing.backend import Backend
 from ezdxf.addons.drawing.config import (
     Configuration,
     HatchPolicy,
@@ -18,6 +17,14 @@ from ezdxf.addons.drawing.config import (
 from ezdxf.addons.drawing.frontend import UniversalFrontend
 from ezdxf.addons.drawing.pipeline import RenderPipeline2d
 from ezdxf.addons.drawing.properties import RenderContext
+from ezdxf.addons.drawing.recorder import (
+    DataRecord,
+    FilledPathsRecord,
+    PathRecord,
+    PointsRecord,
+    Recorder,
+    SolidLinesRecord,
+)
 from ezdxf.path import Path, from_vertices
 from numpy.typing import NDArray
 
@@ -88,7 +95,8 @@ class _Frontend(UniversalFrontend):
         """Draw an entity, if its kind is read."""
         kind = entity.dxftype()
         block = entity.block() if kind == "INSERT" else None
-        if kind not in READ or _is_mesh(entity):
+        line = kind != "POLYLINE" or entity.is_2d_polyline or entity.is_3d_polyline  # or a mesh
+        if kind not in READ or not line:
             self.skipped[kind] += 1
         elif kind == "INSERT" and block is None:
             self.skipped["INSERT of a missing block"] += 1
@@ -100,7 +108,6 @@ class _Frontend(UniversalFrontend):
             except (InputError, RecursionError):
                 raise
             except Exception:  # of what is wrong in the entity
-                self._recorder.exit_entity(entity)
                 self.skipped[f"damaged {kind}"] += 1
 
     def draw_composite_entity(self, entity: Any, properties: Properties) -> None:
@@ -128,12 +135,6 @@ class _Frontend(UniversalFrontend):
     def skip_entity(self, entity: Any, msg: str) -> None:
         """Count what is invisible or can't be drawn."""
         self.skipped["invisible " * (msg == "invisible") + entity.dxftype()] += 1
-
-
-def _is_mesh(entity: Any) -> bool:
-    """Return whether a POLYLINE is a mesh of faces, not a line."""
-    is_line = entity.dxftype() != "POLYLINE" or entity.is_2d_polyline or entity.is_3d_polyline
-    return not is_line
 
 
 class _Pipeline(RenderPipeline2d):
@@ -167,7 +168,7 @@ class _Pipeline(RenderPipeline2d):
         return from_vertices(points)
 
 
-class _Recorder(Backend):
+class _Recorder(Recorder):
     """Takes the lines and areas that are drawn. frozen: the layer that hides all of them."""
 
     def __init__(self, name: str, metres: float) -> None:
@@ -176,49 +177,24 @@ class _Recorder(Backend):
         self.pieces: list[Piece] = []
         self.frozen: str | None = None
 
-    def draw_line(self, start: Any, end: Any, properties: BackendProperties) -> None:
-        """Take a line."""
-        self._wall(np.array([(start.x, start.y), (end.x, end.y)]), properties)
-
-    def draw_path(self, path: Any, properties: BackendProperties) -> None:
-        """Take a polyline."""
-        self._wall(np.array([(v.x, v.y) for v in path.control_vertices()]), properties)
-
-    def draw_filled_paths(self, paths: Iterable[Any], properties: BackendProperties) -> None:
-        """Take the area between rings."""
-        self._area([path.control_vertices() for path in paths], properties)
-
-    def draw_filled_polygon(self, points: Any, properties: BackendProperties) -> None:
-        """Take an area."""
-        self._area([points.vertices()], properties)
-
-    def _wall(self, points: Float, properties: BackendProperties) -> None:
-        piece = wall(self._where, self._layer(properties), points, self._metres)
-        if piece is not None:
-            self.pieces.append(piece)
-
-    def _area(self, rings: Sequence[Any], properties: BackendProperties) -> None:
-        edges = [np.array([(v.x, v.y) for v in ring]).reshape(-1, 2) for ring in rings]
-        for edge in edges:
-            check_finite(self._where, edge)
-        areas = region([edge * self._metres for edge in edges], even_odd=True)
-        self.pieces += [Piece(self._layer(properties), area) for area in areas]
-
-    @property
-    def _where(self) -> str:
-        return f"{self._name}: {self.current_entity}"
-
-    def _layer(self, properties: BackendProperties) -> str:
-        return layer_name(self.frozen or properties.layer)
-
-    def set_background(self, color: str) -> None:
-        """Do nothing, as for all that is no wall and no area."""
-
-    def draw_point(self, pos: Any, properties: BackendProperties) -> None:
-        """Do nothing."""
-
-    def draw_image(self, image_data: Any, properties: BackendProperties) -> None:
-        """Do nothing."""
-
-    def clear(self) -> None:
-        """Do nothing."""
+    def store(self, record: DataRecord, properties: BackendProperties) -> None:
+        """Take what is drawn, in place of a list of all records."""
+        lines: list[Float] = []
+        rings: list[Float] = []
+        if isinstance(record, PathRecord):
+            lines = [record.path.np_vertices()]
+        elif isinstance(record, SolidLinesRecord):
+            lines = [*record.lines.np_vertices().reshape(-1, 2, 2)]
+        elif isinstance(record, FilledPathsRecord):
+            rings = [path.np_vertices() for path in record.paths]
+        elif isinstance(record, PointsRecord):
+            points = record.points.np_vertices()
+            lines, rings = ([points], []) if len(points) == 2 else ([], [points])
+        where = f"{self._name}: entity #{properties.handle}"
+        layer = layer_name(self.frozen or properties.layer)
+        for ring in rings:
+            check_finite(where, ring)
+        areas = region([ring * self._metres for ring in rings], even_odd=True)
+        walls = [wall(where, layer, line, self._metres) for line in lines]
+        self.pieces += [Piece(layer, area) for area in areas]
+        self.pieces += [piece for piece in walls if piece is not None]

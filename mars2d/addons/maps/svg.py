@@ -72,7 +72,10 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
             raise InputError(f"{name}: expected an SVG drawing; its root is <{tag}>")
         layers = {g.get("id", ""): g.get(LABEL, g.get("id", "")) for g in _groups(root)}
         (size, box), given = _sizes(root), dict(root.attrib)
-        normal, skipped, pixels = normalised(root, size, box)
+        aspect = root.get("preserveAspectRatio", "")
+        scales = [side / length for side, length in zip(size, box, strict=True)]
+        pixels = scales[0] if aspect == "none" else (max if "slice" in aspect else min)(scales)
+        normal, skipped = normalised(root, size, box)
         unit = unit or _unit(given, pixels)
         reader = _Reader(name, normal, layers, within, skipped)
         scale = unit.metres / pixels
@@ -127,7 +130,7 @@ def _unit(given: dict[str, str], pixels: float) -> Unit:
             more = f" for the viewBox {given['viewBox']}" if "viewBox" in given else ""
             name = names[0] if names else f"{metres:.6g} m"
             return Unit(name, METRES.get(name, metres), f"by the {side}, {text}{more}")
-    return Unit.named("m", "supposed: the width has no unit")
+    return Unit("m", 1.0, "supposed: the width has no unit")
 
 
 # -- what is drawn ----------------------------------------------------------------------------

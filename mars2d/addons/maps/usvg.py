@@ -28,9 +28,6 @@ ROUND = "crispEdges"
 ORIGINS = {"left": 0.0, "top": 0.0, "center": 50.0, "right": 100.0, "bottom": 100.0}
 """The words of transform-origin, per cent."""
 
-PROBE = "user-unit"
-"""The id of a line of one user unit, from which its length is known."""
-
 CLIP = "clip-path-of-"
 """What the ids of groups begin with that have the shapes of a clip path."""
 
@@ -47,12 +44,12 @@ NOT_READ = ("text", "image", "foreignObject")
 """Elements that draw something that is never read."""
 
 
-def normalised(root: ET.Element, size: Size, box: Size) -> tuple[ET.Element, Counter[str], float]:
-    """Return an SVG in normal form, how many things of each kind are not read, and its user unit.
+def normalised(root: ET.Element, size: Size, box: Size) -> tuple[ET.Element, Counter[str]]:
+    """Return an SVG in normal form, and how many things of each kind are not read.
 
     root: it is changed. size: of its page, pixels. box: of its viewBox. In the result, all shapes
-    are <path> elements in groups with a transform, a clip path and an opacity. Its unit, and that
-    of the user unit, is a pixel. Raises InputError.
+    are <path> elements in groups with a transform, a clip path and an opacity. Its unit is a pixel.
+    Raises InputError.
     """
     skipped: Counter[str] = Counter()
     for element in root.iter():
@@ -87,29 +84,16 @@ def normalised(root: ET.Element, size: Size, box: Size) -> tuple[ET.Element, Cou
             raise InputError(f"the normaliser can't read it: {reason or 'nested too deeply'}")
         found = ET.parse(result).getroot()
     warnings = re.findall(r"^Warning [^:]*(?:::[^:]*)*:\d+\): (.*)$", said, flags=re.M)
-    return found, +skipped + Counter(warnings), _scale(found)
+    return found, +skipped + Counter(warnings)
 
 
 def _framed(root: ET.Element, size: Size) -> ET.Element:
-    """Return a page of a size in pixels with an SVG in it, and a line of a user unit first."""
+    """Return a page of a size in pixels with an SVG in it."""
     width, height = (f"{side!r}" for side in size)
     root.attrib |= {"x": "0", "y": "0", "width": width, "height": height, "overflow": "visible"}
-    style = "display:inline;fill:none;stroke:black;stroke-width:1"
-    root.insert(0, ET.Element(f"{SVG}path", {"id": PROBE, "d": "M0 0H1", "style": style}))
     page = ET.Element(f"{SVG}svg", {"width": width, "height": height})
     page.append(root)
     return page
-
-
-def _scale(page: ET.Element) -> float:
-    """Return the length of the line of a user unit, pixels, and take it out."""
-    parents = {child: parent for parent in page.iter() for child in parent}
-    node = next(path for path in page.iter(f"{SVG}path") if path.get("id") == PROBE)
-    parents[node].remove(node)
-    pixels = 1.0
-    while (node := parents.get(node, page)) is not page:
-        pixels *= float(node.get("transform", "matrix(1 ").partition("(")[2].split()[0])
-    return pixels
 
 
 def _copy_clips(root: ET.Element) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import ClassVar
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
@@ -11,6 +12,8 @@ from mars2d.geometry.shapes import Shape, rectangle
 
 class Bar(Prop):
     """A long, thin rectangle along its heading."""
+
+    sides: ClassVar[tuple[str, ...]] = ("length", "thickness")
 
     length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="its length")
     thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="its thickness")

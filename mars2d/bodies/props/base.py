@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
@@ -51,6 +51,9 @@ class Prop(Description):
     the force ground_friction * mass * g; at rest it is held by up to static_ground_friction * mass
     * g.
     """
+
+    sides: ClassVar[tuple[str, ...]] = ()
+    """The fields that are the length and width of a rectangle."""
 
     pose: tuple[float, float, float] = entry(
         default=(0.0, 0.0, 0.0), check=checks.pose, unit="m, m, rad",
@@ -116,11 +119,14 @@ class Prop(Description):
     @property
     def side_lengths(self) -> tuple[float, float] | None:
         """The length and width of a rectangle, metres; None for any other shape."""
-        return None
+        if not self.sides:
+            return None
+        length, width = (float(getattr(self, name)) for name in self.sides)
+        return length, width
 
     def with_side_lengths(self, length: float, width: float) -> Self:
         """Return a copy of a rectangle with other sides, metres."""
-        raise NotImplementedError(f"{type(self).__name__} is no rectangle")
+        return self.replace(**dict(zip(self.sides, (length, width), strict=True)))
 
     def joints(self) -> tuple[Joint, ...]:
         """Return the joints that come with it. Its `name` is known by then."""

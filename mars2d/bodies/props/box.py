@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Self
+from typing import ClassVar
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
@@ -17,6 +17,8 @@ class Box(Prop):
     4.8
     """
 
+    sides: ClassVar[tuple[str, ...]] = ("length", "width")
+
     length: float = number(default=0.4, low=1e-3, high=1e3, unit="m", doc="side along its heading")
     width: float = number(default=0.4, low=1e-3, high=1e3, unit="m", doc="side across")
 
@@ -24,12 +26,3 @@ class Box(Prop):
     def shape(self) -> Shape:
         """The rectangle."""
         return rectangle(self.length, self.width)
-
-    @property
-    def side_lengths(self) -> tuple[float, float]:
-        """Its length and width, metres."""
-        return self.length, self.width
-
-    def with_side_lengths(self, length: float, width: float) -> Self:
-        """Return a copy with another length and width, metres."""
-        return self.replace(length=length, width=width)

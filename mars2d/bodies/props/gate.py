@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import pi
+from typing import ClassVar
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.joints.hinge import Hinge, turning_limits
@@ -18,6 +19,8 @@ class Gate(Prop):
 
     The pose is that of its middle. Without stiffness it stays where it was left.
     """
+
+    sides: ClassVar[tuple[str, ...]] = ("length", "thickness")
 
     length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="its length")
     thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="its thickness")

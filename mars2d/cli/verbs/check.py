@@ -6,22 +6,20 @@ import argparse
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import closing, contextmanager
-from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from mars2d.addons import maps
 from mars2d.cli import remarks
-from mars2d.cli.arguments import MANY, option
-from mars2d.cli.outputs import check_outputs
+from mars2d.cli.arguments import MANY, Output, option, refuse
+from mars2d.cli.outputs import conclude, produced
 from mars2d.cli.runs import run_headless, source_of
 from mars2d.core.deadline import PATIENCE, Deadline
 from mars2d.core.errors import InputError, Late, LawError, Mars2dError, counted, nearest, one_line
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
-from mars2d.output.figures import figure
 from mars2d.output.figures.map import save_map
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
 from mars2d.scenario.options import options_in_words, parse_option, reading_options
@@ -30,9 +28,9 @@ from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
 from mars2d.testing.file import trials
 from mars2d.testing.finding import Finding
+from mars2d.tournaments.isolation.limits import LIMITS
 from mars2d.tournaments.match import play
 from mars2d.tournaments.schedule import trial_matches
-from mars2d.tournaments.tournament import LIMITS
 from mars2d.world.record import Record, load
 from mars2d.world.verify import ask_again, other_versions, rerun
 
@@ -62,7 +60,7 @@ ARGUMENTS = {
     "--set": option("KEY=VALUE", _SET, **MANY),
     "--for": option("GAME", "with a law: play it in this game, with --role", dest="game"),
     "--role": option("ROLE", "with --for: the role that the law plays"),
-    "--figure": option("OUT", "draw a map: .png, .pdf, .svg", Path),
+    "--figure": option("OUT", "draw a map: .png, .pdf, .svg", Path, action=Output),
 }
 
 
@@ -73,20 +71,23 @@ def execute(arguments: argparse.Namespace) -> None:
         _check_in_game(path, arguments)
         return
     options = dict(map(parse_option, arguments.set))
-    suffix, laws, picture = path.suffix.lower(), arguments.laws, arguments.figure
-    if suffix in maps.SUFFIXES and laws is None:
-        check_outputs(arguments, {"figure": figure.SUFFIXES})
-        _check_map(path, options, picture)
-        return
-    if laws is not None and suffix not in formats.SUFFIXES:
-        raise InputError(f"--laws is for records: {', '.join(formats.SUFFIXES)}")
-    if picture or (options and laws is None):
-        name = "figure" if picture else "set"
-        raise InputError(f"--{name} is for maps: {', '.join(maps.SUFFIXES)}")
-    if suffix in formats.SUFFIXES:
+    suffix = path.suffix.lower()
+    if suffix not in formats.SUFFIXES:
+        refuse(arguments, "laws", f"is for records: {', '.join(formats.SUFFIXES)}")
+    if suffix not in maps.SUFFIXES:
+        only = "figure set" if arguments.laws is None else "figure"
+        refuse(arguments, only, f"is for maps: {', '.join(maps.SUFFIXES)}")
+    if suffix in maps.SUFFIXES:
+        known = reading_options()
+        if unknown := [name for name in options if name not in known]:
+            raise InputError(f"--set {unknown[0]}: no option{nearest(unknown[0], known)}")
+        drawing = maps.read(path, **options)
+        _tell_all(maps.described(drawing, maps.obstacles(drawing)))
+        conclude(*produced(arguments, {"figure": lambda: save_map(drawing, arguments.figure)}))
+    elif suffix in formats.SUFFIXES:
         record = _check_record(path)
-        if laws is not None:
-            _ask_laws(path, record, laws, options)
+        if arguments.laws is not None:
+            _ask_laws(path, record, arguments.laws, options)
     elif path.suffix in ("", ".py", ".toml", LEARNED):
         _check_code(arguments.file)
     else:
@@ -125,18 +126,6 @@ def _check_in_game(path: Path, arguments: argparse.Namespace) -> None:
         f"sound: won {won} of {len(matches)} matches as {arguments.role} of {arguments.game}, "
         "and forfeited none"
     )
-
-
-def _check_map(path: Path, options: dict[str, Any], picture: Path | None) -> None:
-    """Describe a map, and draw it if a figure is asked for."""
-    known = reading_options()
-    for name in options:
-        if name not in known:
-            raise InputError(f"--set {name}: no option{nearest(name, known)}")
-    drawing = maps.read(path, **options)
-    _tell_all(maps.described(drawing, maps.obstacles(drawing)))
-    if picture is not None:
-        tell(f"picture     {save_map(drawing, picture)}")
 
 
 def _check_code(source: str) -> None:
@@ -186,30 +175,18 @@ def _opened(source: str) -> tuple[ModuleType, Experiment | None]:
     if Path(source).suffix == ".toml":
         return ModuleType(source), open_experiment(source)
     if Path(source).suffix == LEARNED:
-        return ModuleType(source), _where_it_learned(Path(source))
+        law = Policy(Path(source))
+        if not law.experiment:
+            raise InputError(
+                f"{source}: does not say in which experiment it was learned: try it in a game, by "
+                "--for GAME --role ROLE"
+            )
+        learner = {f"robots.{law.robot}.controller": law}
+        return ModuleType(source), open_experiment(law.experiment, learner)
     module = open_module(source)
     if not hasattr(module, "scenario") and any(True for _ in trials(module, None)):
         return module, None
     return module, open_experiment(module)
-
-
-def _where_it_learned(path: Path) -> Experiment:
-    """Return the experiment in which a law was learned, with the law on its robot."""
-    if not path.is_file():
-        raise InputError(f"{path}: there is no such file")
-    law = Policy(path)
-    if not law.experiment:
-        raise InputError(
-            f"{path}: does not say in which experiment it was learned: try it in a game, by "
-            "--for GAME --role ROLE"
-        )
-    experiment = open_experiment(law.experiment)
-    learner = experiment.scenario.index_of(f"{path}: its robot", law.robot)
-    robots = [
-        robot.replace(controller=law) if i == learner else robot
-        for i, robot in enumerate(experiment.scenario.robots)
-    ]
-    return replace(experiment, scenario=experiment.scenario.replace(robots=robots))
 
 
 def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline) -> list[Finding]:

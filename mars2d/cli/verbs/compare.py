@@ -13,14 +13,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mars2d.cli.arguments import options_of, preferences_of, shared
-from mars2d.cli.outputs import DURATION, FPS, OUTPUTS, check_outputs, film_speed, outcome
+from mars2d.cli.outputs import (
+    FPS,
+    conclude,
+    film_speed,
+    outcome,
+    picture_and_film,
+    produced,
+)
 from mars2d.cli.runs import has_display, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import Progress
 from mars2d.core.terminal import aligned, tell
 from mars2d.output.figures.comparison import MODES, Comparison
-from mars2d.output.raster import require_pygame
-from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.record import Record
 
@@ -38,7 +43,6 @@ def execute(arguments: argparse.Namespace) -> None:
     In a window, if there is a display and no other output is wanted.
     """
     start = time.perf_counter()
-    check_outputs(arguments, {name: OUTPUTS[name] for name in ("figure", "video")})
     options = options_of(arguments)
     if "physics" in options:
         raise InputError("--set physics: compare runs each physics by itself")
@@ -49,20 +53,22 @@ def execute(arguments: argparse.Namespace) -> None:
         if not arguments.headless and has_display():
             _show(arguments, opened)
             return
-        require_pygame("a film")
-        FOLDER.mkdir(exist_ok=True)
-        stem = experiment_name(Path(arguments.experiment))
-        arguments.figure, arguments.video = FOLDER / f"{stem}.png", FOLDER / f"{stem}.gif"
-        arguments.speed = arguments.speed or opened("contact").scenario.stop_time / DURATION
+        picture_and_film(arguments, FOLDER, opened("contact").scenario.stop_time)
     reels: dict[str, Reel] = {}
     comparison = Comparison(**{mode: _run(opened(mode), mode, arguments, reels) for mode in MODES})
+    if not arguments.json:
+        tell(_as_table(comparison))
+    makers = {
+        "figure": lambda: comparison.save_figure(arguments.figure),
+        "video": lambda: _save_film(comparison, reels, arguments.video),
+    }
+    made, troubles = produced(arguments, makers)
     if arguments.json:
-        _save(comparison, reels, arguments)
-        tell(_as_json(comparison, arguments, time.perf_counter() - start))
-        return
-    tell(_as_table(comparison))
-    for word, path in _save(comparison, reels, arguments).items():
-        tell(f"{word + ':':<8} {path}")
+        found = {"title": comparison.contact.scenario.title, "seed": comparison.contact.seed}
+        found |= {name: str(path) for name, path in made.items()}
+        found |= {"runs": _outcomes(comparison), "wall_s": round(time.perf_counter() - start, 6)}
+        tell(json.dumps(found))
+    conclude({} if arguments.json else made, troubles)
 
 
 def _opened(source: str, options: dict[str, Any], seed: int, mode: str) -> Experiment:
@@ -105,48 +111,34 @@ def _run(
     return world.record
 
 
-def _save(
-    comparison: Comparison, reels: dict[str, Reel], arguments: argparse.Namespace
-) -> dict[str, Path]:
-    """Save the requested picture and film, and return their paths."""
-    made: dict[str, Path] = {}
-    if arguments.figure:
-        made["picture"] = comparison.save_figure(arguments.figure)
-    if arguments.video:
-        from mars2d.output.films.film import save_pictures
-        from mars2d.output.films.triptych import triptych
+def _save_film(comparison: Comparison, reels: dict[str, Reel], path: Path) -> None:
+    from mars2d.output.films.film import save_pictures
+    from mars2d.output.films.triptych import triptych
 
-        made["film"] = arguments.video
-        count = max(footage.count(last) for footage, last in reels.values())
-        with closing(Progress(count, "frames")) as bar:
-            save_pictures(triptych(comparison, reels), arguments.video, FPS, bar.update)
-    return made
+    count = max(footage.count(last) for footage, last in reels.values())
+    with closing(Progress(count, "frames")) as bar:
+        save_pictures(triptych(comparison, reels), path, FPS, bar.update)
+
+
+def _outcomes(comparison: Comparison) -> list[dict[str, Any]]:
+    """Return how the runs went, with the final drift from the run with contact, metres."""
+    found = []
+    for mode, record in comparison.records.items():
+        drift = comparison.drifts.get(mode)
+        most, mean = (0.0, 0.0) if drift is None else (drift.max[-1], drift.mean[-1])
+        drifted = {"drift_max": float(most), "drift_mean": float(mean)}
+        found.append({"physics": mode, **drifted, **outcome(record)})
+    return found
 
 
 def _as_table(comparison: Comparison) -> str:
-    """Return the outcome as a table, with the final drift from the run with contact."""
-    lines = [("physics", "steps", "collisions", "drift max", "drift mean", "ended")]
-    for mode, record in comparison.records.items():
-        drift = comparison.drifts.get(mode)
-        # Less than a micrometre is rounding.
-        last = [] if drift is None else [drift.max[-1], drift.mean[-1]]
-        apart = [f"{round(float(each), 6):.3g} m" for each in last] or ["-", "-"]
-        counts = str(len(record) - 1), str(record.collisions)
-        lines.append((mode, *counts, apart[0], apart[1], record.over_message))
+    lines, ends = [("physics", "steps", "collisions", "drift max", "drift mean")], ["ended"]
+    for run in _outcomes(comparison):
+        apart = ["-", "-"]
+        if run["physics"] in comparison.drifts:  # less than a micrometre is rounding
+            apart = [f"{round(run[name], 6):.3g} m" for name in ("drift_max", "drift_mean")]
+        lines.append((run["physics"], f"{run['ticks']}", f"{run['collisions']}", *apart))
+        ends.append(run["message"])
     title = f"{comparison.contact.scenario.title}, seed {comparison.contact.seed}"
-    cells = aligned([line[:-1] for line in lines], left=1)
-    ends = (line[-1] for line in lines)
-    return "\n".join([title, *("  ".join(row) for row in zip(cells, ends, strict=True))])
-
-
-def _as_json(comparison: Comparison, arguments: argparse.Namespace, seconds: float) -> str:
-    runs = []
-    for mode, record in comparison.records.items():
-        drift = comparison.drifts.get(mode)
-        last, mean = (0.0, 0.0) if drift is None else (drift.max[-1], drift.mean[-1])
-        run = {"physics": mode, "drift_max": float(last), "drift_mean": float(mean)}
-        runs.append(run | outcome(record))
-    found = {"title": comparison.contact.scenario.title, "seed": comparison.contact.seed}
-    files = {"figure": arguments.figure, "video": arguments.video}
-    found |= {name: str(path) for name, path in files.items() if path}
-    return json.dumps(found | {"runs": runs, "wall_s": round(seconds, 6)})
+    rows = zip(aligned(lines, left=1), ends, strict=True)
+    return "\n".join([title, *("  ".join(row) for row in rows)])

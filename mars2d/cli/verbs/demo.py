@@ -6,10 +6,9 @@ import argparse
 from pathlib import Path
 
 from mars2d.cli.arguments import option, shared
-from mars2d.cli.outputs import DURATION
+from mars2d.cli.outputs import picture_and_film
 from mars2d.cli.runs import has_display, print_examples
 from mars2d.core.terminal import tell
-from mars2d.output.raster import require_pygame
 from mars2d.scenario.experiment import open_experiment
 
 FOLDER = Path("mars2d_demo")
@@ -35,9 +34,6 @@ def execute(arguments: argparse.Namespace) -> None:
     run = parse(["run", name])
     asked = argparse.Namespace(**vars(run) | vars(arguments))
     if asked.headless or not has_display():
-        require_pygame("a film")
-        asked.speed = max(open_experiment(name).scenario.stop_time / DURATION, 1e-9)
-        FOLDER.mkdir(exist_ok=True)
-        files = [FOLDER / f"{Path(name).stem}{suffix}" for suffix in (".png", ".gif")]
-        asked.headless, asked.size, (asked.figure, asked.video) = True, (640, 480), files
+        picture_and_film(asked, FOLDER, open_experiment(name).scenario.stop_time)
+        asked.headless, asked.size = True, (640, 480)
     run.execute(asked)

@@ -67,5 +67,5 @@ def _report(result: Result, width: int) -> None:
         tell(f"          {problem}")
     for picture in result.pictures:
         for p in picture.predictions:
-            if not p.ok:
+            if p.ok is False:
                 tell(f"          NOT OK: {picture.title}: {p.name}")

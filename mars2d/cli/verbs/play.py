@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 
 from mars2d.cli.arguments import MANY, option, options_of, preferences_of, shared
-from mars2d.cli.runs import print_table, require_display, show
+from mars2d.cli.runs import print_table, require_display, speed_by_hand
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
 from mars2d.scenario.examples import games, title_of
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.roles import contest_of, contests_of, robots_named
+from mars2d.window import show
 
 MOST_NAMES = 5
 """How many robots a message names."""
@@ -33,8 +34,10 @@ def execute(arguments: argparse.Namespace) -> None:
     experiment = open_experiment(arguments.game, options_of(arguments), seed=arguments.seed)
     people = _people(arguments, experiment)
     require_display(f"play {arguments.game}: people need a window, and there is no display")
-    look = preferences_of(arguments)
-    show(experiment, arguments.speed, look, people, kept=True, play=True)
+    speed, look = arguments.speed, preferences_of(arguments)
+    if speed is None:
+        speed = speed_by_hand(experiment.scenario, people)
+    show.show_experiment(experiment, speed, preferences=look, humans=people, play=True)
 
 
 def _people(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:

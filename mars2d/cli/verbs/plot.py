@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import option, shared, value
-from mars2d.cli.outputs import OUTPUTS, check_outputs, naming_lost_letters
+from mars2d.cli.arguments import option, refuse, shared, value
+from mars2d.cli.outputs import conclude, produced
 from mars2d.core.errors import InputError, nearest
-from mars2d.core.terminal import tell
 from mars2d.output.figures import figure
 from mars2d.output.figures.style import STYLES, style_of
 from mars2d.output.layers.table import LAYERS, Layers
@@ -20,14 +20,11 @@ from mars2d.world.record import Record, load
 KINDS = ("paths", "snapshots", "signals", "energy", "momentum", "contacts", "distances")
 
 OPTIONS = {
-    "--at": (("snapshots",), "at"),
-    "--layers": (("paths", "snapshots"), "layers"),
-    "--columns": (("signals",), "columns"),
-    "--robots": (("signals",), "robots"),
-    "--from": (("signals",), "start"),
-    "--to": (("signals",), "end"),
+    "at": ("snapshots",),
+    "layers": ("paths", "snapshots"),
+    **dict.fromkeys(("columns", "robots", "from", "to"), ("signals",)),
 }
-"""Options of some kinds of figures only: the kinds, and where the value is."""
+"""The kinds of figures that have an option, by options that not all have."""
 
 
 def _words(text: str) -> list[str]:
@@ -55,27 +52,24 @@ def execute(arguments: argparse.Namespace) -> None:
     kind, path = arguments.kind, arguments.record
     if kind not in KINDS:
         raise InputError(f"there is no figure of {kind!r}{nearest(kind, KINDS)}")
-    for given, (kinds, name) in OPTIONS.items():
-        if getattr(arguments, name) is not None and kind not in kinds:
-            wanted = f"{' and '.join(kinds)}: mars2d plot {path} {kinds[0]}"
-            raise InputError(f"{given} is for {wanted}")
+    for name, kinds in OPTIONS.items():
+        if kind not in kinds:
+            other = f"mars2d plot {path} {kinds[0]}"
+            refuse(arguments, name, f"is for {' and '.join(kinds)}: {other}")
     if kind == "snapshots" and arguments.at is None:
         raise InputError("snapshots need their times, such as --at 0,5,end")
     look = style_of(arguments.style)
-    check_outputs(arguments, {"figure": OUTPUTS["figure"]})
     if path.suffix in (".py", ".toml") or (str(path) in examples() and not path.exists()):
         first = f"mars2d run {path} --record {path.stem}.npz"
         raise InputError(f"{path}: an experiment; run it first: {first}")
     record = load(path)
     layers = _layers(arguments.layers, record, paths=kind == "paths")
     names = (f"{path.stem}_{kind}{f'_{k}' if k > 1 else ''}.png" for k in count(1))
-    target = arguments.figure or next(Path(name) for name in names if not Path(name).exists())
-    with naming_lost_letters():
-        tell(
-            figure.save_drawing(
-                lambda: _drawing(arguments, record, layers), target, trim=look.trim, dpi=look.dpi
-            )
-        )
+    free = (Path(name) for name in names if not Path(name).exists())
+    arguments.figure = arguments.figure or next(free)
+    drawing = partial(_drawing, arguments, record, layers)
+    save = partial(figure.save_drawing, drawing, arguments.figure, trim=look.trim, dpi=look.dpi)
+    conclude(*produced(arguments, {"figure": save}))
 
 
 def _drawing(arguments: argparse.Namespace, record: Record, layers: Layers | None) -> Any:

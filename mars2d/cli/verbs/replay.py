@@ -6,9 +6,9 @@ import argparse
 from dataclasses import replace
 
 from mars2d.cli.arguments import preferences_of, shared
-from mars2d.cli.outputs import OUTPUTS, check_film, check_outputs, save_film_of
+from mars2d.cli.outputs import check_film, conclude, produced, save_film_of
 from mars2d.cli.runs import require_display
-from mars2d.core.terminal import tell
+from mars2d.window import show
 from mars2d.world.record import load
 
 NO_DISPLAY = (
@@ -21,21 +21,18 @@ ARGUMENTS = shared("record speed theory video size from to html dark text")
 
 def execute(arguments: argparse.Namespace) -> None:
     """Play a recorded run in the window, or make a film or a page of it."""
-    check_outputs(arguments, {name: OUTPUTS[name] for name in ("video", "html")})
     record = load(arguments.record)
     animation = record.scenario.animation
     if arguments.theory:
         animation = animation.replace(theory=True)
         record = replace(record, scenario=record.scenario.replace(animation=animation))
     check_film(arguments, record.scenario, float(record.time[-1]) if len(record) else 0.0)
-    if arguments.video is not None:
-        save_film_of(record, arguments)
-        tell(f"film: {arguments.video}")
-    if arguments.html is not None:
-        tell(f"page: {record.save_html(arguments.html)}")
+    makers = {
+        "video": lambda: save_film_of(record, arguments),
+        "html": lambda: record.save_html(arguments.html),
+    }
+    conclude(*produced(arguments, makers))
     if arguments.video is None and arguments.html is None:
         require_display(NO_DISPLAY)
-        from mars2d.window.show import show_record
-
         speed = animation.playback_speed if arguments.speed is None else arguments.speed
-        show_record(record, speed, preferences_of(arguments))
+        show.show_record(record, speed, preferences_of(arguments))

@@ -12,20 +12,18 @@ from functools import partial
 from pathlib import Path
 
 from mars2d.cli import remarks
-from mars2d.cli.arguments import MANY, option, options_of, preferences_of, shared
+from mars2d.cli.arguments import MANY, Output, option, options_of, preferences_of, refuse, shared
 from mars2d.cli.outputs import (
     FPS,
-    OUTPUTS,
     Make,
     check_film,
-    check_outputs,
     conclude,
     film_speed,
     outcome,
     run_and_save,
     save_film,
 )
-from mars2d.cli.runs import opens_window, require_display, run_headless, show
+from mars2d.cli.runs import opens_window, require_display, run_headless, speed_by_hand
 from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
@@ -33,6 +31,7 @@ from mars2d.physics.islands import reason_without
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.prediction import table
 from mars2d.scenario.roles import robots_named
+from mars2d.window import show
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
 from mars2d.world.world import Watcher
@@ -50,7 +49,7 @@ _DRIVEN = "a robot to drive by hand: its name or index, or a role; may be given 
 ARGUMENTS = {
     **shared("experiment headless seed speed stop-time set figure at video size from to"),
     **shared("html theory dark text json"),
-    "--record": option("OUT", _SAVED, Path),
+    "--record": option("OUT", _SAVED, Path, action=Output),
     "--foxglove": option("PORT", _SERVED, int, nargs="?", const=FOXGLOVE),
     "--human": option("WHO", _DRIVEN, **MANY),
 }
@@ -58,9 +57,8 @@ ARGUMENTS = {
 
 def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment, in a window if there is a display, and save the requested files."""
-    check_outputs(arguments, OUTPUTS)
-    if arguments.at is not None and arguments.figure is None:
-        raise InputError("--at needs --figure OUT")
+    if arguments.figure is None:
+        refuse(arguments, "at", "needs --figure OUT")
     experiment = open_experiment(arguments.experiment, options_of(arguments), seed=arguments.seed)
     humans = _check(arguments, experiment)
     for remark in remarks.before(experiment):
@@ -73,9 +71,15 @@ def execute(arguments: argparse.Namespace) -> None:
             def run() -> tuple[Record, Make | None]:
                 if not opens_window(not arguments.headless):
                     return _run_headless(arguments, experiment, watchers)
-                log, kept = formats.log_to(arguments.record), arguments.record is not None
-                look, speed = preferences_of(arguments), arguments.speed
-                return show(experiment, speed, look, humans, log, watchers, kept=kept), None
+                speed, own = arguments.speed, experiment.scenario.animation.playback_speed
+                if speed is None:
+                    speed = speed_by_hand(experiment.scenario, humans) if humans else own
+                look, log = preferences_of(arguments), formats.log_to(arguments.record)
+                asks = arguments.record is None
+                seen = show.show_experiment(
+                    experiment, speed, watchers, look, humans=humans, log=log, asks=asks
+                )
+                return seen, None
 
             record, made, troubles = run_and_save(arguments, run)
     except Interrupted:
@@ -157,7 +161,7 @@ def _run_headless(
         film = partial(save_film, footage.frames(last), footage.count(last), speed, arguments)
     seconds = world.simulation.engine_seconds
     if seconds >= LONG and reason_without():
-        from mars2d.reports.remedy import remedy
+        from mars2d.reports.doctor import remedy
 
         slow = f"the engine took {seconds:.0f} s, since {reason_without()}"
         warn(f"{slow}. Compiled it is many times quicker: {remedy()}")

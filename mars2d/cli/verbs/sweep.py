@@ -6,8 +6,8 @@ import argparse
 import dataclasses
 from pathlib import Path
 
-from mars2d.cli.arguments import MANY, option, shared, workers_of
-from mars2d.cli.outputs import OUTPUTS, check_outputs, naming_lost_letters
+from mars2d.cli.arguments import MANY, Output, option, refuse, shared, workers_of
+from mars2d.cli.outputs import conclude, produced
 from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
@@ -39,8 +39,8 @@ ARGUMENTS = {
     "--first-seed": option("K", "the first seed (default: 0)", int),
     "--measure": option("NAME", _MEASURE, **MANY),
     "--unit": option("NAME=UNIT", "the unit of a setting or a measure, such as spread=m", **MANY),
-    "--out": option("OUT.csv", f"file of the rows (default: {TABLE})", Path),
-    "--figure": option("OUT", "draw the measures: .png, .pdf, .svg", Path),
+    "--out": option("OUT.csv", f"file of the rows (default: {TABLE})", Path, action=Output),
+    "--figure": option("OUT", "draw the measures: .png, .pdf, .svg", Path, action=Output),
     "--style": option("STYLE", f"of the figure: {', '.join(STYLES)}"),
     "--compare": option("KEY", "compare a setting's values, seed by seed"),
     "--confidence": option("P", "of intervals (default: 0.95)", float, default=0.95),
@@ -50,44 +50,40 @@ ARGUMENTS = {
     **shared("workers cluster"),
     "--row": option("N", "run one row of a study again", int),
     "--view": option(None, "with --row: show it in a window"),
-    "--record": option("OUT", "with --row: save all data of the run", Path),
+    "--record": option("OUT", "with --row: save all data of the run", Path, action=Output),
     **shared("html dark text"),
 }
 
 
 def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment over settings and seeds into a table, or one of its rows again."""
-    check_outputs(arguments, {name: OUTPUTS[name] for name in ("record", "figure", "html")})
     given = arguments.experiment or ""
     if arguments.row is not None:
-        _refuse(arguments, f"{OF_RUNS} compare unit style", "--row N runs one row as it was")
+        refuse(
+            arguments,
+            f"{OF_RUNS} compare unit style",
+            "does not go with --row N: that runs as it was",
+        )
         show_row(arguments, _table_here(arguments))
         return
     if arguments.figure is None:
-        _refuse(arguments, "style", "it is of a figure: give --figure OUT as well")
+        refuse(arguments, "style", "needs --figure OUT: it is of a figure")
     style_of(arguments.style or "screen")
     confident(arguments.confidence)
-    _refuse(arguments, "view record html", "it is of one run: give --row N")
+    refuse(arguments, "view record html", "needs --row N: it is of one run")
     if not given:
         raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
     if given.lower().endswith(".csv"):
-        _refuse(arguments, OF_RUNS, f"{given} is there already")
+        refuse(arguments, OF_RUNS, f"is for new runs: {given} is there already")
         table = Table.load(given)
         stated = checked_units(parse_units(arguments.unit), [*table.settings, *table.measures])
         table = dataclasses.replace(table, units={**table.units, **stated})
         _report(arguments, table, Path(given))
     else:
         out = TABLE if arguments.out is None else arguments.out
-        check_outputs(argparse.Namespace(out=out), {"out": (".csv",)})
         _report(arguments, _swept(arguments, out), out)
         if arguments.keep:
             tell(f"records: {records_beside(out)}")
-
-
-def _refuse(arguments: argparse.Namespace, names: str, why: str) -> None:
-    for name in names.split():
-        if getattr(arguments, name.replace("-", "_")) not in (None, False, []):
-            raise InputError(f"--{name}: {why}")
 
 
 def _table_here(arguments: argparse.Namespace) -> Path:
@@ -139,10 +135,11 @@ def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
     if compared:
         tell("", compared, sep="\n")
     tell(f"\ntable:  {path}")
-    if arguments.figure is not None:
+
+    def draw() -> None:
         from mars2d.study.figure import save_study_figure
 
         look, confidence = arguments.style or "screen", arguments.confidence
-        with naming_lost_letters():
-            save_study_figure(table, arguments.figure, confidence=confidence, style=look)
-        tell(f"figure: {arguments.figure}")
+        save_study_figure(table, arguments.figure, confidence=confidence, style=look)
+
+    conclude(*produced(arguments, {"figure": draw}))

@@ -8,13 +8,11 @@ from math import dist
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import MANY, option, preferences_of, shared, workers_of
-from mars2d.cli.outputs import check_outputs
+from mars2d.cli.arguments import MANY, Output, option, preferences_of, shared, workers_of
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError, Mars2dError, counted, one_line
 from mars2d.core.scene import NAMED, rgb
 from mars2d.core.terminal import tell
-from mars2d.output import formats
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import experiment_name
 from mars2d.study.plan import parse_all
@@ -24,8 +22,8 @@ from mars2d.tournaments.isolation.limits import Limits
 from mars2d.tournaments.league import matches_of
 from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, replayed
-from mars2d.tournaments.page.rules import save_rules
-from mars2d.tournaments.schedule import Schedule, schedule
+from mars2d.tournaments.page import save_rules
+from mars2d.tournaments.schedule import Schedule, game_rules, schedule
 from mars2d.tournaments.tournament import PAGE, TournamentInterrupted, missing, play_schedule
 
 EACH: dict[str, Any] = {**MANY, "nargs": "+"}
@@ -47,10 +45,10 @@ ARGUMENTS = {
     "--reads": option("FILES", "files and folders that laws may read", **EACH),
     "--out": option("FOLDER", _FOLDER, Path),
     "--no-replays": option(None, "a small page, for very many matches"),
-    "--rules": option("OUT.html", "write the game's rules as a page", Path),
+    "--rules": option("OUT.html", "write the game's rules as a page", Path, action=Output),
     "--match": option("N", "play only this match, again", int),
     "--view": option(None, "with --match: show it in a window"),
-    "--record": option("OUT", "with --match: save all its data", Path),
+    "--record": option("OUT", "with --match: save all its data", Path, action=Output),
     **shared("workers cluster dark text"),
 }
 
@@ -60,29 +58,32 @@ def execute(arguments: argparse.Namespace) -> None:
     for name in ("view", "record"):
         if getattr(arguments, name) and arguments.match is None:
             raise InputError(f"--{name} needs --match N")
-    check_outputs(arguments, {"record": tuple(formats.FORMATS), "rules": (".html", ".htm")})
     worker_count(arguments.workers)
     if arguments.view and not has_display():
         require_pygame("a window")
         raise InputError("--view: there is no display; save the match with --record OUT.npz")
     limits, roles, settings = _limits(arguments), _roles(arguments.role), parse_all(arguments.set)
-    more: dict[str, Any] = {
-        "first_seed": arguments.first_seed,
-        "settings": settings,
-        "stop_time": arguments.stop_time,
-    }
+    game, first, stop_time = arguments.scenario, arguments.first_seed, arguments.stop_time
     if arguments.rules is not None:
-        save_rules(arguments.rules, arguments.scenario, limits, **more)
+        save_rules(game_rules(game, limits, settings, stop_time, first), arguments.rules)
         tell(f"rules: {arguments.rules}")
         if not (roles or arguments.players):
             return
-    players = [file for files in arguments.players for file in files]
-    planned = schedule(arguments.scenario, roles, players, seeds=arguments.seeds, **more)
+    planned = schedule(
+        game,
+        roles,
+        [file for files in arguments.players for file in files],
+        seeds=arguments.seeds,
+        first_seed=first,
+        settings=settings,
+        stop_time=stop_time,
+        limits=limits,
+    )
     path = arguments.out or Path(f"tournament_{experiment_name(Path(planned.experiment))}")
     if arguments.match is None:
-        _play_all(arguments, planned, path, limits)
+        _play_all(arguments, planned, path)
     else:
-        _play_one(arguments, planned, path, limits)
+        _play_one(arguments, planned, path)
 
 
 def _limits(arguments: argparse.Namespace) -> Limits:
@@ -113,12 +114,12 @@ def _roles(given: list[list[str]]) -> dict[str, list[str]]:
     return roles
 
 
-def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
+def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path) -> None:
     """Play the matches not played yet, and print the league, also after Ctrl-C."""
     laws = {role: {match.laws[role] for match in planned.matches} for role in planned.roles}
     who = ", ".join(f"{len(names)} as {role}" for role, names in laws.items())
     count = len(planned.matches)
-    before = count - len(missing(planned, played_before(path, planned, limits)))
+    before = count - len(missing(planned, played_before(path, planned)))
     known = f", {before} of them played before" if before else ""
     tell(f"{planned.title}: {who}: {matches_of(count)}{known}")
     replays = not arguments.no_replays
@@ -126,7 +127,7 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     with workers_of(arguments) as (executor, workers):
         try:
             result = play_schedule(
-                planned, limits, path, executor=executor, workers=workers, replays=replays
+                planned, path, executor=executor, workers=workers, replays=replays
             )
         except TournamentInterrupted as error:
             result, interrupt = error.tournament, error
@@ -138,7 +139,7 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
         raise Mars2dError(f"{matches_of(failed)} without a result: play again by the same command")
 
 
-def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limits: Limits) -> None:
+def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path) -> None:
     """Play one match again; print its outcome, and whether it is the same as before."""
     count = len(planned.matches)
     if not 1 <= arguments.match <= count:
@@ -146,10 +147,10 @@ def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path, limi
     match = planned.matches[arguments.match - 1]
     options = "".join(f", {name} = {value}" for name, value in match.options.items())
     tell(f"match {match.number}: {_who(match, planned, ', ')}, seed {match.seed}{options}")
-    played, record = replayed(match, limits)
+    played, record = replayed(match, planned.limits)
     steps = counted(played.steps, "step")
     tell(f"{one_line(played.message)}. {steps}, digest {played.digest[:16]}")
-    tell(_compared(played, played_before(path, planned, limits), path))
+    tell(_compared(played, played_before(path, planned), path))
     for role, text in played.output.items():
         tell(f"{match.laws[role]} printed:\n{text.rstrip()}")
     if arguments.record is not None:
@@ -166,7 +167,7 @@ def _who(match: Match, planned: Schedule, between: str) -> str:
     """Return which law plays which role, and the colours of its robots."""
     told = []
     for role, law in match.laws.items():
-        colors = planned.rules.colors[role] if planned.rules else ()
+        colors = planned.rules.roles[role].colors
         words = ", ".join(dict.fromkeys(map(_color_word, colors)))
         told.append(f"{role} {law}" + (f" ({words})" if words not in ("", role) else ""))
     return between.join(told)

@@ -19,7 +19,7 @@ from mars2d.output.figures.figure import (
     dress,
     label,
     new_figure,
-    paint_row,
+    paint_frame,
     save_drawing,
 )
 from mars2d.output.figures.legend import Entry, add_legend
@@ -166,7 +166,7 @@ def plot_comparison(comparison: Comparison) -> Figure:
     figure.suptitle(f"{title}, {seed}", fontsize=15, color=INK, parse_math=False)
     figure.draw_without_rendering()  # the scale is known from the layout
     for mode, record in comparison.records.items():
-        paint_row(axes[mode], record, len(record) - 1)
+        paint_frame(axes[mode], record.frame(-1))
     return figure
 
 

@@ -113,7 +113,7 @@ def plot_paths(
         if own:
             ax.get_figure().draw_without_rendering()  # type: ignore[union-attr]
             show_in_notebooks(ax)
-        paint_row(ax, record, len(record) - 1, look, layers)
+        paint_frame(ax, last, look, layers)
     return ax
 
 
@@ -188,8 +188,8 @@ def _snapshots(
     if own:
         figure.draw_without_rendering()
         figure.__dict__["_repr_png_"] = partial(_png, figure)
-    for ax, row in zip(panels, rows, strict=False):
-        paint_row(ax, record, row, look, layers)
+    for ax, frame in zip(panels, frames, strict=False):
+        paint_frame(ax, frame, look, layers)
     return figure
 
 
@@ -323,15 +323,12 @@ def label(ax: Axes, *, below: bool = True, beside: bool = True, look: Style = SC
         ax.set_ylabel("y [m]", color=look.ink, fontsize=look.label)
 
 
-def paint_row(
-    ax: Axes, record: Rows, row: int, look: Style = SCREEN, layers: Layers | None = None
-) -> None:
-    """Paint the layers at a row; layers: the switches, as in `plot_paths`."""
-    now = record.frame(row)
-    animation = record.scenario.animation
-    layers = layers or layers_of(record.scenario)
+def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | None = None) -> None:
+    """Paint the layers of a frame; layers: the switches, as in `plot_paths`."""
+    animation = now.scenario.animation
+    layers = layers or layers_of(now.scenario)
     _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
-    scales = _scales(ax, record.scenario, look)
+    scales = _scales(ax, now.scenario, look)
     words = 0.65 * look.small / SCREEN.small
     level = WORKSPACE  # the grid lies between this and the level of all later layers
     for layer in layers.seen(animation):
@@ -472,10 +469,12 @@ def _entries(
         dash = look.dash(first) if look.greys else ""
         color, width = scenario.colors[first], 1.5 * look.stroke
         entries.append(Entry(plain_name(name), color, dash, width, "o"))
-    return entries + _signs(frames, layers, look, ppm)
+    return entries + signs_of(frames, layers, look, ppm)
 
 
-def _signs(frames: Sequence[Frame], layers: Layers, look: Style, ppm: float) -> list[Entry | Sign]:
+def signs_of(
+    frames: Sequence[Frame], layers: Layers, look: Style, ppm: float
+) -> list[Entry | Sign]:
     """Return what the arrows and signs of layers mean; ppm: the points of a metre.
 
     The arrow of forces is always there, others where they are needed: that of impulses after a

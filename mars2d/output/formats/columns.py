@@ -3,21 +3,58 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from mars2d.core.quantity import Quantity
 from mars2d.record.energy import WORK
-from mars2d.record.rows import COLUMNS, Rows
+from mars2d.record.rows import Rows
 
-# -- units ------------------------------------------------------------------------------------
+# -- axes and units ---------------------------------------------------------------------------
 
-POSE_UNITS = {"x": "m", "y": "m", "theta": "rad"}
+
+class About(NamedTuple):
+    """What a column of a record is.
+
+    axes: their names, after that of time. units: of what is along the first of these axes; of a
+    command they depend on the drives.
+    """
+
+    axes: tuple[str, ...]
+    units: tuple[str, ...]
+    meaning: str
+
+
+METRES, SPEEDS = ("m", "m", "rad"), ("m/s", "m/s", "rad/s")
+
+ABOUT = {
+    "time": About((), ("s",), "time"),
+    "pose": About(("axis", "robot"), METRES, "poses of the robots: x, y, heading"),
+    "command": About(("input", "robot"), (), "commands issued"),
+    "command_time": About((), ("s",), "when the command takes effect"),
+    "prop_pose": About(("axis", "prop"), METRES, "poses of the props: x, y, heading"),
+    "effort": About(
+        ("robot",),
+        ("1",),
+        "largest share of its bounds that a drive used in the control step before",
+    ),
+    "velocity": About(("axis", "robot"), SPEEDS, "velocities of the robots: x, y, heading"),
+    "prop_velocity": About(("axis", "prop"), SPEEDS, "velocities of the props: x, y, heading"),
+    "work": About(("work_of",), ("J",), "work on all bodies since the start"),
+}
+"""By name: all of `COLUMNS`."""
+
+POSE_UNITS = dict(zip(("x", "y", "theta"), METRES, strict=True))
 """The units of a pose's three numbers, in order."""
 
-COLUMN_UNITS = {"time": "s", "command_time": "s", "effort": "1", "work": "J"}
-"""The units of the other columns that have one unit."""
+
+def shapes_of(robots: int, props: int) -> dict[str, tuple[int, ...]]:
+    """Return the shape of a row of each of `COLUMNS`."""
+    sizes = {"axis": 3, "input": 2, "robot": robots, "prop": props, "work_of": len(WORK)}
+    return {name: tuple(sizes[axis] for axis in about.axes) for name, about in ABOUT.items()}
+
 
 CONTACT_UNITS = {
     "time": "s", "duration": "s", "point": "m", "normal": "1", "impulse": "N s",
@@ -29,28 +66,27 @@ MESSAGE_UNITS = {"time": "s", "arrival": "s", "size": "byte"}
 """The units of the fields of messages; the other fields are indices."""
 
 
-def command_units(record: Rows) -> tuple[str, ...]:
-    """Return the units of a command's two numbers; () where the robots' drives disagree.
+def units_in(record: Rows, column: str) -> tuple[str, ...]:
+    """Return the units in a column of `COLUMNS` or of readings: one, or those along an axis.
 
-    It is () as well for drives of the user's own that do not say.
+    () where the robots' drives disagree, and where units are unknown, as those of drives and
+    sensors of the user's own that do not say.
     """
-    drives = (robot.drive for robot in record.scenario.robots)
-    found = {tuple(quantity.unit for quantity in drive.quantities) for drive in drives}
+    robots = record.scenario.robots
+    _, of_sensor, name = column.partition(":")
+    if of_sensor:
+        sensors = [robots[robot].sensor(name) for robot in record.sensor_robots[name]]
+        found = {_units(sensor.quantities) for sensor in sensors if sensor is not None}
+    elif column == "command":
+        found = {_units(robot.drive.quantities) for robot in robots}
+    else:
+        return ABOUT[column].units
     return found.pop() if len(found) == 1 else ()
 
 
-def sensor_units(record: Rows, name: str) -> tuple[str, ...] | None:
-    """Return the units of a sensor's readings, in order; None where it has none.
-
-    None, too, where they are unknown: for sensors of the user's own in a record from a file.
-    """
-    found = {
-        tuple(quantity.unit for quantity in sensor.quantities)
-        for robot in record.sensor_robots[name]
-        if (sensor := record.scenario.robots[robot].sensor(name)) is not None
-    }
-    units = found.pop() if len(found) == 1 else ()
-    return tuple(unit or "1" for unit in units) if any(units) else None
+def _units(quantities: Iterable[Quantity]) -> tuple[str, ...]:
+    units = [quantity.unit for quantity in quantities]
+    return tuple(unit or "1" for unit in units) if any(units) else ()
 
 
 # -- names ------------------------------------------------------------------------------------
@@ -93,8 +129,6 @@ KEYS = ("time", "body")
 LAST = "record"
 """The column that a file has after all others, for everything that is not in the table."""
 
-AXES = tuple(POSE_UNITS)
-
 INPUTS = ("command_0", "command_1")
 
 
@@ -110,41 +144,45 @@ class Part(NamedTuple):
     bodies: tuple[int, ...]
 
 
-def parts_of(
-    robots: int,
-    props: int,
-    sensor_robots: Mapping[str, Sequence[int]],
-    shapes: Mapping[str, Sequence[int]],
-    columns: Sequence[str] = COLUMNS,
-) -> dict[str, list[Part]]:
+def parts_of(record: Rows) -> dict[str, list[Part]]:
     """Return the table's columns after time and body, by name; each has one part or two.
 
-    shapes: for each sensor that of all its readings, (T, m, ...). columns: those that there are. A
-    reading that is an array has a column for each of its values, for example ``scan_0`` or
+    A reading that is an array has a column for each of its values, for example ``scan_0`` or
     ``grid_0_1``. A sensor's column whose name is taken gets an underscore at its end.
     """
-    teams, others = tuple(range(robots)), tuple(range(robots, robots + props))
-    every = slice(None)
+    robots, bodies = len(record.scenario.robots), len(record.scenario.bodies)
+    teams, others, every = tuple(range(robots)), tuple(range(robots, bodies)), slice(None)
+    axes = list(enumerate(POSE_UNITS))
     found = {
         axis: [Part("pose", (k, every), teams), Part("prop_pose", (k, every), others)]
-        for k, axis in enumerate(AXES)
+        for k, axis in axes
     }
     found |= {name: [Part("command", (k, every), teams)] for k, name in enumerate(INPUTS)}
     found["command_time"] = [Part("command_time", (None,), teams)]
     found["effort"] = [Part("effort", (every,), teams)]
     found |= {
         f"v{axis}": [Part("velocity", (k, every), teams), Part("prop_velocity", (k, every), others)]
-        for k, axis in enumerate(AXES)
+        for k, axis in axes
     }
     found |= {f"work_{name}": [Part("work", (k, None), teams)] for k, name in enumerate(WORK)}
-    found = {name: parts for name, parts in found.items() if parts[0].name in columns}
     taken = {*KEYS, *found, LAST}
-    for sensor in sensor_robots:
-        for place in np.ndindex(*shapes[sensor][2:]):
+    for sensor, values in record.sensors.items():
+        for place in np.ndindex(*values.shape[2:]):
             name = "_".join([sensor, *map(str, place)])
             while name in taken:
                 name += "_"
             taken.add(name)
-            part = Part(f"sensor:{sensor}", (every, *place), tuple(sensor_robots[sensor]))
-            found[name] = [part]
+            carriers = tuple(record.sensor_robots[sensor])
+            found[name] = [Part(f"sensor:{sensor}", (every, *place), carriers)]
+    return found
+
+
+def units_of(record: Rows, parts: Mapping[str, list[Part]]) -> dict[str, str]:
+    """Return the units of the table's columns, of those that have one."""
+    found = {}
+    for column, ((name, at, _), *_others) in parts.items():
+        units = units_in(record, name)
+        if units:  # one for all values, or one for each along an axis
+            of_sensor = name.startswith("sensor:")
+            found[column] = units[at[-1 if of_sensor else 0] if len(units) > 1 else 0]
     return found

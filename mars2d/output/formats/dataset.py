@@ -12,12 +12,12 @@ from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import (
+    ABOUT,
     CONTACT_UNITS,
     MESSAGE_UNITS,
     POSE_UNITS,
-    command_units,
     plain_names,
-    sensor_units,
+    units_in,
 )
 from mars2d.record.energy import WORK
 from mars2d.record.message import STATUS
@@ -28,24 +28,6 @@ if TYPE_CHECKING:
 
 HEADER = "mars2d"
 """The attribute that holds a record's header, as JSON."""
-
-POSE, TWIST = "m, m, rad", "m/s, m/s, rad/s"
-
-TOLD = {
-    "time": (("time",), "s", "time"),
-    "pose": (("time", "axis", "robot"), POSE, "poses of the robots: x, y, heading"),
-    "command": (("time", "input", "robot"), "", "commands issued"),
-    "command_time": (("time",), "s", "when the command takes effect"),
-    "prop_pose": (("time", "axis", "prop"), POSE, "poses of the props: x, y, heading"),
-    "effort": (
-        ("time", "robot"), "1",
-        "largest share of its bounds that a drive used in the control step before",
-    ),
-    "velocity": (("time", "axis", "robot"), TWIST, "velocities of the robots: x, y, heading"),
-    "prop_velocity": (("time", "axis", "prop"), TWIST, "velocities of the props: x, y, heading"),
-    "work": (("time", "work_of"), "J", "work on all bodies since the start"),
-}  # fmt: skip
-"""The dimensions, the unit and the long name of each column."""
 
 
 def to_xarray(record: Rows) -> Dataset:
@@ -123,16 +105,16 @@ def _told(
     record: Rows, column: str, sensors: Mapping[str, str]
 ) -> tuple[str, tuple[str, ...], str, str]:
     """Return the name of a column's variable, its dimensions, its unit and its long name."""
-    if column in TOLD:
-        dimensions, unit, long_name = TOLD[column]
-        return column, dimensions, unit or ", ".join(command_units(record)), long_name
+    if column in ABOUT:
+        units = ", ".join(units_in(record, column))
+        return column, ("time", *ABOUT[column].axes), units, ABOUT[column].meaning
     family, _, name = column.partition(":")
     if family == "sensor":
         title = sensors[name]
         all_carry = len(record.sensor_robots[name]) == len(record.scenario.robots)
         others = (f"{title}_{k}" for k in range(record.sensors[name].ndim - 2))
         dimensions = ("time", "robot" if all_carry else f"{title}_robot", *others)
-        units = ", ".join(sensor_units(record, name) or ())
+        units = ", ".join(units_in(record, column))
         return f"sensor_{title}", dimensions, units, f"sensor {name}".replace("_", " ")
     long_name = f"{family} {name}".replace("_", " ")
     if column == "message:status":

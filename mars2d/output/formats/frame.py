@@ -11,15 +11,11 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import nearest
 from mars2d.core.extras import extra
 from mars2d.output.formats.columns import (
-    COLUMN_UNITS,
     CONTACT_UNITS,
-    INPUTS,
     MESSAGE_UNITS,
-    POSE_UNITS,
     Part,
-    command_units,
     parts_of,
-    sensor_units,
+    units_of,
 )
 from mars2d.record.message import STATUS
 from mars2d.record.rows import Rows
@@ -53,21 +49,11 @@ def to_frame(record: Rows, table: str = "bodies") -> DataFrame:
 def _bodies(record: Rows) -> tuple[DataFrame, dict[str, str]]:
     import pandas as pd
 
-    columns = record.columns()
-    robots, props = len(record.scenario.robots), len(record.scenario.props)
-    shapes = {name: values.shape for name, values in record.sensors.items()}
-    parts = parts_of(robots, props, record.sensor_robots, shapes, record.kept)
-    table = {name: _column(columns, where, robots + props) for name, where in parts.items()}
-    names = [body.name for body in record.scenario.bodies]
+    columns, names = record.columns(), [body.name for body in record.scenario.bodies]
+    parts = parts_of(record)
+    table = {name: _column(columns, where, len(names)) for name, where in parts.items()}
     index = pd.MultiIndex.from_product([record.time, names], names=["time", "body"])
-    units = POSE_UNITS | COLUMN_UNITS
-    units |= dict(zip(INPUTS, command_units(record), strict=False))
-    for name, where in parts.items():
-        if where[0].name.startswith("sensor:"):
-            found = sensor_units(record, where[0].name.removeprefix("sensor:"))
-            if found:  # one for all values, or those along the last axis of a reading
-                units[name] = found[where[0].at[-1] if len(found) > 1 else 0]
-    return pd.DataFrame(table, index=index), units
+    return pd.DataFrame(table, index=index), units_of(record, parts)
 
 
 def _column(columns: dict[str, NDArray[Any]], parts: list[Part], bodies: int) -> Any:

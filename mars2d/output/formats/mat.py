@@ -15,15 +15,9 @@ from numpy.typing import NDArray
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import plain_names
-from mars2d.record.rows import Rows
+from mars2d.record.rows import COLUMNS, Rows
 
 NAME = "out_data"
-
-HISTORY = {
-    "time": "Time", "pose": "Pose", "command": "Command", "command_time": "Command_time",
-    "prop_pose": "Prop_pose", "effort": "Effort", "velocity": "Velocity",
-    "prop_velocity": "Prop_velocity", "work": "Work",
-}  # fmt: skip
 
 INDICES = {"contact:a", "contact:b", "message:sender", "message:receiver", "message:content"}
 """Columns of indices from 0 on. Obstacles, whose indices are negative, count from -1 anyway."""
@@ -36,8 +30,8 @@ def write(record: Rows, path: Path) -> None:
     sensors, out = plain_names(record.sensors), _looks(record)
     for name, column in headers.numbers_of(record).items():
         family, _, field = name.partition(":")
-        if name in HISTORY:
-            group, field = "History", HISTORY[name]
+        if name in COLUMNS:
+            group, field = "History", name.capitalize()
         elif family == "sensor":
             group, field = "Sensors", sensors[field]
         else:

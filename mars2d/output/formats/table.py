@@ -1,6 +1,6 @@
 """``.csv``: one long table with a row for each time and body, which any program opens.
 
-Its last column, `record`, holds everything that is not in the others, as pieces of JSON.
+Its last column, `record`, holds the record once more, as an .npz in base64: it is what is read.
 """
 
 from __future__ import annotations
@@ -18,33 +18,25 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
-from mars2d.output.formats import header as headers
+from mars2d.output.formats import npz
 from mars2d.output.formats.columns import KEYS, LAST, Part, parts_of
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.record.rows import Rows
 
 PIECE_LENGTH = 30_000
-"""The characters of JSON in a cell; a cell of a spreadsheet holds 32 767."""
+"""The characters of base64 in a cell; a cell of a spreadsheet holds 32 767."""
 
 BLOCK_CELLS = 50_000
 """How many cells of the table are made at once, approximately."""
 
-NAN = np.array(np.nan).view(np.uint64) << np.uint64(1)
-"""The bits of numpy's NaN without its sign."""
-
 
 def write(record: Rows, path: Path) -> None:
     """Write a record to a file. Raises InputError where it can't be written."""
-    header = headers.with_shapes(record)
-    in_table = headers.names_of_bodies(header)
-    header["exact"] = {
-        name: b64encode(column.tobytes()).decode()
-        for name, column in headers.numbers_of(record).items()
-        if name not in in_table or not _as_text_says_all(column)
-    }
-    text = headers.as_text(header)
+    packed = io.BytesIO()
+    npz.pack(record, packed)
+    text = b64encode(packed.getbuffer()).decode()
     pieces = (text[i : i + PIECE_LENGTH] for i in range(0, len(text), PIECE_LENGTH))
-    parts = _parts(header)
+    parts = parts_of(record)
     with atomic_write(path) as binary, io.TextIOWrapper(binary, "utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow([*KEYS, *parts, LAST])
@@ -61,54 +53,19 @@ def read(path: Path, largest: int) -> Rows:
         size = path.stat().st_size
         check_size(path, size, largest)
         csv.field_size_limit(max(csv.field_size_limit(), size))  # no cell is longer than the file
-        header = headers.of_text("".join(_pieces(csv.reader(file, strict=True))))
-        file.seek(0)
-        record = headers.restored(header, _values(header, csv.reader(file, strict=True)))
-        parts = _parts(header)
+        text = "".join(line[-1] for line in islice(csv.reader(file, strict=True), 1, None))
+        record = npz.unpacked(io.BytesIO(b64decode(text, validate=True)), path, largest)
+        parts = parts_of(record)
         file.seek(0)
         table = csv.reader(file, strict=True)
-        wanted = chain([[*KEYS, *parts]], _lines(record, parts), repeat([""] * (2 + len(parts))))
-        for line, cells in zip(table, wanted, strict=False):
-            if line[:-1] != cells:
+        blank = [""] * (len(KEYS) + len(parts))
+        wanted = chain([[*KEYS, *parts]], _lines(record, parts), repeat(blank))
+        for line in table:
+            if line[:-1] != next(wanted):
                 raise InputError(f"damaged: line {table.line_num} was changed since it was saved")
+        if next(wanted) != blank:
+            raise InputError("damaged: its last lines are missing")
         return record
-
-
-def _pieces(table: Iterator[list[str]]) -> Iterator[str]:
-    for row in islice(table, 1, None):
-        if not row[-1]:
-            return
-        yield row[-1]
-
-
-def _values(header: Mapping[str, Any], table: Iterator[list[str]]) -> dict[str, NDArray[Any]]:
-    """Return the columns in a table, and those of its header, which are there to the last bit."""
-    shapes, parts = header["columns"], _parts(header)
-    found = {
-        name: np.empty(shapes[name][1], shapes[name][0]) for name in headers.names_of_bodies(header)
-    }
-    bodies = shapes["pose"][1][2] + shapes["prop_pose"][1][2]
-    next(table)
-    for rows in _blocks(shapes["time"][1][0], bodies * len(parts)):
-        lines = list(islice(table, (rows.stop - rows.start) * bodies))
-        cells = np.array(lines, dtype=object).reshape(-1, bodies, len(parts) + 3)
-        found["time"][rows] = cells[:, 0, 0].astype(np.float64)
-        for k, column in enumerate(parts.values(), len(KEYS)):
-            for part in column:
-                values = found[part.name][rows][(slice(None), *part.at)]
-                texts = cells[:, list(part.bodies[: values.shape[1]]), k]
-                values[...] = texts == "1" if values.dtype == np.bool_ else texts.astype(np.float64)
-    for name, text in header["exact"].items():
-        found[name] = np.frombuffer(b64decode(text, validate=True), shapes[name][0])
-    return found
-
-
-def _parts(header: Mapping[str, Any]) -> dict[str, list[Part]]:
-    """Return the columns of the table of a record with this header."""
-    shapes, sensors = header["columns"], header["sensor_robots"]
-    robots, props = (shapes[name][1][2] for name in ("pose", "prop_pose"))
-    readings = {name: shapes[f"sensor:{name}"][1] for name in sensors}
-    return parts_of(robots, props, sensors, readings, headers.columns_in(header))
 
 
 def _blocks(rows: int, width: int) -> Iterator[slice]:
@@ -119,7 +76,7 @@ def _blocks(rows: int, width: int) -> Iterator[slice]:
 
 def _lines(record: Rows, parts: Mapping[str, list[Part]]) -> Iterator[list[str]]:
     """Yield the lines of the table, each a list of cells."""
-    columns = headers.numbers_of(record)
+    columns = record.columns()
     names = [str(body.name) for body in record.scenario.bodies]
     for rows in _blocks(len(record), len(names) * len(parts)):
         cells = np.full((rows.stop - rows.start, len(names), 2 + len(parts)), "", dtype=object)
@@ -144,11 +101,3 @@ def _texts(values: NDArray[Any]) -> NDArray[np.object_]:
             texts[odd & ~negative] = text
             texts[odd & negative] = f"-{text}"
     return texts
-
-
-def _as_text_says_all(values: NDArray[Any]) -> bool:
-    """Return whether every NaN has the usual bits: a text can't tell others apart."""
-    if values.dtype == np.bool_:
-        return True
-    bits = values[np.isnan(values)].view(np.uint64)
-    return bool((bits << np.uint64(1) == NAN).all())

@@ -1,1 +1,1 @@
-"""Pages and drawings: the replay in a browser, SVG, notebooks."""
+"""Pages: the replay in a browser, and what notebooks show."""

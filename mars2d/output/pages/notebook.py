@@ -1,6 +1,6 @@
 """Pictures of scenarios, worlds and records for notebooks.
 
-Pictures are SVG without scripts or styles, which all notebooks and their viewers on the web show. A
+They are the drawings of figures as SVG, which all notebooks and their viewers on the web show. A
 record is shown as a replay in a frame; the picture of its end lies below, for viewers that remove
 frames.
 """
@@ -8,20 +8,47 @@ frames.
 from __future__ import annotations
 
 import base64
+import textwrap
 from collections.abc import Callable
+from html import escape
+from io import StringIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mars2d.core.errors import counted
 from mars2d.core.hints import described
-from mars2d.output.pages.drawing import draw, say
-from mars2d.output.pages.svg import text_of
+from mars2d.output.figures.extent import View
+from mars2d.output.figures.figure import (
+    LEGEND_LIMIT,
+    dress,
+    label,
+    layers_of,
+    legend_size,
+    new_figure,
+    paint_frame,
+    signs_of,
+)
+from mars2d.output.figures.legend import BESIDE, add_legend
+from mars2d.output.figures.style import SCREEN
+from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from mars2d.output.layers.table import Layers
     from mars2d.record.rows import Rows
     from mars2d.scenario.scenario import Scenario
+
+WIDTH, HEIGHT = 5.8, 4.6
+"""The room for a drawing, which is as large as fits, inches."""
+
+LEFT, ABOVE, BELOW = 0.6, 0.1, 0.55
+"""The room beside, above and below it, inches."""
+
+LINE_HEIGHT, LETTER_WIDTH = 0.17, 0.068
+"""Of the words below it, inches."""
 
 REPLAY_HEIGHT = 480
 """The height of a replay, pixels."""
@@ -65,7 +92,7 @@ def record_html(record: Rows) -> str:
     If there is no replay, or one too large for a notebook, a text below the picture says so.
     """
     picture = base64.b64encode(record_svg(record).encode()).decode()
-    title = text_of(f"Replay of {record.scenario.title}")
+    title = escape(f"Replay of {record.scenario.title}")
     image = (
         f'<img alt="{title}, its end" src="data:image/svg+xml;base64,{picture}" '
         'style="max-width:100%;max-height:100%">'
@@ -77,7 +104,7 @@ def record_html(record: Rows) -> str:
 
         replay = page(record)
     except Exception as error:  # of parts of the user's that are drawn
-        return f"{image}<p>There is no replay: {text_of(described(error))}</p>"
+        return f"{image}<p>There is no replay: {escape(described(error))}</p>"
     if len(replay) > MAX_CHARACTERS:
         return (
             f"{image}<p>The replay is too large for a notebook, {len(replay) / 1e6:.1f} MB: "
@@ -85,7 +112,7 @@ def record_html(record: Rows) -> str:
         )
     return (
         f'<div style="position:relative;height:{REPLAY_HEIGHT}px;overflow:hidden">{image}'
-        f'<iframe title="{title}" sandbox="allow-scripts" srcdoc="{text_of(replay)}" '
+        f'<iframe title="{title}" sandbox="allow-scripts" srcdoc="{escape(replay)}" '
         'style="position:absolute;left:0;top:0;width:100%;height:100%;border:0"></iframe></div>'
     )
 
@@ -93,9 +120,71 @@ def record_html(record: Rows) -> str:
 def _picture(made: Callable[[], tuple[Frame, str]], title: str) -> str:
     """Return the picture of a frame with its caption, or a picture of the error message."""
     try:
-        return draw(*made())
+        frame, caption = made()
+        return draw(frame, caption)
     except Exception as error:  # any of it may call code of the user's
-        return say(f"{title}: can't be drawn. {described(error)}")
+        words = f"{title}: can't be drawn. {described(error)}"
+        return _svg(_with_words(WIDTH, ABOVE, [(words, LIGHT.failed)]), words)
+
+
+def draw(frame: Frame, caption: str, layers: Layers | None = None) -> str:
+    """Return a frame as an SVG picture with a caption below it.
+
+    layers: the switches; by default those of figures, with names for few bodies. A layer that can't
+    be drawn because a sensor or an add-on raises is left out, and a line below the caption says so.
+    """
+    scenario = frame.scenario
+    layers = layers or layers_of(scenario).switched(names=len(scenario.bodies) <= LEGEND_LIMIT)
+    words = [(caption, SCREEN.ink)]
+    for layer in layers.seen(scenario.animation):
+        try:
+            if layer.shapes:
+                layer.shapes(frame)
+        except Exception as error:
+            layers = layers.switched(**{layer.name: False})
+            words.append((f"Not drawn: {layer.title.lower()}. {described(error)}", LIGHT.failed))
+    paths = (frame.path, frame.pose), (frame.prop_path, frame.prop_pose)
+    view = View.around(scenario, *(np.concatenate([path, pose[None]]) for path, pose in paths))
+    signs = signs_of([frame], layers, SCREEN, 72 * view.inches(WIDTH, HEIGHT)[0] / view.width)
+    beside, _ = legend_size(signs, SCREEN)
+    width, height = view.inches(WIDTH - beside, HEIGHT)
+    figure = _with_words(LEFT + width + beside, ABOVE + height + BELOW, words)
+    whole, tall = figure.get_size_inches().tolist()
+    ax = figure.add_axes((LEFT / whole, 1 - (ABOVE + height) / tall, width / whole, height / tall))
+    dress(ax, scenario, view, SCREEN, layers)
+    label(ax)
+    add_legend(ax, signs, SCREEN, **BESIDE)
+    paint_frame(ax, frame, SCREEN, layers)
+    return _svg(figure, " ".join(text for text, _ in words))
+
+
+def _with_words(width: float, height: float, words: list[tuple[str, str]]) -> Figure:
+    """Return a figure with room for a drawing [inches], and texts in their colours below it."""
+    letters = int(width / LETTER_WIDTH)
+    lines = [
+        (line, color)
+        for text, color in words
+        for line in textwrap.wrap(text, letters, max_lines=3, placeholder=" …")
+    ]
+    tall = height + LINE_HEIGHT * (len(lines) + 0.5)
+    figure = new_figure(width + ABOVE, tall, layout=None)
+    for k, (line, color) in enumerate(lines):
+        figure.text(
+            0.01, 1 - (height + LINE_HEIGHT * k) / tall, line, color=color, fontsize=SCREEN.small,
+            va="top", parse_math=False,
+        )  # fmt: skip
+    return figure
+
+
+def _svg(figure: Figure, title: str) -> str:
+    """Return a figure as SVG; the same figure gives the same text."""
+    import matplotlib as mpl
+
+    file = StringIO()
+    with mpl.rc_context({"svg.hashsalt": "mars2d", "svg.fonttype": "none"}):
+        figure.savefig(file, format="svg", metadata={"Date": None, "Title": title})
+    drawn = file.getvalue().partition("<svg ")[2]
+    return f'<svg style="max-width:100%;height:auto" {drawn}'
 
 
 def _start(scenario: Scenario) -> Frame:
@@ -108,6 +197,7 @@ def _start(scenario: Scenario) -> Frame:
         pose=scenario.initial_pose,
         path=np.empty((0, 3, len(scenario.robots))),
         prop_pose=np.array(poses).reshape(-1, 3).T,
+        prop_path=np.empty((0, 3, len(scenario.props))),
         effort=np.zeros(len(scenario.robots)),
     )
 

@@ -14,8 +14,11 @@ TEXT_SIZES = (1.0, 1.3, 1.7, 2.2)
 HEADER, FOOTER, STRIP = 52.0, 44.0, 44.0
 """The heights of header, footer and time bar, points. A banner of one line has the
 height of the footer, which it replaces."""
-TRANSPORT, TOOLS = 244.0, 44.0
-"""The width of the buttons beside the time bar, and that of the toolbar, points."""
+TRANSPORT, TOOLS, LABELLED = 244.0, 44.0, 138.0
+"""The width of the buttons beside the time bar, and that of the toolbar, points: without labels and
+with them."""
+WIDE = 1100.0
+"""The width of a surface from which on the toolbar has labels, points."""
 MIN_WIDTH = 400.0
 """The least width of a surface, points, which limits the size of text."""
 MAX_BARS_SHARE = 0.45
@@ -71,6 +74,8 @@ class Layout:
         tall = (height - top - strip) / ui - FOOTER
         columns = 1.0 if tall >= 520 else 1.9 if tall >= 330 else 2.7  # of buttons
         tools = round(min(columns * TOOLS * ui, 0.115 * width)) if controls else 0
+        if tools and columns == 1.0 and width >= WIDE * ui:
+            tools = round(LABELLED * ui)
         return cls(
             ui,
             header=pygame.Rect(0, 0, width, top),

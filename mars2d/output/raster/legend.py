@@ -27,12 +27,26 @@ def draw_legends(
     camera: Camera,
     plot: pygame.Rect,
     legends: Sequence[Legend],
+    beside: Sequence[pygame.Rect] = (),
 ) -> None:
-    """Draw legends side by side, in rows from the bottom up, if the picture has room for them."""
+    """Draw legends side by side, in rows from the bottom up, if the picture has room for them.
+
+    beside: where they hide nothing; they lie in the first of these that has room for all.
+    """
     if min(plot.size) < LEAST * painter.ui:
         return
+    choices = [_placed(painter, camera, room, room.height, legends) for room in beside]
+    choices.append(_placed(painter, camera, plot, MAX_SHARE * plot.height, legends))
+    for signs, plate in max(choices, key=len):
+        _drawn(surface, painter, signs, plate)
+
+
+def _placed(
+    painter: Painter, camera: Camera, room: pygame.Rect, high: float, legends: Sequence[Legend]
+) -> list[tuple[list[Sign], pygame.Rect]]:
+    """Return the legends for which a room has place up to a height, with their plates."""
     ui, gap = painter.ui, round(GAP * painter.ui)
-    corner, top = plot.bottomleft, plot.bottom
+    corner, top, placed = room.bottomleft, room.bottom, []
     for legend in legends:
         ruler = [legend.ruler.sign(ui / camera.scale)] if legend.ruler else []
         signs = [*ruler, *legend.signs]
@@ -40,13 +54,14 @@ def draw_legends(
         column = max(sign.room for sign in signs)
         width = round((2 * PAD + GAP + column) * ui + text)
         height = round((len(signs) * ROW_HEIGHT + GAP) * ui)
-        if corner[0] + width > plot.right and corner[0] > plot.left:
-            corner = plot.left, top
-        if plot.bottom - corner[1] + height > MAX_SHARE * plot.height:
+        if corner[0] + gap + width > room.right and corner[0] > room.left:
+            corner = room.left, top
+        if room.bottom - corner[1] + gap + height > high or gap + width > room.width:
             break
         plate = pygame.Rect(corner[0] + gap, corner[1] - gap - height, width, height)
-        _drawn(surface, painter, signs, plate)
+        placed.append((signs, plate))
         corner, top = (plate.right, corner[1]), min(top, plate.top)
+    return placed
 
 
 def _drawn(

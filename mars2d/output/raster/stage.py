@@ -108,6 +108,9 @@ PATIENCE = 0.012
 MAX_AGE = 0.25
 """Where it takes longer, the seconds for which a moving camera shows them shifted or enlarged."""
 
+NUMBERS = 48.0
+"""The room for the numbers of an axis, points."""
+
 MARGIN = 0.25
 """The margin that is drawn on all sides while the camera moves, as a share of the picture."""
 
@@ -154,7 +157,7 @@ class Stage:
         layers: Layers,
         plot: pygame.Rect | None = None,
         *,
-        free: pygame.Rect | None = None,
+        free: Sequence[pygame.Rect] = (),
         beneath: Sequence[Shape] = (),
         marks: Sequence[Shape] = (),
         hurried: bool = False,
@@ -162,11 +165,11 @@ class Stage:
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
-        free: the part of the plot on which nothing else will be drawn, where legends go; by default
-        all of it. beneath, marks: shapes to draw below and above the bodies. selected: a body whose
-        name goes before others, an index of `Scenario.bodies`. hurried: whether the camera is
-        moving. If the layers that stand still took long to draw, the last picture of them is then
-        enlarged or shifted for a quarter of a second.
+        free: the parts of the plot on which nothing else will be drawn, where legends go, the
+        largest first; by default all of it. beneath, marks: shapes to draw below and above the
+        bodies. selected: a body whose name goes before others, an index of `Scenario.bodies`.
+        hurried: whether the camera is moving. If the layers that stand still took long to draw, the
+        last picture of them is then enlarged or shifted for a quarter of a second.
         """
         plot = surface.get_rect() if plot is None else plot
         before = surface.get_clip()
@@ -180,22 +183,38 @@ class Stage:
             numbers = labels(plot, camera, bounds, painter.fonts, painter.ui, painter.theme)
             surface.fblits(numbers)
         shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
-        self._draw_legends(surface, shown, camera, plot if free is None else free)
+        self._draw_legends(shot, shown, free or [plot])
         surface.set_clip(before)
 
     def _draw_legends(
-        self, surface: pygame.Surface, shown: Sequence[Legend], camera: Camera, room: pygame.Rect
+        self, shot: _Shot, shown: Sequence[Legend], free: Sequence[pygame.Rect]
     ) -> None:
-        """Draw legends from a picture that is kept until they change."""
-        painter, names = self.painter, [legend.layer for legend in shown]
-        of = (self._scenario, *names, camera.scale, *room, painter.ui, painter.theme)
+        """Draw legends beside the workspace if there is room, from a picture that is kept."""
+        painter, camera, names = self.painter, shot.camera, [legend.layer for legend in shown]
+        beside = [strip for room in free for strip in self._around(shot, room)]
+        of = (self._scenario, *names, camera.scale, *map(tuple, (*beside, *free)), painter.ui,
+              painter.theme)  # fmt: skip
         if of != self._legend_of:
-            whole = pygame.Surface(room.size, pygame.SRCALPHA, 32)
-            draw_legends(whole, painter, camera, whole.get_rect(), shown)
+            whole = pygame.Surface(shot.surface.get_size(), pygame.SRCALPHA, 32)
+            draw_legends(whole, painter, camera, free[0], shown, beside)
             place = whole.get_bounding_rect()
             self._legend_of, self._legend = of, (whole.subsurface(place).copy(), place.topleft)
-        image, (left, top) = self._legend
-        surface.blit(image, (room.left + left, room.top + top))
+        shot.surface.blit(*self._legend)
+
+    def _around(self, shot: _Shot, room: pygame.Rect) -> list[pygame.Rect]:
+        """Return the parts of a room beside the workspace and the numbers of its axes."""
+        xmin, xmax, ymin, ymax = shot.frame.scenario.bounds
+        corners = shot.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int)
+        (left, top), (right, bottom) = corners.tolist()
+        numbers = round(NUMBERS * self.painter.ui)
+        left, bottom = left - numbers, bottom + numbers // 2
+        sides = (
+            pygame.Rect(right, room.top, room.right - right, room.height),
+            pygame.Rect(room.left, room.top, left - room.left, room.height),
+            pygame.Rect(room.left, bottom, room.width, room.bottom - bottom),
+            pygame.Rect(room.left, room.top, room.width, top - room.top),
+        )
+        return [side.clip(room) for side in sides if min(side.size) > 0]
 
     def _legends_of(self, scenario: Scenario) -> list[Legend]:
         """Return the legends of a scenario, made once for as long as it is the same."""

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import shlex
 import tomllib
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
-from mars2d.core.errors import counted
-from mars2d.scenario.prediction import Prediction
+from mars2d.scenario.prediction import Prediction, summary
 
 
 @dataclass(frozen=True)
@@ -97,7 +95,7 @@ class Picture:
     """One picture and its numbers.
 
     stem: the name of its files. alt: the text for people who can't see it. size: of the .png,
-    pixels. command, outcome, digest: of a run. columns: the numbers in a chart.
+    pixels. command, outcome, digest: of a run. curves: those of a chart, as data for JSON.
     """
 
     stem: str
@@ -109,21 +107,13 @@ class Picture:
     command: str = ""
     outcome: str = ""
     digest: str = ""
-    columns: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    curves: Sequence[dict[str, Any]] = ()
 
     def as_dict(self) -> dict[str, Any]:
-        """Return command and numbers as data for JSON; numbers that are not finite are None."""
-        return {
-            "picture": self.stem,
-            "command": self.command,
-            "outcome": self.outcome,
-            "digest": self.digest,
-            "checks": [p.as_dict() | {"unit": p.unit} for p in self.predictions],
-            "columns": {
-                name: [float(v) if math.isfinite(v) else None for v in values]
-                for name, values in self.columns.items()
-            },
-        }
+        """Return command and numbers as data for JSON."""
+        said = {name: getattr(self, name) for name in ("command", "outcome", "digest", "curves")}
+        checks = [p.as_dict() | {"unit": p.unit} for p in self.predictions]
+        return {"picture": self.stem, **said, "checks": checks}
 
 
 @dataclass(frozen=True)
@@ -143,7 +133,7 @@ class Result:
     @property
     def failed(self) -> int:
         """The number of predictions that do not hold."""
-        return sum(not p.ok for p in self.predictions)
+        return sum(p.ok is False for p in self.predictions)
 
     @property
     def ok(self) -> bool:
@@ -153,8 +143,7 @@ class Result:
     @property
     def verdict(self) -> str:
         """The outcome in a few words, such as ``3 of 3 predictions ok``."""
-        every = len(self.predictions)
-        held = f"{every - self.failed} of {counted(every, 'prediction')} ok" if every else "shown"
+        held = summary(self.predictions) if self.predictions else "shown"
         if self.problems:
             return f"not all was made; {held}" if self.pictures else "not made"
         return held

@@ -11,12 +11,12 @@ from pathlib import Path
 from PIL import Image
 
 from mars2d.core.errors import InputError
-from mars2d.core.files import atomic_write
+from mars2d.core.files import atomic_write, writing
 from mars2d.core.hints import described
 from mars2d.output.figures.figure import save_drawing, save_figure
 from mars2d.reports.paper.figures import FIGURES, Chart, Figure, Picture, Result, Run
 from mars2d.reports.paper.page import page
-from mars2d.reports.paper.studies import drawn
+from mars2d.reports.paper.studies import curves_of, drawn
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.scenario.options import parse_option
 from mars2d.study.work import each_done
@@ -76,15 +76,15 @@ def _of_run(run: Run, folder: Path, seed: int, records: list[Record]) -> Picture
 def _of_chart(chart: Chart, folder: Path, records: Sequence[Record], runs: int) -> Picture:
     if len(records) < runs:
         raise InputError("it needs a run that failed")
-    with drawn(chart, records) as (drawing, study):
+    with drawn(chart, records) as (drawing, (says, predictions)):
         return Picture(
             stem=chart.stem,
             title=chart.title,
             alt=chart.alt,
-            caption=chart.caption.format(**study.says),
+            caption=chart.caption.format(**says),
             size=_save(partial(save_drawing, lambda: drawing), folder / chart.stem),
-            predictions=study.predictions,
-            columns=study.columns,
+            predictions=predictions,
+            curves=curves_of(drawing),
         )
 
 
@@ -127,10 +127,8 @@ def prepare(folder: Path) -> None:
     """
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder}: this is a file; expected a folder")
-    if not folder.absolute().parent.is_dir():
-        raise InputError(f"{folder}: there is no folder {folder.parent}")
     own = {PAGE, NUMBERS}.union(*(figure.files for figure in FIGURES))
-    try:
+    with writing(folder):
         folder.mkdir(exist_ok=True)
         inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
         for path in inside:
@@ -143,14 +141,10 @@ def prepare(folder: Path) -> None:
         for path in inside:
             path.unlink()
         (folder / NUMBERS).touch()  # to find out before the first run whether it can be written
-    except OSError as error:
-        raise InputError(f"{folder}: can't be written: {error.strerror}") from error
 
 
 def finish(folder: Path, results: Sequence[Result], missing: Sequence[Figure], seed: int) -> Path:
-    """Write the page and the numbers, and remove pictures of what is missing; return its path."""
-    for name in (name for figure in missing for name in figure.files):
-        (folder / name).unlink(missing_ok=True)
+    """Write the page and the numbers; return the path of the page."""
     made = [
         {
             "figure": result.figure.number,

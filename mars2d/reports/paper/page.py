@@ -10,7 +10,7 @@ from string import Template
 
 from mars2d.core.errors import counted
 from mars2d.reports.paper.figures import Figure, Picture, Result
-from mars2d.scenario.prediction import Prediction, number
+from mars2d.scenario.prediction import SIGNS, Prediction, number
 
 WIDE = 1.6
 """A picture at least this many times as wide as high has its own row."""
@@ -75,8 +75,11 @@ def _picture(picture: Picture) -> str:
 
 def _prediction(p: Prediction) -> tuple[str, str]:
     tolerance = f"{p.tolerance:.3g} {p.unit}".replace("^4", "⁴").replace("^2", "²")
-    values = (_number(p.predicted, p.tolerance), _number(p.measured, p.tolerance), tolerance)
+    predicted = SIGNS[p.bound] + _number(p.predicted, p.tolerance)
+    values = (predicted, _number(p.measured, p.tolerance), tolerance)
     holds = _cell("✓ ok", "ok") if p.ok else _cell("✗ NOT OK", "bad")
+    if p.reason:
+        values, holds = ("-", "-", "-"), _cell(f"not predicted: {p.reason}")
     return escape(p.name), "".join(_cell(each, "number") for each in values) + holds
 
 

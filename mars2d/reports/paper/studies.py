@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib.resources import as_file, files
 from math import pi, sin, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,16 +37,11 @@ OTHERS, MARKS = ("#d55e00", "#0072b2", "#009e73"), "osD"
 FORMULA: dict[str, Any] = {"color": THEORY, "linestyle": "--"}
 """How theory is drawn."""
 
-ROWS = 200
-"""The number of points of a curve over time if each needs a Voronoi diagram."""
+POINTS = 200
+"""The most points of a curve in the numbers, and where each needs a Voronoi diagram."""
 
-
-class Study(NamedTuple):
-    """The numbers in a chart, those in its caption, and predictions about them."""
-
-    columns: dict[str, Any]
-    says: dict[str, float]
-    predictions: Sequence[Prediction] = ()
+Study = tuple[dict[str, float], Sequence[Prediction]]
+"""The numbers in a chart's caption, and predictions about it."""
 
 
 @contextmanager
@@ -68,6 +63,18 @@ def drawn(chart: Chart, records: Records) -> Iterator[tuple[Figure, Study]]:
         yield figure, study
 
 
+def curves_of(figure: Figure) -> list[dict[str, Any]]:
+    """Return all curves of a figure as data for JSON: title of the axes, label, x and y."""
+    found = []
+    for ax in figure.axes:
+        for line in ax.get_lines():
+            x, y = np.asarray(line.get_data(), dtype=float)
+            some = some_of(len(x))
+            names = {"axes": ax.get_title("left"), "label": f"{line.get_label()}".removeprefix("_")}
+            found.append(names | {"x": x[some].tolist(), "y": y[some].tolist()})
+    return found
+
+
 def label_plainly(axis: Axis) -> None:
     """Label a logarithmic axis with plain numbers: 1, 2 and 5 times powers of ten."""
     from matplotlib.ticker import LogLocator, NullLocator
@@ -85,10 +92,10 @@ def run(experiment: str, seed: int, **options: Any) -> tuple[Record, Sequence[Pr
     return record, opened.predictions(record)
 
 
-def some_rows(record: Record) -> list[int]:
-    """Return evenly spread rows of a record, including the first and the last."""
-    rows: list[int] = np.unique(np.linspace(0, len(record) - 1, ROWS).round().astype(int)).tolist()
-    return rows
+def some_of(count: int) -> list[int]:
+    """Return at most `POINTS` of so many indices, evenly spread from the first to the last."""
+    chosen = np.linspace(0, count - 1, min(count, POINTS)).round().astype(int)
+    return [int(index) for index in chosen]
 
 
 def addon(record: Record, kind: type) -> Any:
@@ -133,30 +140,24 @@ def speed_ratio(records: Records, left: Axes, right: Axes) -> Study:
 
     left.plot(fine, least(fine), label="theory", **FORMULA)
     left.axhline(pursuer.diameter, color="#b42318", linewidth=1, label="touch")
-    left.plot(RATIOS, near, "o")
-    left.plot([], [], "o", label="measured")
-    left.set_ylim(0, None)
     for j, (mark, color, (x, y, _)) in enumerate(zip(MARKS, OTHERS, STARTS, strict=True)):
-        ends, escaped = time[:, j], free[:, j]
+        left.plot(RATIOS, near[:, j], "o", label="_measured" if j else "measured")
+        ends, escaped, place = time[:, j], free[:, j], f"from ({x:g}, {y:g})"
         look: dict[str, Any] = {"color": "white", "markeredgecolor": color, "markeredgewidth": 1}
-        right.plot(
-            RATIOS[~escaped], ends[~escaped], mark, color=color, label=f"from ({x:g}, {y:g})"
-        )
-        right.plot(RATIOS[escaped], ends[escaped], mark, **look)
+        right.plot(RATIOS[~escaped], ends[~escaped], mark, color=color, label=place)
+        right.plot(RATIOS[escaped], ends[escaped], mark, label=f"_{place}, escaped", **look)
+    left.set_ylim(0, None)
     right.axvline(begins, **FORMULA)
     right.set_ylim(0, 1.08 * scenario.stop_time)
     right.set_xlim(left.get_xlim())
-    columns = {"ratio": RATIOS}
-    columns |= {f"least_distance_{j} [m]": near[:, j] for j in range(len(STARTS))}
-    columns |= {f"end_{j} [s]": time[:, j] for j in range(len(STARTS))}
     caught = Prediction("ratio from which it is caught", begins, (last + first) / 2, 0.01)
-    return Study(columns, {"last": last, "first": first}, (caught,))
+    return {"last": last, "first": first}, [caught]
 
 
 def cell_area(records: Records, left: Axes, right: Axes) -> Study:
     """Plot the area of the evader's cell, and the distance between pursuer and evader."""
     (record,) = records
-    game, voronoi, rows = addon(record, Game), addon(record, Voronoi), some_rows(record)
+    game, voronoi, rows = addon(record, Game), addon(record, Voronoi), some_of(len(record))
     (hunter, *_), (prey, *_) = game.teams(record.scenario)
     area = np.array([voronoi.of(record.frame(row)).areas[prey] for row in rows])
     distance = lengths(record.pose[rows, :2, hunter] - record.pose[rows, :2, prey])
@@ -164,8 +165,7 @@ def cell_area(records: Records, left: Axes, right: Axes) -> Study:
     for ax, values in ((left, area), (right, distance)):
         ax.plot(time, values)
         ax.set_ylim(0, None)
-    columns = {"time [s]": time, "area [m^2]": area, "distance [m]": distance}
-    return Study(columns, {"first": area[0], "last": area[-1]})
+    return {"first": area[0], "last": area[-1]}, []
 
 
 # -- coverage --------------------------------------------------------------------------------------
@@ -173,7 +173,7 @@ def cell_area(records: Records, left: Axes, right: Axes) -> Study:
 
 def _costs(record: Record) -> tuple[Float, Float, Float]:
     """Return times [s], the cost H [m^4], and the largest distance to a robot's centroid [m]."""
-    voronoi, rows = addon(record, Voronoi), some_rows(record)
+    voronoi, rows = addon(record, Voronoi), some_of(len(record))
     cells = [voronoi.of(record.frame(row)) for row in rows]
     off = [np.hypot(*(each.centroids - each.points)).max() for each in cells]
     return record.time[rows], np.array([each.cost for each in cells]), np.array(off)
@@ -189,21 +189,19 @@ def cost(records: Records, left: Axes, right: Axes) -> Study:
     left.plot(time, values, label="measured")
     left.axhline(5 * area**2 / (18 * sqrt(3) * count), label="hexagons", **FORMULA)
     right.plot(time, off)
-    columns = {"time [s]": time, "H [m^4]": values, "off [m]": off}
-    return Study(columns, {"at_60": at_60, "last": values[-1], "count": count})
+    return {"at_60": at_60, "last": values[-1], "count": count}, []
 
 
 def two_ends(records: Records, left: Axes, right: Axes) -> Study:
     """Plot the costs of two runs of the same law, and the distance between the runs."""
     (time, of_a, _), (_, of_b, _) = map(_costs, records)
-    first, second = (record.pose[some_rows(record), :2] for record in records)
+    first, second = (record.pose[some_of(len(record)), :2] for record in records)
     apart = lengths(second - first).max(axis=1)
     left.plot(time, of_a, label="A")
     left.plot(time, of_b, label="B", color=OTHERS[0])
     right.plot(time, apart)
     right.set_ylim(0, None)
-    columns = {"time [s]": time, "H of A [m^4]": of_a, "H of B [m^4]": of_b, "apart [m]": apart}
-    return Study(columns, {"first": apart[0], "last": apart[-1]})
+    return {"first": apart[0], "last": apart[-1]}, []
 
 
 # -- cyclic pursuit, and circling ------------------------------------------------------------------
@@ -233,16 +231,13 @@ def radius(records: Records, left: Axes, right: Axes) -> Study:
         left.plot(x, y, mark, color=color, markersize=5, label=f"{gain:g}/s")
         right.plot(robots[gains == gain], 1e6 * (y / x - 1), mark, color=color, markersize=5)
     right.axhline(0, **FORMULA)
-    columns = {"robots": robots, "gain [1/s]": gains}
-    columns |= {"predicted [m]": predicted, "measured [m]": measured}
-    return Study(columns, {"runs": len(cases)}, predictions)
+    return {"runs": len(cases)}, predictions
 
 
 def growth(records: Records, ax: Axes) -> Study:
     """Plot how a team shrinks, circles or grows, depending on the ratio of its two gains."""
     count, seed = len(records[0].scenario.robots), records[0].seed
     limit = 2 * count / pi * sin(pi / count)
-    columns: dict[str, Any] = {}
     grown = []
     for share, color in zip(SHARES, OTHERS, strict=True):
         options = {"ratio": share * limit, "speed": 9.0, "stop_time": 300.0, "sampling_time": 0.05}
@@ -250,20 +245,19 @@ def growth(records: Records, ax: Axes) -> Study:
         off = record.pose[:, :2] - record.pose[:, :2].mean(axis=2, keepdims=True)
         time, size = record.time, lengths(off).mean(axis=1)
         ax.plot(time, size, label=f"{share:g} of the limit", color=color)
-        columns |= {"time [s]": time[::30], f"{share:g} of the limit [m]": size[::30]}
         grown.append(float(size[-1] / size[np.searchsorted(time, 150)]))
     predictions = (
         Prediction("size at 300 s / at 150 s, at the limit", 1.0, grown[1], 0.01),
         Prediction("below it: 1 for growing", 1.0, np.sign(grown[0] - 1), 0),
         Prediction("above it: -1 for shrinking", -1.0, np.sign(grown[2] - 1), 0),
     )
-    return Study(columns, {"limit": limit}, predictions)
+    return {"limit": limit}, predictions
 
 
 def radius_and_gaps(records: Records, left: Axes, right: Axes) -> Study:
     """Plot the robots' distances from the beacon, and the gaps between them as seen from it."""
     (record,) = records
-    beacon, time, rows = addon(record, Beacon), record.time, some_rows(record)
+    beacon, time = addon(record, Beacon), record.time
     lamp = np.array([beacon.where(moment) for moment in time.tolist()])  # (T, 2)
     off = record.pose[:, :2] - lamp[:, :, None]
     away = lengths(off)
@@ -276,18 +270,11 @@ def radius_and_gaps(records: Records, left: Axes, right: Axes) -> Study:
     for radius in (check.predicted for check in checks if check.name == "radius"):
         left.axhline(radius, label="theory", **FORMULA)
     left.set_ylim(0, None)
-    right.plot(time, gaps.max(axis=1), label="largest", color=OTHERS[0], linewidth=1.5)
-    right.plot(time, gaps.min(axis=1), label="smallest", color=OTHERS[2], linewidth=1.5)
+    least, most = gaps.min(axis=1), gaps.max(axis=1)
+    right.plot(time, most, label="largest", color=OTHERS[0], linewidth=1.5)
+    right.plot(time, least, label="smallest", color=OTHERS[2], linewidth=1.5)
     right.axhline(360 / away.shape[1], label="theory", **FORMULA)
     right.set_yticks(range(0, 361, 90))
     right.set_ylim(0, 360)
-    columns = {
-        "time [s]": time,
-        "nearest [m]": away.min(axis=1),
-        "farthest [m]": away.max(axis=1),
-        "smallest gap [degrees]": gaps.min(axis=1),
-        "largest gap [degrees]": gaps.max(axis=1),
-    }
-    _, near, far, least, most = (values[-1] for values in columns.values())
-    says = {"near": near, "far": far, "least": least, "most": most}
-    return Study({title: values[rows] for title, values in columns.items()}, says)
+    near, far = away[-1].min(), away[-1].max()
+    return {"near": near, "far": far, "least": least[-1], "most": most[-1]}, []

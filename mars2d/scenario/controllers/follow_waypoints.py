@@ -14,7 +14,8 @@ class FollowWaypoints(Paced):
     """Goes along its waypoints, one after the other, and stops at the last.
 
     The waypoints are those of the add-on `Waypoints`, which also says how near is there. With d the
-    distance to the next one, its speed is min(gain d, speed): before the last one it slows down.
+    distance to the next one, its speed is min(gain d, speed): before the last one it slows down. A
+    robot without waypoints stands still.
     """
 
     title: ClassVar[str] = "along its waypoints"
@@ -25,8 +26,8 @@ class FollowWaypoints(Paced):
 
     def __call__(self, robot: Any) -> Command:
         """Return the command that goes to the next waypoint."""
-        ways = robot.world.addons.waypoints
-        if ways.arrived(robot.index):
+        ways = getattr(robot.world.addons, "waypoints", None)
+        if ways is None or ways.arrived(robot.index):
             return 0.0, 0.0
         (gx, gy), (x, y, theta) = ways.goal(robot.index), robot.pose.tolist()
         last = len(ways.routes[robot.index]) - ways.reached[robot.index] == 1

@@ -11,7 +11,6 @@ import os
 import pickle
 import random
 import socket
-import struct
 import sys
 import traceback
 from collections.abc import Mapping
@@ -36,10 +35,6 @@ from mars2d.tournaments.isolation.limits import MB, Limits
 from mars2d.tournaments.isolation.mirror_world import MirrorWorld
 from mars2d.tournaments.isolation.observation import Briefing
 from mars2d.world.laws import Law, robot_command
-
-HEAD = struct.Struct("<I")
-"""What comes before each message to a law, which is pickled: its length in bytes. Messages from it
-are lines of JSON, which runs no code."""
 
 CUT_OFF = 70
 """The exit code of a process whose law has closed the connection to the match."""
@@ -77,7 +72,7 @@ def serve(channel: socket.socket, output: str) -> NoReturn:
         _redirect(output)
         os.closerange(3, channel.fileno())
         os.closerange(channel.fileno() + 1, MAX_FILES)
-        _Host(channel).serve()
+        _play(channel)
         code = 0
     except BaseException:
         traceback.print_exc()
@@ -99,97 +94,80 @@ def _redirect(output: str) -> None:
     faulthandler.enable(2, all_threads=False)  # says where a law was when it was ended
 
 
-class _Host:
-    """Runs the law of one role for its robots."""
+def _play(channel: socket.socket) -> None:
+    """Load the law of one role, and answer each control step for its robots, until all is over.
 
-    def __init__(self, channel: socket.socket) -> None:
-        """Take the connection to the match."""
-        self._channel, self._questions = channel, channel.makefile("rb")
-        self._most = 0
+    Messages to it are pickled, those from it are lines of JSON, which runs no code.
+    """
+    questions = channel.makefile("rb")
+    briefing: Briefing = pickle.load(questions)
 
-    def serve(self) -> None:
-        """Load the law, then answer each control step, until the match is over."""
-        briefing: Briefing = self._next()
-        self._most = int(briefing.limits.output * MB)
-        self._shut_in(briefing)
-        mirror = MirrorWorld(briefing)
-        try:
-            loaded = [law_in(briefing.file, "control", loader=Sent) for _ in mirror.mine]
-        except BaseException as error:
-            self._blame("start", error)
-            return
+    def answer(told: Mapping[str, Any]) -> None:
+        channel.sendall(json.dumps(told).encode() + b"\n")
+
+    _shut_in(briefing)
+    mirror = MirrorWorld(briefing)
+    kind = "start"
+    try:
+        loaded = [law_in(briefing.file, "control", loader=Sent) for _ in mirror.mine]
         laws = [Law(law, view) for law, view in zip(loaded, mirror.mine, strict=True)]
-        self._answer({})
-        while True:
-            mirror.show(self._next())
+        answer({})
+        while questions.peek(1):
+            mirror.show(pickle.load(questions))
             commands = []
             for law in laws:
                 kind = "error"
-                try:
-                    command: Any = law.command()
-                    kind = "command"
-                    commands.append([*map(float, robot_command(command, law.refuse))])
-                except BaseException as error:
-                    self._blame(kind, error)
-                    return
-            self._answer({"commands": commands, "letters": mirror.letters()})
-
-    def _shut_in(self, briefing: Briefing) -> None:
-        """Prepare this process for the law, and take from it what it does not need."""
-        kept = {name: os.environ[name] for name in KEPT if name in os.environ}
-        os.environ.clear()
-        os.environ.update(kept)
-        os.chdir(briefing.folder)
-        random.seed(briefing.chance)
-        np.random.seed(briefing.chance)  # noqa: NPY002 - laws that draw from it
-        Sent.contents = briefing.code
-        folders = {str(path.parent) for path in briefing.code}
-
-        def finder(folder: str) -> FileFinder:
-            if folder not in folders:
-                raise ImportError(folder)
-            return FileFinder(folder, (ExtensionFileLoader, EXTENSION_SUFFIXES), (Sent, [".py"]))
-
-        sys.path_hooks.insert(0, finder)
-        sys.path_importer_cache.clear()
-        sys.modules["__main__"] = ModuleType("__main__")
-        _limit(briefing.limits)
-        if jail.is_protected():
-            jail.close_in(_readable(briefing), [briefing.file.parent])
-
-    def _blame(self, kind: str, error: BaseException) -> None:
-        """Report an exception from loading or calling the law."""
-        place = users_line(stack_of(error))
-        text = f"raised {described(error)}"
-        if isinstance(error, Mars2dError):
-            place, text = error.where or place, str(error.args[0])
-        causes = (error, error.__cause__)
-        if jail.is_protected() and any(isinstance(each, PermissionError) for each in causes):
-            text += "; this is refused to isolated laws, which read what is beside them and --reads"
-        if any(isinstance(each, MemoryError) for each in causes):
-            kind, text = "memory", "took too much memory"
-        if any(getattr(each, "errno", None) == errno.EFBIG for each in causes):
-            kind, text = "output", f"printed more than {self._most} bytes"
-        self._answer({"kind": kind, "where": place, "text": text[:2000]})
-
-    def _answer(self, told: Mapping[str, Any]) -> None:
-        self._channel.sendall(json.dumps(told).encode() + b"\n")
-
-    def _next(self) -> Any:
-        """Return the next message. Raises struct.error when the match is over."""
-        (length,) = HEAD.unpack(self._questions.read(HEAD.size))
-        return pickle.loads(self._questions.read(length))
+                command: Any = law.command()
+                kind = "command"
+                commands.append([*map(float, robot_command(command, law.refuse))])
+            answer({"commands": commands, "letters": mirror.mailbox.sent})
+    except BaseException as error:
+        answer(_fault(kind, error, int(briefing.limits.output * MB)))
 
 
-def _readable(briefing: Briefing) -> list[Path]:
-    """Return what lies beside the law, without the files of other laws, and what is allowed."""
-    hidden = [path.resolve() for path in briefing.hidden]
-    beside = [
-        path
-        for path in briefing.file.parent.iterdir()
-        if not any(other.is_relative_to(path.resolve()) for other in hidden)
-    ]
-    return [*beside, *map(Path, briefing.limits.reads)]
+def _shut_in(briefing: Briefing) -> None:
+    """Prepare this process for the law, and take from it what it does not need."""
+    kept = {name: os.environ[name] for name in KEPT if name in os.environ}
+    os.environ.clear()
+    os.environ.update(kept)
+    os.chdir(briefing.folder)
+    random.seed(briefing.chance)
+    np.random.seed(briefing.chance)  # noqa: NPY002 - laws that draw from it
+    Sent.contents = briefing.code
+    folders = {str(path.parent) for path in briefing.code}
+
+    def finder(folder: str) -> FileFinder:
+        if folder not in folders:
+            raise ImportError(folder)
+        return FileFinder(folder, (ExtensionFileLoader, EXTENSION_SUFFIXES), (Sent, [".py"]))
+
+    sys.path_hooks.insert(0, finder)
+    sys.path_importer_cache.clear()
+    sys.modules["__main__"] = ModuleType("__main__")
+    _limit(briefing.limits)
+    if jail.is_protected():
+        hidden = [path.resolve() for path in briefing.hidden]
+        beside = [
+            path
+            for path in briefing.file.parent.iterdir()
+            if not any(other.is_relative_to(path.resolve()) for other in hidden)
+        ]
+        jail.close_in([*beside, *map(Path, briefing.limits.reads)], [briefing.file.parent])
+
+
+def _fault(kind: str, error: BaseException, most: int) -> dict[str, Any]:
+    """Return what is told of an exception from loading or calling the law; most: its output."""
+    place, text = users_line(stack_of(error)), f"raised {described(error)}"
+    if isinstance(error, Mars2dError):
+        place, text = error.where or place, str(error.args[0])
+    causes = (error, error.__cause__)
+    if jail.is_protected() and any(isinstance(each, PermissionError) for each in causes):
+        text += "; this is refused to isolated laws, which read what is beside them and --reads"
+    if any(isinstance(each, MemoryError) for each in causes):
+        kind, text = "memory", "took too much memory"
+    if any(getattr(each, "errno", None) == errno.EFBIG for each in causes):
+        kind, text = "output", f"printed more than {most} bytes"
+    return {"kind": kind, "where": place, "text": text[:2000]}
 
 
 def _limit(limits: Limits) -> None:

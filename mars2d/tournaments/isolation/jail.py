@@ -95,10 +95,6 @@ SYSTEM = (
 """Files of the system that libraries read."""
 
 
-class JailError(InputError):
-    """The system does not build the wall that it has promised."""
-
-
 @cache
 def is_protected() -> bool:
     """Return whether this system can refuse a law what could harm others."""
@@ -114,7 +110,8 @@ def close_in(readable: Iterable[Path], listed: Iterable[Path] = ()) -> None:
     """Refuse this process everything that could harm others, for good.
 
     It has one thread by now. readable: files and folders that it may read, besides those of Python
-    and its libraries. listed: folders of which it may know what is in them. Raises JailError.
+    and its libraries. listed: folders of which it may know what is in them. Raises
+    InputError where the system does not build the wall.
     """
     _prctl(PR_SET_PDEATHSIG, SIGKILL)
     _prctl(PR_SET_NO_NEW_PRIVS, 1)
@@ -133,7 +130,7 @@ def _libc() -> ctypes.CDLL:
 
 def _done(result: int) -> int:
     if result < 0:
-        raise JailError(f"the law can't be isolated: {os.strerror(ctypes.get_errno())}")
+        raise InputError(f"the law can't be isolated: {os.strerror(ctypes.get_errno())}")
     return result
 
 

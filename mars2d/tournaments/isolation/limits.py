@@ -45,6 +45,10 @@ class Limits:
         object.__setattr__(self, "reads", tuple(str(Path(each).absolute()) for each in reads))
 
 
+LIMITS = Limits()
+"""The default limits."""
+
+
 class Verdict(NamedTuple):
     """The reason why a law has failed.
 

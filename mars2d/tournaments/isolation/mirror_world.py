@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NoReturn, cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -11,13 +11,12 @@ from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import Message, as_text
-from mars2d.scenario.scenario import Scenario
 from mars2d.tournaments.isolation.limits import MB
-from mars2d.tournaments.isolation.observation import Briefing, Cast, Seen
+from mars2d.tournaments.isolation.observation import Briefing
 from mars2d.world.channel import Channel
 from mars2d.world.simulation import Simulation
-from mars2d.world.views import VIEWS, Mind, PropView, RobotView, unknown
-from mars2d.world.world import World
+from mars2d.world.team_view import WorldView
+from mars2d.world.views import VIEWS, Mind, PropView, RobotView, unseen
 
 INSTEAD = {
     "rng": "; there is robot.rng",
@@ -26,12 +25,14 @@ INSTEAD = {
 }
 """What an isolated law has in place of attributes of a World."""
 
+Letter = tuple[int, str, list[int] | None]
+"""A message: its sender, its content as JSON, its receivers, or None for all in reach."""
+
 
 class Mailbox(Channel):
     """The channel of an isolated law: it keeps messages to and from its robots.
 
-    sent: (sender, content as JSON, receivers) of each message of this control step. arrived: by
-    receiver.
+    sent: those of this control step. arrived: by receiver.
     """
 
     def __init__(self, names: Sequence[str], limit: int) -> None:
@@ -39,7 +40,7 @@ class Mailbox(Channel):
         self._names = [*names]
         self._indices = {name: i for i, name in enumerate(names)}
         self._limit, self._size = limit, 0
-        self.sent: list[tuple[int, str, list[int] | None]] = []
+        self.sent: list[Letter] = []
         self.arrived: Mapping[int, tuple[Message, ...]] = {}
 
     def inbox(self, robot: int) -> tuple[Message, ...]:
@@ -60,125 +61,85 @@ class Mailbox(Channel):
         self.sent, self._size, self.arrived = [], 0, arrived
 
 
-def _refused(what: str) -> Any:
-    """Return a property that raises LawError: it belongs to the robot's own law."""
-
-    def refuse(view: OtherView) -> NoReturn:
-        place = f"robot.world.robots[{view._index}].{what}"
-        raise LawError(f"{place} is not available: it is another's")
-
-    return property(refuse)
-
-
 class OtherView(RobotView):
     """Another law's robot, as seen by a law that sees the whole world."""
 
     def __init__(self, world: Simulation, index: int) -> None:
         self._world, self._index = world, index
 
-    sense = _refused("sense")
-    memory = _refused("memory")
-    rng = _refused("rng")
-    inbox = _refused("inbox")
-    neighbours = _refused("neighbours")
-    send = _refused("send")
+    sense, memory, rng, inbox, neighbours, send = (
+        unseen(f"another robot's {name}", "robots of other laws from outside")
+        for name in ("sense", "memory", "rng", "inbox", "neighbours", "send")
+    )
 
 
-def _rows(name: str, first: int, last: int) -> Any:
-    """Return a property for some rows of one of the arrays that are seen."""
-    return property(lambda world: getattr(world._seen, name)[first:last])
+class MirrorView(WorldView):
+    """The world of a law that sees all of it: what a `MirrorWorld` knows."""
+
+    @property
+    def obstacles(self) -> tuple[Outline, ...]:  # type: ignore[override]
+        """The outlines of all obstacles."""
+        return tuple(surface.outline for surface in self.scenario.surfaces)
 
 
 class MirrorWorld:
-    """Stands in for the World in an isolated law's process: the visible part, by the same names.
+    """Stands in for a Simulation in an isolated law's process: the visible part, by the same names.
 
-    robots: views of all robots. mine: the views with which the law is called. Its arrays are read
-    only, and new at each control step.
+    robots: views of all robots. mine: the views with which the law is called. mailbox: of their
+    messages. Its arrays are read only, and new at each control step.
     """
 
     def __init__(self, briefing: Briefing) -> None:
         """Take the briefing; there are no observations before the first `show`."""
-        self._seen: Any = None
-        self.scenario: Scenario | Cast = briefing.scenario
-        self.obstacles: tuple[Outline, ...] = briefing.obstacles
-        described, world = briefing.scenario.robots, cast("Simulation", self)
-        self._mailbox: Mailbox | None = None
-        if briefing.talks:
-            limit = int(briefing.limits.output * MB)
-            self._mailbox = Mailbox([str(robot.name) for robot in described], limit)
-        names = [str(described[i].name) for i in briefing.robots]
-        states = {f"robot {name}": s for name, s in zip(names, briefing.streams, strict=True)}
+        self.scenario = briefing.scenario
+        described, world = self.scenario.robots, cast("Simulation", self)
+        names = [str(robot.name) for robot in described]
+        self.mailbox = Mailbox(names, int(briefing.limits.output * MB))
 
         def stream(name: str) -> np.random.Generator:
             generator = np.random.PCG64(0)
-            generator.state = cast("Any", states[name])
+            generator.state = briefing.streams[name]
             return np.random.Generator(generator)
 
-        self._minds = {i: Mind(n, stream) for i, n in zip(briefing.robots, names, strict=True)}
-        for mind, sensors in zip(self._minds.values(), briefing.sensors, strict=True):
-            mind.sense._names.extend(sensors)
-        self.mine = [
-            VIEWS[sees](world, i, self._minds[i])
-            for i, sees in zip(briefing.robots, briefing.sees, strict=True)
-        ]
+        self._minds = {i: Mind(names[i], stream) for i in briefing.robots}
+        self.mine = [VIEWS[described[i].sees](world, i, mind) for i, mind in self._minds.items()]
         self.robots = [
             RobotView(world, i, self._minds[i]) if i in self._minds else OtherView(world, i)
             for i in range(len(described))
         ]
-        self.props = tuple(PropView(world, i) for i in range(len(briefing.scenario.props)))
+        self.props = tuple(PropView(world, i) for i in range(len(self.scenario.props)))
+        self.sampling_time = self.scenario.sampling_time
+        self.view = MirrorView(world)
 
-    def show(self, seen: Seen) -> None:
-        """Take what is seen at a control step."""
-        self._seen = seen
-        readings = [reading for row in seen.readings.values() for reading in row.values()]
-        for each in (*seen, *readings):
+    def show(self, seen: dict[str, Any]) -> None:
+        """Take what is seen at a control step, see `look`."""
+        vars(self).update(seen)
+        self.time = self.iteration * self.sampling_time
+        self.position = self.pose[:2]
+        self.contacts = np.frombuffer(seen["contacts"], CONTACT)
+        readings = [reading for row in self.readings.values() for reading in row.values()]
+        for each in (*vars(self).values(), *readings):
             if isinstance(each, np.ndarray):
                 each.setflags(write=False)
-        for robot, row in seen.readings.items():
-            vars(self._minds[robot].sense).update(row)
-        if self._mailbox is not None:
-            self._mailbox.turn(seen.inbox)
+        for robot, row in self.readings.items():
+            sense = self._minds[robot].sense
+            vars(sense).update(row)
+            sense._names = [*row]
+        self.mailbox.turn(seen["inbox"])
 
-    def letters(self) -> list[tuple[int, str, list[int] | None]]:
-        """Return the messages of this control step: (sender, content as JSON, receivers)."""
-        return [] if self._mailbox is None else self._mailbox.sent
-
-    def __getattr__(self, name: str) -> NoReturn:
-        if not name.startswith("_") and (hasattr(World, name) or hasattr(Simulation, name)):
-            there = INSTEAD.get(name, "")
-            raise LawError(f"robot.world.{name} is not available to an isolated law{there}")
-        unknown(self, "a world", name)
-
-    # -- the interface of World ------------------------------------------------------------------
-
-    pose = _rows("state", 0, 3)
-    position = _rows("state", 0, 2)
-    velocity = _rows("state", 3, 6)
-    command = _rows("state", 6, 8)
-    prop_pose = _rows("props", 0, 3)
-    prop_velocity = _rows("props", 3, 6)
-    iteration = property(lambda world: world._seen.iteration)
-    effort = property(lambda world: world._seen.state[8])
-    contacts = property(lambda world: np.frombuffer(world._seen.contacts, CONTACT))
-
-    @property
-    def view(self) -> MirrorWorld:
-        """Itself: it is all that a law may see."""
-        return self
-
-    time = property(lambda world: world.iteration * world.sampling_time)
-    sampling_time = property(lambda world: world.scenario.sampling_time)
-    geometric_center = World.geometric_center
-    workspace = property(lambda world: world.scenario.workspace)
-    bounds = property(lambda world: world.scenario.bounds)
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        there = INSTEAD.get(name, "")
+        raise LawError(f"robot.world.{name} is not available to an isolated law{there}")
 
     def neighbour_indices(self, robot: int) -> Sequence[int]:
         """Return the current neighbours of one of the law's robots, by ``Scenario.neighbours``."""
-        return cast("Seen", self._seen).neighbours[robot]
+        return cast("Sequence[int]", self.neighbours[robot])
 
     @property
     def channel(self) -> Mailbox:
         """The robots' channel. Raises LawError if the scenario has no Communication."""
-        if self._mailbox is None:
+        if not self.mailbox.arrived:
             raise LawError("robots can't talk: add Communication() to Scenario.addons")
-        return self._mailbox
+        return self.mailbox

@@ -1,6 +1,6 @@
 """The observations of an isolated law: the part of a scenario and of a world that it may see.
 
-A law's process gets a `Briefing` once, and then a `Seen` at each control step. Neither holds
+A law's process gets a `Briefing` once, and what `look` returns at each control step. Neither holds
 anything that the law's robots may not see.
 """
 
@@ -10,15 +10,14 @@ import os
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import LawError
-from mars2d.core.plane import Outline
 from mars2d.core.streams import stream
-from mars2d.record.message import Message
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import without_code
@@ -37,39 +36,23 @@ SHARED_PACKAGES = ("builtins", "numpy", "mars2d")
 
 
 @dataclass(frozen=True)
-class Cast:
-    """The part of a scenario for laws that do not see the whole world.
-
-    robots: the law's own, without their starting poses; of the others, only the names.
-    """
-
-    robots: tuple[Robot, ...]
-    sampling_time: float
-    props: tuple[Any, ...] = ()
-
-
-@dataclass(frozen=True)
 class Briefing:
     """The message that a law's process gets once.
 
     file: of the law. code: the contents of this file and of those beside it that it imports, by
-    path. hidden: the files of other laws. robots: the indices of the law's robots. sees: the sight
-    of each of them. scenario: without code, or the visible part of it. obstacles: their outlines,
-    if the whole world is seen. streams: the state of each robot's random stream. sensors: each
-    robot's, by name. talks: whether the robots can send messages. folder: the current one. chance:
-    the seed of Python's and numpy's shared generators, so that a match can be repeated.
+    path. hidden: the files of other laws. robots: the indices of the law's robots. scenario:
+    without code; for laws that do not see the whole world, a part of it: their own robots, without
+    their starts, and the names of the others. streams: the states of its robots' random streams, by
+    their names. folder: the current one. chance: the seed of Python's and numpy's shared
+    generators, so that a match can be repeated.
     """
 
     file: Path
     code: Mapping[Path, bytes]
     hidden: tuple[Path, ...]
     robots: tuple[int, ...]
-    sees: tuple[str, ...]
-    scenario: Scenario | Cast
-    obstacles: tuple[Outline, ...]
-    streams: tuple[Mapping[str, Any], ...]
-    sensors: tuple[tuple[str, ...], ...]
-    talks: bool
+    scenario: Any
+    streams: Mapping[str, Any]
     limits: Limits
     folder: str
     chance: int
@@ -88,96 +71,75 @@ def brief(
 
     files, code: of all roles. robots: of this one.
     """
-    lawless = [robot.replace(controller=None) for robot in scenario.robots]
-    bare, _ = without_code(scenario.replace(robots=lawless))
-    mine = [scenario.robots[i] for i in robots]
-    whole = any(robot.sees == "full" for robot in mine)
-    names = [f"robot {robot.name}" for robot in mine]
+    visible: Any
+    visible, _ = without_code(scenario.with_laws([None] * len(scenario.robots)))
+    if not _sees_all(scenario, robots):
+        known = [
+            robot.at(0.0, 0.0) if i in robots else Robot(name=robot.name)
+            for i, robot in enumerate(visible.robots)
+        ]
+        dt = scenario.sampling_time
+        visible = SimpleNamespace(robots=tuple(known), sampling_time=dt, props=())
+    names = [f"robot {scenario.robots[i].name}" for i in robots]
     return Briefing(
         file=files[role],
         code=code[role],
         hidden=tuple({path for each in code.values() for path in each} - {*code[role]}),
         robots=tuple(robots),
-        sees=tuple(robot.sees for robot in mine),
-        scenario=bare if whole else _cast(bare, robots),
-        obstacles=tuple(each.outline for each in scenario.surfaces) if whole else (),
-        streams=tuple(dict(stream(seed, name).bit_generator.state) for name in names),
-        sensors=tuple(tuple(sensor.key for sensor in robot.sensors) for robot in mine),
-        talks=any(addon.carries_messages for addon in scenario.addons),
+        scenario=visible,
+        streams={name: dict(stream(seed, name).bit_generator.state) for name in names},
         limits=limits,
         folder=os.getcwd(),  # noqa: PTH109 - as text
         chance=int(stream(seed, f"law of {role}").integers(2**32)),
     )
 
 
-def _cast(bare: Scenario, robots: Sequence[int]) -> Cast:
-    somewhere = (0.0, 0.0, 0.0)
-    known = [
-        robot.replace(pose=somewhere) if i in robots else Robot(name=robot.name)
-        for i, robot in enumerate(bare.robots)
-    ]
-    return Cast(tuple(known), bare.sampling_time)
+def _sees_all(scenario: Scenario, robots: Sequence[int]) -> bool:
+    return any(scenario.robots[i].sees == "full" for i in robots)
 
 
 # -- at each control step --------------------------------------------------------------------------
 
 
-class Seen(NamedTuple):
-    """What a law sees at a control step; NaN is what it may not see.
+def look(world: Simulation, robots: Sequence[int]) -> dict[str, Any]:
+    """Return what the law of some robots sees of a world now, by the names of its attributes.
 
-    state: (9, n), of all robots: pose (3), velocity (3), command (2), effort. props: (6, p), pose
-    and velocity. contacts: the bytes of their rows. neighbours, readings, inbox: by the indices of
-    the law's robots; readings by the sensors' names.
+    NaN is what it may not see. contacts: the bytes of their rows. neighbours, readings, inbox: by
+    the robots' indices. Errors of sensors pass through.
     """
-
-    iteration: int
-    state: Float
-    props: Float
-    contacts: bytes
-    neighbours: Mapping[int, Sequence[int]]
-    readings: Mapping[int, Mapping[str, Any]]
-    inbox: Mapping[int, tuple[Message, ...]]
-
-
-def look(world: Simulation, briefing: Briefing) -> Seen:
-    """Return what the law of a briefing sees of a world now. Errors of sensors pass through."""
-    mine, whole = briefing.robots, "full" in briefing.sees
-    seeing = dict(zip(mine, briefing.sees, strict=True))
-    posed = [i for i, sees in seeing.items() if sees != "sensors"]  # these see their own pose
-    neighbours = {robot: tuple(world.neighbour_indices(robot)) for robot in posed}
-    state = np.empty((9, len(world.effort)))
-    state[:3], state[3:6] = world.pose, world.velocity
-    state[6:8], state[8] = world.command, world.effort
-    props, contacts = np.empty((6, 0)), world.contacts
-    if whole:
-        props = np.vstack([world.prop_pose, world.prop_velocity])
-    else:
-        headed = {*posed}
-        headed.update(*(near for i, near in neighbours.items() if seeing[i] == "partial"))
-        _hide(state[:2], headed.union(*neighbours.values()))
-        _hide(state[2:3], headed)
-        _hide(state[3:6], posed)
-        _hide(state[6:], mine)
-        if len(contacts):
-            contacts = contacts[np.isin(contacts["a"], posed) | np.isin(contacts["b"], posed)]
-    return Seen(
-        iteration=world.iteration,
-        state=state,
-        props=props,
-        contacts=contacts.tobytes(),
-        neighbours=neighbours,
-        readings={
-            robot: {name: _reading(world, robot, name) for name in names}
-            for robot, names in zip(mine, briefing.sensors, strict=True)
-            if names
+    scenario = world.scenario
+    sees = {i: scenario.robots[i].sees for i in robots}
+    posed = [i for i in robots if sees[i] != "sensors"]  # these see their own pose
+    neighbours = {i: tuple(world.neighbour_indices(i)) for i in posed}
+    arrays = ("pose", "velocity", "command", "effort", "prop_pose", "prop_velocity")
+    seen = {name: np.array(getattr(world, name)) for name in arrays}
+    contacts = world.contacts
+    if not _sees_all(scenario, robots):
+        headed = {*posed}.union(*(neighbours[i] for i in posed if sees[i] == "partial"))
+        _hide(seen["pose"][:2], headed.union(*neighbours.values()))
+        _hide(seen["pose"][2:], headed)
+        _hide(seen["velocity"], posed)
+        _hide(seen["command"], robots)
+        _hide(seen["effort"], robots)
+        seen |= {"prop_pose": np.empty((3, 0)), "prop_velocity": np.empty((3, 0))}
+        contacts = contacts[np.isin(contacts["a"], posed) | np.isin(contacts["b"], posed)]
+    talks = any(addon.carries_messages for addon in scenario.addons)
+    return {
+        **seen,
+        "iteration": world.iteration,
+        "contacts": contacts.tobytes(),
+        "neighbours": neighbours,
+        "readings": {
+            i: {each.key: _reading(world, i, each.key) for each in scenario.robots[i].sensors}
+            for i in robots
         },
-        inbox={i: world.channel.inbox(i) for i in mine} if briefing.talks else {},
-    )
+        "inbox": {i: world.channel.inbox(i) for i in robots} if talks else {},
+    }
 
 
 def _hide(rows: Float, seen: Collection[int]) -> None:
     """Hide the columns of all robots but those that are seen."""
-    rows[:, [i for i in range(rows.shape[1]) if i not in seen]] = np.nan
+    rows[..., [i for i in range(rows.shape[-1]) if i not in seen]] = np.nan
 
 
 def _reading(world: Simulation, robot: int, name: str) -> Any:

@@ -10,20 +10,20 @@ import re
 import signal
 import socket
 import sys
-import tempfile
 import threading
 import time
 import traceback
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
+from itertools import chain
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from mars2d.core.errors import InputError, Mars2dError, one_line
 from mars2d.core.usercode import users_line
 from mars2d.study import WORKERS
-from mars2d.tournaments.isolation.child import CUT_OFF, HEAD, serve
+from mars2d.tournaments.isolation.child import CUT_OFF, serve
 from mars2d.tournaments.isolation.limits import MB
 from mars2d.tournaments.isolation.observation import Briefing, look
 from mars2d.world.laws import LARGEST
@@ -45,6 +45,13 @@ PATIENCE = 3
 FAULTS = ("start", "memory", "error", "command", "output")
 """The kinds of faults that a law's process reports itself."""
 
+SIGNALS = {
+    "SIGSEGV": ", a segmentation fault",
+    "SIGKILL": ", perhaps for lack of memory",
+    "SIGXCPU": ": it took too much processor time",
+}
+"""What signals that end a process mean."""
+
 CRASH = "Fatal Python error"
 """How the traceback begins that Python prints when a signal ends it."""
 
@@ -52,74 +59,82 @@ _starting = threading.Lock()
 
 
 class LawProcess:
-    """A law in a process of its own.
+    """A law in a process of its own, which ends with the block.
 
     fault: why it has failed, the kind of a verdict and a line of text, or None. printed: the
     beginning of its output, once it has ended.
     """
 
-    def __init__(self, briefing: Briefing) -> None:
-        """Start the process. Raises InputError if that fails."""
+    def __init__(self, briefing: Briefing, output: Path) -> None:
+        """Start the process; output: a new file for what it prints.
+
+        Raises InputError if that fails.
+        """
         self._briefing, self._limits = briefing, briefing.limits
         self._most = int(self._limits.output * MB)
-        self._commands: dict[int, tuple[float, float]] = {}
-        self._letters: list[Any] = []
-        self._used = 0.0  # seconds of its clock for the match
+        self._spent = 0.0  # seconds of its clock for the match
+        self._output = output
         self.fault: tuple[str, str] | None = None
         self.printed = ""
-        with ExitStack() as resources:
-            try:
-                folder = resources.enter_context(tempfile.TemporaryDirectory(prefix="mars2d-"))
-                self._output = Path(folder) / "output"
-                self._output.touch()
-                self._channel, theirs = socket.socketpair()
-                resources.enter_context(self._channel)
-                with theirs:
-                    self._process = _started(theirs, str(self._output))
-            except OSError as error:
-                raise InputError(f"can't start a process for a law: {error}") from error
-            resources.callback(self._end)
-            self._clock = _Clock(self._process.pid)
-            resources.callback(self._clock.close)
-            self._resources = resources.pop_all()
+        try:
+            output.touch()
+            self._channel, theirs = socket.socketpair()
+            with theirs:
+                self._process = _started(theirs, str(output))
+        except OSError as error:
+            raise InputError(f"can't start a process for a law: {error}") from error
+        self._clock = _Clock(self._process.pid)
 
     def load(self) -> None:
         """Let it load its file."""
         with self._judged(self._limits.start, "not loaded"):
             self._ask(self._briefing)
 
-    def ask(self, world: Simulation) -> None:
-        """Ask it for the commands of a control step."""
-        seen, robots = look(world, self._briefing), self._briefing.robots
-        with self._judged(min(self._limits.tick, self._limits.match - self._used), "no command"):
-            answer = self._ask(seen)
-            self._used += self._clock.used
-            if self.fault is None:
-                pairs = [(first, second) for first, second in answer["commands"]]
-                # Such a test is false for NaN, too.
-                if not all(type(x) is float and abs(x) <= LARGEST for pair in pairs for x in pair):
-                    raise ValueError(pairs)
-                self._commands = dict(zip(robots, pairs, strict=True))
-                self._letters = answer["letters"]
+    def command(self, world: Simulation) -> dict[int, tuple[float, float]]:
+        """Return its robots' commands of a control step, and send their messages; {} if it fails.
 
-    def command(self, world: Simulation, robot: int) -> tuple[float, float]:
-        """Return the command of one of its robots, after sending that robot's messages.
-
-        Invalid messages are a fault: the law's process checks messages, so the law must have
-        written to the match itself.
+        The law's process checks both. So if they are invalid, the law has written to the match
+        itself, which is a fault.
         """
-        with self._judged():
-            for sender, text, receivers in self._letters:
-                if sender == robot:
-                    world.channel.send(robot, json.loads(text), receivers)
-        return self._commands[robot]
+        robots = self._briefing.robots
+        seen = look(world, robots)
+        commands: dict[int, tuple[float, float]] = {}
+        with self._judged(min(self._limits.tick, self._limits.match - self._spent), "no command"):
+            answer = self._ask(seen)
+            self._spent += self._clock.used
+            if self.fault is None:
+                commands = {i: (v, w) for i, (v, w) in zip(robots, answer["commands"], strict=True)}
+                # Such a test is false for NaN, too.
+                if not all(
+                    type(x) is float and abs(x) <= LARGEST for x in chain(*commands.values())
+                ):
+                    raise ValueError(commands)
+                for sender, text, receivers in answer["letters"]:
+                    if sender not in robots:
+                        raise ValueError(sender)
+                    world.channel.send(sender, json.loads(text), receivers)
+        return commands
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the process, and all that it has started."""
+        with suppress(OSError):
+            if hasattr(os, "killpg"):
+                os.killpg(self._process.pid or 0, signal.SIGKILL)
+        self._process.kill()
+        self._process.join(10 * GRACE)
+        self.printed = self._all_printed().partition(CRASH)[0][:KEPT_OUTPUT]
+        self._channel.close()
+        with suppress(ValueError):  # it does not end
+            self._process.close()
 
     # -- questions and answers -----------------------------------------------------------------
 
     def _ask(self, question: object) -> Any:
         """Send a message and return the answer; see `_judged` for what it raises."""
-        body = pickle.dumps(question, 5)
-        rest = memoryview(HEAD.pack(len(body)) + body)
+        rest = memoryview(pickle.dumps(question, 5))
         while rest:
             rest = rest[self._in_time(self._channel.send, rest) :]
         told = b""
@@ -132,8 +147,8 @@ class LawProcess:
                 raise ValueError("its answer is too long")
         answer = json.loads(told)
         if "kind" in answer:
-            where, text = answer["where"], str(answer["text"])
-            self._fail(FAULTS[FAULTS.index(answer["kind"])], where and str(where)[:200], text)
+            kind, where = FAULTS[FAULTS.index(answer["kind"])], answer["where"]
+            self._fail(kind, str(answer["text"]), where and str(where)[:200])
         return answer
 
     def _in_time(self, transfer: Callable[[Any], T], what: object) -> T:
@@ -144,7 +159,7 @@ class LawProcess:
         raise TimeoutError
 
     @contextmanager
-    def _judged(self, allowed: float = 0.0, late: str = "") -> Iterator[None]:
+    def _judged(self, allowed: float, late: str) -> Iterator[None]:
         """Note the fault of a law that does not answer as it should within some seconds."""
         self._clock.start(allowed)
         try:
@@ -155,16 +170,15 @@ class LawProcess:
                     os.kill(self._process.pid or 0, signal.SIGABRT)  # it then prints where it is
             self._process.join(GRACE)
             if allowed < min(self._limits.tick, self._limits.start):
-                total = f"its commands took more than {self._limits.match:g} s in all"
-                self._fail("clock", self._crash_line(), total)
+                self._fail("clock", f"its commands took more than {self._limits.match:g} s in all")
             else:
-                self._fail("slow", self._crash_line(), f"{late} after {allowed:g} s")
+                self._fail("slow", f"{late} after {allowed:g} s")
         except ConnectionError:
             self._gone()
         except (Mars2dError, ValueError, TypeError, KeyError, RecursionError):
-            self._fail("exit", None, "what it says to the match is no answer")
+            self._fail("exit", "what it says to the match is no answer")
         if self._output.stat().st_size >= self._most:
-            self._fail("output", None, f"printed more than {self._most} bytes")
+            self._fail("output", f"printed more than {self._most} bytes")
 
     # -- faults --------------------------------------------------------------------------------
 
@@ -172,16 +186,14 @@ class LawProcess:
         """Note why the process has ended or closed its connection."""
         self._process.join(GRACE)
         code = self._process.exitcode
-        if code is None or code == CUT_OFF:
-            self._fail("exit", None, "its process has closed the connection to the match")
-        elif code >= 0:
-            self._fail("exit", None, f"its process has ended itself, with code {code}")
-        elif (name := signal.Signals(-code).name) == "SIGXCPU":
-            self._fail("clock", self._crash_line(), "its process took too much processor time")
-        else:
-            words = {"SIGSEGV": ", a segmentation fault", "SIGKILL": ", perhaps for lack of memory"}
-            text = f"its process was ended by the signal {name}{words.get(name, '')}"
-            self._fail("exit", self._crash_line(), text)
+        kind, why = "exit", "has closed the connection to the match"
+        if code is not None and code != CUT_OFF:
+            why = f"has ended itself, with code {code}"
+        if code is not None and code < 0:
+            name = signal.Signals(-code).name
+            kind = "clock" if name == "SIGXCPU" else kind
+            why = f"was ended by the signal {name}{SIGNALS.get(name, '')}"
+        self._fail(kind, f"its process {why}")
 
     def _crash_line(self) -> str | None:
         """Return the user's line in the traceback that Python prints on a crash."""
@@ -192,32 +204,16 @@ class LawProcess:
         )
         return users_line(stack)
 
-    def _fail(self, kind: str, where: str | None, text: str) -> None:
-        """Note the first fault."""
+    def _fail(self, kind: str, text: str, where: str = "") -> None:
+        """Note the first fault; where: the user's line, by default that of a crash."""
         if self.fault is None:
             if kind == "memory":
                 text += f"; it may take {self._limits.memory:g} MB"
-            place = where or self._briefing.file.name
+            place = where or self._crash_line() or self._briefing.file.name
             self.fault = kind, one_line(f"{place}: {' '.join(text.split())}")
-
-    # -- output and end ------------------------------------------------------------------------
 
     def _all_printed(self) -> str:
         return self._output.read_bytes().decode(errors="replace")
-
-    def end(self) -> None:
-        """End the process, and all that it has started."""
-        self._resources.close()
-
-    def _end(self) -> None:
-        with suppress(OSError):
-            if hasattr(os, "killpg"):
-                os.killpg(self._process.pid or 0, signal.SIGKILL)
-        self._process.kill()
-        self._process.join(10 * GRACE)
-        self.printed = self._all_printed().partition(CRASH)[0][:KEPT_OUTPUT]
-        with suppress(ValueError):  # it does not end
-            self._process.close()
 
 
 def _started(channel: socket.socket, output: str) -> multiprocessing.process.BaseProcess:
@@ -257,16 +253,7 @@ class _Clock:
 
     def __init__(self, process: int | None) -> None:
         """Take the law's process."""
-        self._files = []
-        with suppress(OSError):  # not on Linux
-            for folder in (f"/proc/{process}", "/proc/thread-self"):
-                self._files.append(os.open(f"{folder}/schedstat", os.O_RDONLY))
-        self.start(0.0)
-
-    def close(self) -> None:
-        """Read no more of what the system says."""
-        for file in self._files:
-            os.close(file)
+        self._files = [Path(f"/proc/{each}/schedstat") for each in (process, "thread-self")]
 
     def start(self, allowed: float) -> None:
         """Begin to count, up to the time that is allowed, seconds."""
@@ -288,6 +275,6 @@ class _Clock:
 
     def _waits(self) -> float:
         try:
-            return sum(1e-9 * int(os.pread(file, 99, 0).split()[1]) for file in self._files)
-        except OSError:  # it has ended
+            return sum(1e-9 * int(file.read_bytes().split()[1]) for file in self._files)
+        except OSError:  # not on Linux, or it has ended
             return 0.0

@@ -4,26 +4,24 @@ from __future__ import annotations
 
 import base64
 import zlib
-from collections.abc import Sequence
+from itertools import accumulate
 from pathlib import Path
 
 from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
-from mars2d.tournaments.league import Tournament
-from mars2d.tournaments.match import Played
-from mars2d.tournaments.page.rules import dot_style, rules_section
+from mars2d.tournaments.league import UNPROTECTED, Tournament
+from mars2d.tournaments.page.rules import rules_part
 from mars2d.tournaments.page.tables import (
     choices,
-    details,
     grades,
     match_table,
     matrix,
-    shades,
     standing_tables,
 )
-from mars2d.tournaments.page.words import clean, escaped, facts, read
+from mars2d.tournaments.page.words import clean, escaped, read, terms
+from mars2d.tournaments.rules import Rules
 
-__all__ = ["MAX_REPLAYS_SIZE", "league_page", "save_html"]
+__all__ = ["MAX_REPLAYS_SIZE", "league_page", "rules_page", "save_html", "save_rules"]
 
 MAX_REPLAYS_SIZE = 40_000_000
 """How many characters the replays of a page may have; a larger page is slow to load."""
@@ -35,31 +33,30 @@ def league_page(tournament: Tournament) -> str:
     From the first replay on that would exceed `MAX_REPLAYS_SIZE`, replays are left out; the page
     says so.
     """
-    matches = tournament.matches
-    kept = _kept(matches)
-    script, style, inside = read("league.js"), _style(tournament), read("inside.js")
+    replays = {each.match.number: each.replay for each in tournament.matches if each.replay}
+    sizes = accumulate(len(replay) for replay in replays.values())
+    kept = sum(size <= MAX_REPLAYS_SIZE for size in sizes)
+    inside, title = read("inside.js"), tournament.schedule.title
     words = {
-        "policy": policy([script, inside + page_script()], [style, page_style()]),
-        "title": escaped(tournament.title),
-        "style": style,
-        "script": script,
-        "facts": facts(tournament, kept),
+        "facts": terms(_facts(tournament, [*replays][kept:])),
         "standings": standing_tables(tournament),
         "grades": grades(tournament),
         "matrix": matrix(tournament),
         "choices": choices(tournament),
-        "matches": match_table(tournament, kept),
-        "details": details(tournament),
-        "rules": "" if tournament.rules is None else rules_section(tournament.rules),
-        "player": _player(clean(tournament.title), inside),
+        "matches": match_table(tournament),
+        "rules": rules_part(tournament.schedule.rules),
+        "player": _player(clean(title), inside),
         "replays": "\n".join(
-            f'<script id="replay-{played.match.number}" type="text/plain">'
-            f"{escaped(played.replay)}</script>"
-            for played in matches[:kept]
-            if played.replay
+            f'<script id="replay-{number}" type="text/plain">{escaped(replay)}</script>'
+            for number, replay in [*replays.items()][:kept]
         ),
     }
-    return filled(read("league.html"), words)
+    return _page(title, filled(read("league.html"), words), read("league.js"), inside)
+
+
+def rules_page(rules: Rules) -> str:
+    """Return the rules of a game as the text of an HTML file, with a picture of the start."""
+    return _page(f"{rules.title}: the rules", f'<main class="rules">{rules_part(rules)}</main>')
 
 
 def save_html(tournament: Tournament, path: Path) -> Path:
@@ -69,14 +66,24 @@ def save_html(tournament: Tournament, path: Path) -> Path:
     return path
 
 
-def _kept(matches: Sequence[Played]) -> int:
-    """Return how many matches, from the first, have replays that fit into a page."""
-    size = 0
-    for count, played in enumerate(matches):
-        size += len(played.replay)
-        if size > MAX_REPLAYS_SIZE:
-            return count
-    return len(matches)
+def save_rules(rules: Rules, path: Path) -> None:
+    """Write the page of a game's rules. Raises InputError if it can't be written."""
+    with atomic_write(path) as file:
+        file.write(rules_page(rules).encode("utf-8", errors="replace"))
+
+
+def _page(title: str, body: str, script: str = "", inside: str = "") -> str:
+    """Return a page. script: what it runs besides. inside: the first script of its replays."""
+    script = f"(() => {{\n{read('page.js')}{script}}})();"
+    style = colors() + read("page.css")
+    words = {
+        "policy": policy([script, inside + page_script()], [style, page_style()]),
+        "title": escaped(title),
+        "style": style,
+        "body": body,
+        "script": script,
+    }
+    return filled(read("page.html"), words)
 
 
 def _player(title: str, inside: str) -> str:
@@ -85,5 +92,30 @@ def _player(title: str, inside: str) -> str:
     return " ".join(base64.b64encode(zlib.compress(part.encode(), 9)).decode() for part in parts)
 
 
-def _style(tournament: Tournament) -> str:
-    return colors() + shades() + dot_style(tournament.rules) + read("league.css")
+def _facts(tournament: Tournament, left_out: list[int]) -> dict[str, str]:
+    """Return the facts about a tournament; left_out: the matches without their replays."""
+    schedule, matches, rounds = tournament.schedule, tournament.matches, [*tournament.rounds()]
+    laws = [tournament.laws(role) for role in schedule.roles]
+    playing = [f"{len(each)} as {role}" for each, role in zip(laws, schedule.roles, strict=True)]
+    options = schedule.matches[0].options
+    always = [f"{name} = {options[name]}" for name in options if name not in schedule.settings]
+    several = len(rounds) > 1
+    seeds = sorted({played.match.seed for played in matches})
+    in_a_row = len(seeds) > 2 and seeds[-1] - seeds[0] == len(seeds) - 1
+    failed = {
+        "forfeited": sum(bool(played.verdicts) for played in matches),
+        "without a result": sum(bool(played.error) for played in matches),
+    }
+    first = f"from match {left_out[0]} on: with them this page would be" if left_out else ""
+    return {
+        "Experiment": Path(schedule.experiment).name,
+        "Laws": ", ".join(playing),
+        "Rounds": "; ".join(rounds) if several else "",
+        "Settings": ", ".join(always if several else filter(None, [*rounds, *always])),
+        "Seeds": f"{seeds[0]} to {seeds[-1]}" if in_a_row else ", ".join(map(str, seeds)),
+        "Matches": ", ".join(
+            [str(len(matches)), *(f"{count} {what}" for what, count in failed.items() if count)]
+        ),
+        "Isolation": UNPROTECTED if tournament.unprotected else "",
+        "Replays": f"{len(left_out)} are left out, {first} too large" if left_out else "",
+    }

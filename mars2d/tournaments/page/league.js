@@ -1,80 +1,40 @@
+
 // The page of a tournament: sorts its tables, filters its matches and plays its replays.
-(() => {
-"use strict";
-
-const find = (id) => document.getElementById(id);
 const all = (selector, within = document) => [...within.querySelectorAll(selector)];
-
-// -- dark or light --------------------------------------------------------------------------------
-
-function setDark(dark) {
-  document.documentElement.classList.toggle("dark", dark);
-  find("dark").setAttribute("aria-pressed", dark);
-}
-
-const scheme = matchMedia("(prefers-color-scheme: dark)");
-scheme.addEventListener("change", (event) => setDark(event.matches));
-find("dark").addEventListener("click", () => setDark(find("dark").getAttribute("aria-pressed") !== "true"));
-setDark(scheme.matches);
+const textOf = (row, cell) => row.querySelector(cell)?.textContent ?? "";
 
 // -- sorting --------------------------------------------------------------------------------------
 
 const collator = new Intl.Collator("en", { numeric: true, sensitivity: "base" });
 
-// The sort key of a cell: a number, a text, or null for a dash.
-function valueOf(cell) {
-  const value = cell.dataset.value ?? cell.textContent.trim();
-  if (value === "\u2013" || value === "") return null;
-  return Number.isNaN(Number(value)) ? value : Number(value);
-}
-
-function compared(a, b) {
-  if (typeof a === "number" && typeof b === "number") return a - b;
-  return collator.compare(a, b);
-}
-
 // Sort a table by a column: ascending first, descending on the second click; dashes stay last.
 function sort(header) {
-  const table = header.closest("table"), body = table.tBodies[0], column = header.cellIndex;
-  const down = header.getAttribute("aria-sort") === "ascending";
-  const rows = [...body.rows].map((row) => [valueOf(row.cells[column]), row]);
+  const body = header.closest("table").tBodies[0], column = header.cellIndex;
+  const order = header.ariaSort === "ascending" ? "descending" : "ascending";
+  const rows = [...body.rows].map((row) => [row.cells[column].textContent.trim(), row]);
+  const none = (text) => text === "-" || text === "";
   rows.sort(([a], [b]) => {
-    if (a === null || b === null) return (a === null) - (b === null);
-    return down ? compared(b, a) : compared(a, b);
+    if (none(a) || none(b)) return none(a) - none(b);
+    return order === "ascending" ? collator.compare(a, b) : collator.compare(b, a);
   });
   body.append(...rows.map(([, row]) => row));
-  all("th[aria-sort]", table).forEach((other) => other.removeAttribute("aria-sort"));
-  header.setAttribute("aria-sort", down ? "descending" : "ascending");
+  for (const other of header.parentNode.cells) other.ariaSort = other === header ? order : null;
 }
 
 for (const button of all("button.sort")) button.addEventListener("click", () => sort(button.parentNode));
 
-// -- tables that are wider than the page -----------------------------------------------------------
-
-// Let a side fade out beyond which there are more columns.
-function fade(wide) {
-  const { scrollLeft, scrollWidth, clientWidth } = wide;
-  wide.classList.toggle("before", scrollLeft > 1);
-  wide.classList.toggle("beyond", scrollLeft + clientWidth < scrollWidth - 1);
-}
-
-for (const wide of all(".wide")) {
-  wide.addEventListener("scroll", () => fade(wide), { passive: true });
-  new ResizeObserver(() => fade(wide)).observe(wide);
-}
-
 // -- choosing -------------------------------------------------------------------------------------
 
 const body = document.querySelector("table.matches tbody");
-const chosen = () => [...body.rows].filter((row) => !row.hidden);
+const lists = ["law", "against", "round"].map(find).filter(Boolean);
 
 function fits(row) {
-  const laws = row.dataset.laws.split(" "), law = find("law").value, rival = find("rival").value;
-  const [one, other] = laws;
+  const [law, rival, round] = lists.map((list) => list.value);
+  const [one, other] = all(".player bdi", row).map((name) => name.textContent);
   const plays = (a, b) => (law === "" || law === a) && (rival === "" || rival === b);
   if (!plays(one, other) && !plays(other, one)) return false;
-  if (find("round") && !["", row.dataset.round].includes(find("round").value)) return false;
-  return !find("forfeits").checked || "forfeit" in row.dataset;
+  if (round && round !== textOf(row, ".round")) return false;
+  return !find("forfeits").checked || row.querySelector(".forfeit") !== null;
 }
 
 function choose() {
@@ -88,7 +48,6 @@ function choose() {
   find("all").hidden = count === total;
 }
 
-const lists = ["law", "rival", "round"].map(find).filter(Boolean);
 for (const control of [...lists, find("forfeits")]) control.addEventListener("change", choose);
 find("all").addEventListener("click", () => {
   for (const list of lists) list.value = "";
@@ -98,36 +57,14 @@ find("all").addEventListener("click", () => {
 });
 choose();
 
-// A cell of the matrix selects its matches. Arrow keys move between cells; only one is a tab stop.
-const cells = all("table.matrix button");
-const grid = all("table.matrix tbody tr").map((row) => [...row.cells].map((cell) => cell.firstChild));
-cells.forEach((cell, k) => (cell.tabIndex = k ? -1 : 0));
-
-function step(cell, down, right) {
-  const y = cell.closest("tr").sectionRowIndex, x = cell.parentNode.cellIndex;
-  for (let k = 1; ; k++) {
-    const there = grid[y + k * down]?.[x + k * right];
-    if (!there || there.nodeName === "SPAN") return;
-    if (there.nodeName !== "BUTTON") continue; // an empty cell
-    cells.forEach((each) => (each.tabIndex = each === there ? 0 : -1));
-    there.focus();
-    return;
-  }
-}
-
-for (const cell of cells) {
+// A cell of the matrix selects its matches.
+for (const cell of all("table.matrix button")) {
   cell.addEventListener("click", () => {
     find("law").value = cell.dataset.law;
-    find("rival").value = cell.dataset.rival;
+    find("against").value = cell.dataset.rival;
     choose();
     find("matchesTitle").scrollIntoView();
     find("law").focus({ preventScroll: true });
-  });
-  cell.addEventListener("keydown", (event) => {
-    const way = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[event.key];
-    if (!way) return;
-    event.preventDefault();
-    step(cell, ...way);
   });
 }
 
@@ -135,58 +72,56 @@ for (const cell of cells) {
 
 let shown = null; // the row whose match is shown
 
+const numberOf = (row) => textOf(row, ".head");
+
 async function unpacked(text) {
   const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).text();
 }
 
+function element(name, ...content) {
+  const made = document.createElement(name);
+  made.append(...content);
+  return made;
+}
+
 // A replay is a page in a sandboxed frame: the player, with the match's data.
-async function frameOf(data) {
-  const [before, after] = await Promise.all(find("player").textContent.split(" ").map(unpacked));
-  const frame = document.createElement("iframe");
-  frame.setAttribute("sandbox", "allow-scripts");
-  frame.title = `Replay of match ${find("showTitle").textContent}`;
-  frame.addEventListener("load", () => frame.focus()); // so that keys go to the replay
-  const dark = document.documentElement.classList.contains("dark");
-  frame.srcdoc = before.replace("<html ", dark ? '<html class="dark" ' : "<html ") + data + after;
-  return frame;
-}
-
-function said(words) {
-  const paragraph = document.createElement("p");
-  paragraph.textContent = words;
-  return paragraph;
-}
-
 async function staged(row) {
-  const data = find(`replay-${row.dataset.match}`)?.textContent;
-  if (!data) return said(row.dataset.without);
-  if (!("DecompressionStream" in window)) {
-    return said("This browser is too old to unpack the replay: it needs one from 2023 or later.");
+  const data = find(`replay-${numberOf(row)}`)?.textContent;
+  if (!data) return element("p", "There is no replay: it was left out, or the match was over before it began.");
+  try {
+    const [before, after] = await Promise.all(find("player").textContent.split(" ").map(unpacked));
+    const frame = element("iframe");
+    frame.setAttribute("sandbox", "allow-scripts");
+    frame.title = `Replay of match ${find("showTitle").textContent}`;
+    frame.addEventListener("load", () => frame.focus()); // so that keys go to the replay
+    const dark = document.documentElement.classList.contains("dark");
+    frame.srcdoc = before.replace("<html ", dark ? '<html class="dark" ' : "<html ") + data + after;
+    return frame;
+  } catch {
+    return element("p", "The replay can't be unpacked: this file is damaged, or the browser is older than 2023.");
   }
-  return frameOf(data).catch(() => said("This file is damaged: the replay can't be unpacked."));
 }
 
 async function show(row) {
   shown = row;
-  const { match } = row.dataset, rows = chosen(), at = rows.indexOf(row);
-  const players = all("[data-role]", row).map((cell) => {
-    const name = document.createElement(cell.classList.contains("won") ? "strong" : "span");
+  const rows = [...body.rows].filter((each) => !each.hidden), at = rows.indexOf(row);
+  const head = row.closest("table").tHead.rows[0];
+  const players = all(".player", row).map((cell) => {
     const copies = [...cell.childNodes].map((each) => each.cloneNode(true));
-    name.append(...copies, ` as ${cell.dataset.role}`);
-    return name;
+    return element("span", ...copies, ` as ${head.cells[cell.cellIndex].textContent}`);
   });
-  find("showTitle").replaceChildren(`${match}. `, players[0], " against ", players[1]);
-  const ending = row.querySelector(".ending").cloneNode(true).childNodes;
-  find("ending").replaceChildren(`${row.dataset.start} · `, ...ending);
-  const printed = all(`template[data-match="${match}"]`).map((each) => each.content.cloneNode(true));
+  find("showTitle").replaceChildren(`${numberOf(row)}. `, players[0], " against ", players[1]);
+  const start = [`seed ${textOf(row, ".seed")}`, textOf(row, ".round")].filter(Boolean).join(", ");
+  find("ending").replaceChildren(`${start} · `, ...row.querySelector(".ending").cloneNode(true).childNodes);
+  const printed = all("template", row).map((each) => each.content.cloneNode(true));
   find("printed").replaceChildren(...printed);
   find("printed").hidden = printed.length === 0;
   find("previous").disabled = at <= 0;
   find("next").disabled = at === rows.length - 1;
   if (!find("show").open) find("show").showModal();
-  history.replaceState(null, "", `#match-${match}`);
+  history.replaceState(null, "", `#match-${numberOf(row)}`);
   const content = await staged(row);
   if (shown !== row) return; // another one was picked meanwhile
   find("stage").replaceChildren(content);
@@ -194,7 +129,7 @@ async function show(row) {
 }
 
 function go(by) {
-  const rows = chosen(), row = rows[rows.indexOf(shown) + by];
+  const rows = [...body.rows].filter((row) => !row.hidden), row = rows[rows.indexOf(shown) + by];
   if (row) show(row);
 }
 
@@ -204,9 +139,9 @@ body.addEventListener("click", (event) => {
   const row = event.target.closest("tr");
   if (row && (event.target.closest("button") || getSelection().isCollapsed)) show(row);
 });
-find("previous").addEventListener("click", () => go(-1));
-find("next").addEventListener("click", () => go(1));
-find("close").addEventListener("click", () => find("show").close());
+find("previous").addEventListener("click", keys.ArrowUp);
+find("next").addEventListener("click", keys.ArrowDown);
+find("close").addEventListener("click", keys.Escape);
 find("show").addEventListener("keydown", (event) => {
   if (event.key === "Escape" || !(event.key in keys) || event.target.closest("pre")) return;
   event.preventDefault();
@@ -224,6 +159,5 @@ find("show").addEventListener("close", () => {
   shown = null;
 });
 
-const linked = body.querySelector(`tr[data-match="${/^#match-(\d+)$/.exec(location.hash)?.[1]}"]`);
+const linked = [...body.rows].find((row) => `#match-${numberOf(row)}` === location.hash);
 if (linked) show(linked);
-})();

@@ -10,29 +10,17 @@ import pygame
 from mars2d.core.errors import Mars2dError
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.help import cap_width, draw_cap
-from mars2d.window.widgets.keys import chord
+from mars2d.window.widgets.actions import Action, label_of
+from mars2d.window.widgets.help import cap_width, draw_cap, draw_veil
 from mars2d.window.widgets.text_field import TextField
 
 
-class Button(NamedTuple):
-    """A button of the header.
-
-    first: whether it is emphasized. works: whether it does anything now.
-    """
-
-    action: str
-    words: str
-    first: bool = False
-    works: bool = True
-
-
 class Header:
-    """A bar with the title, and buttons at the right."""
+    """A bar with the title, and buttons of actions at the right; those that are lit stand out."""
 
-    def __init__(self, painter: Painter) -> None:
+    def __init__(self, painter: Painter, actions: Sequence[Action]) -> None:
         """Start with nothing drawn."""
-        self._painter = painter
+        self._painter, self._actions = painter, actions
         self._places: list[tuple[str, pygame.Rect]] = []
 
     def at(self, pixel: tuple[int, int]) -> str | None:
@@ -45,7 +33,6 @@ class Header:
         bar: pygame.Rect,
         title: str,
         note: str,
-        buttons: Sequence[Button],
         pointer: tuple[int, int],
     ) -> None:
         """Draw the header; note: muted text after the title."""
@@ -54,28 +41,26 @@ class Header:
         surface.fill(theme.bar, bar)
         surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
         right, self._places = bar.right - pad, []
-        for name, words, first, works in reversed(buttons):
+        for action in reversed(self._actions):
+            first, works = action.lit, action.works
             color = theme.running.ink if first else theme.text if works else theme.key_edge
-            text = fonts.render(words, 15 * ui, color, bold=first)
-            place = pygame.Rect(0, 0, text.get_width() + round(22 * ui), round(32 * ui))
+            wide = fonts.width(action.title, 15 * ui, bold=first) + 22 * ui
+            place = pygame.Rect(0, 0, round(wide), round(32 * ui))
             place.midright = (right, bar.centery)
             hover = place.collidepoint(pointer)
             fill = theme.running.pale if first or (hover and works) else theme.key
             edge = theme.selected if hover and works else theme.key_edge
             painter.panel(surface, place, fill, 7 * ui, edge)
-            surface.blit(text, text.get_rect(center=place.center))
-            self._places.append((name, place))
+            painter.write(surface, action.title, 15 * ui, color, bold=first, center=place.center)
+            self._places.append((action.name, place))
             right = place.left - round(8 * ui)
-        quiet = fonts.render(note, 14 * ui, theme.muted)
-        room = right - 2 * pad - quiet.get_width() - round(12 * ui)
-        image = fonts.render(
-            fonts.shorten(title, 20 * ui, room, bold=True), 20 * ui, theme.ink, bold=True
-        )
-        place = image.get_rect(midleft=(pad, bar.centery))
-        surface.blit(image, place)
-        beside = (place.right + round(12 * ui), bar.centery + round(2 * ui))
+        room = right - 2 * pad - fonts.width(note, 14 * ui) - 12 * ui
+        title = fonts.shorten(title, 20 * ui, room, bold=True)
+        at = (bar.left + pad, bar.centery)
+        place = painter.write(surface, title, 20 * ui, theme.ink, bold=True, midleft=at)
         if room > 0:
-            surface.blit(quiet, quiet.get_rect(midleft=beside))
+            beside = (place.right + 12 * ui, bar.centery + 2 * ui)
+            painter.write(surface, note, 14 * ui, theme.muted, midleft=beside)
 
 
 def draw_footer(
@@ -92,28 +77,27 @@ def draw_footer(
     tone = {"error": theme.error, "note": theme.running}.get(kind)
     surface.fill(theme.bar if tone is None else tone.pale, bar)
     surface.fill(theme.edge, (bar.left, bar.top, bar.width, 1))
-    place = fonts.render(right, 14 * ui, theme.text)
-    surface.blit(place, place.get_rect(midright=(bar.right - pad, bar.centery)))
-    room = bar.width - 3 * pad - place.get_width()
+    end = (bar.right - pad, bar.centery)
+    room = (
+        painter.write(surface, right, 14 * ui, theme.text, midright=end).left - bar.left - 2 * pad
+    )
     size, ink, bold = (14 * ui, theme.muted, False) if tone is None else (16 * ui, tone.ink, True)
     if tone is not None and fonts.width(text, size, bold=True) > room:
         size = 13 * ui  # two lines of it
     lines = fonts.wrap(text, size, room, 1 if tone is None else 2, bold=bold)
     y = bar.centery - 0.65 * size * (len(lines) - 1)
     for line in lines:
-        words = fonts.render(line, size, ink, bold=bold)
-        surface.blit(words, words.get_rect(midleft=(bar.left + pad, round(y))))
+        painter.write(surface, line, size, ink, bold=bold, midleft=(bar.left + pad, y))
         y += 1.3 * size
 
 
 class Answer(NamedTuple):
-    """A way to answer a prompt: a key, by the name that `chord` gives it, or its button.
+    """A way to answer a prompt: a key, by its label, or its button.
 
-    label: of the key. act: takes the text that was typed; if it raises Mars2dError, the error is
-    shown and the prompt stays open.
+    act: takes the text that was typed; if it raises Mars2dError, the error is shown and the prompt
+    stays open.
     """
 
-    key: str
     label: str
     words: str
     act: Callable[[str], None]
@@ -137,7 +121,7 @@ class Prompt:
         """Open the prompt; escape: what Esc does, in words."""
         self.label, self.field, self.doc = label, field, doc
         self.error, self.open = "", True
-        self._answers = [*answers, Answer("escape", "Esc", escape, lambda _: None)]
+        self._answers = [*answers, Answer("Esc", escape, lambda _: None)]
         self.places: dict[str, pygame.Rect] = {}
 
     def handle(self, event: pygame.Event) -> None:
@@ -156,8 +140,8 @@ class Prompt:
     def _answered(self, event: pygame.Event) -> Answer | None:
         """Return the answer of a key or a button, if an event is one."""
         if event.type == pygame.KEYDOWN:
-            name = chord(event.key, event.mod).replace("enter", "return")
-            return next((each for each in self._answers if each.key == name), None)
+            pressed = label_of(event)
+            return next((each for each in self._answers if each.label == pressed), None)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             places = self.places
             hit = (a for a in self._answers if places[a.words].collidepoint(event.pos))
@@ -170,29 +154,25 @@ class Prompt:
         pad, row = round(20 * ui), round(40 * ui)
         plate = pygame.Rect(0, 0, surface.get_width(), (3 if self.error else 2) * row)
         plate.bottom = layout.footer.bottom
-        veil = pygame.Surface((plate.width, plate.top), 0, 32)
-        veil.fill(theme.veil)
-        veil.set_alpha(150 if theme.dark else 70)
-        surface.blit(veil, (0, 0))
+        draw_veil(surface, painter, pygame.Rect(0, 0, plate.width, plate.top))
         surface.fill(theme.waiting.pale, plate)
         surface.fill(theme.waiting.ink, (plate.left, plate.top, plate.width, max(1, round(2 * ui))))
         if self.error:
             above = pygame.Rect(plate.topleft, (plate.width, row))
             surface.fill(theme.error.pale, above)
             short = fonts.shorten(self.error, 15 * ui, plate.width - 2 * pad, bold=True)
-            words = fonts.render(short, 15 * ui, theme.error.ink, bold=True)
-            surface.blit(words, words.get_rect(midleft=(pad, above.centery)))
-        label = fonts.render(self.label, 16 * ui, theme.waiting.ink, bold=True)
-        middle = plate.bottom - row - row // 2
-        place = surface.blit(label, label.get_rect(midleft=(pad, middle)))
+            at = (pad, above.centery)
+            painter.write(surface, short, 15 * ui, theme.error.ink, bold=True, midleft=at)
+        middle, ink = plate.bottom - row - row // 2, theme.waiting.ink
+        place = painter.write(surface, self.label, 16 * ui, ink, bold=True, midleft=(pad, middle))
         if self.field is not None:
             box = pygame.Rect(place.right + pad // 2, 0, 0, round(30 * ui))
             box.width, box.centery = max(plate.right - pad - box.left, row), middle
             painter.panel(surface, box, theme.paper, 5 * ui, theme.selected)
             self.field.draw(surface, box.inflate(-round(18 * ui), 0), painter, 16 * ui)
         right = self._draw_buttons(surface, plate.right - pad, plate.bottom - row // 2, painter)
-        doc = fonts.render(fonts.shorten(self.doc, 14 * ui, right - 2 * pad), 14 * ui, theme.text)
-        surface.blit(doc, doc.get_rect(midleft=(pad, plate.bottom - row // 2)))
+        doc, at = fonts.shorten(self.doc, 14 * ui, right - 2 * pad), (pad, plate.bottom - row // 2)
+        painter.write(surface, doc, 14 * ui, theme.text, midleft=at)
 
     def _draw_buttons(
         self, surface: pygame.Surface, right: int, middle: int, painter: Painter
@@ -200,43 +180,16 @@ class Prompt:
         """Draw the answers with their keys, up to a pixel at the right; return where they begin."""
         ui, fonts, theme = painter.ui, painter.fonts, painter.theme
         self.places = {}
-        for _, label, words, _ in reversed(self._answers):
-            image = fonts.render(words, 14 * ui, theme.ink)
+        for label, words, _ in reversed(self._answers):
             caps = sum(cap_width(fonts, each, ui) for each in label.split())
-            place = pygame.Rect(0, 0, image.get_width() + caps + round(16 * ui), round(34 * ui))
+            wide = fonts.width(words, 14 * ui) + caps + 16 * ui
+            place = pygame.Rect(0, 0, round(wide), round(34 * ui))
             place.midright = right, middle
             painter.panel(surface, place, theme.plate, 6 * ui, theme.key_edge)
             x = place.left + round(5 * ui)
             for each in label.split():
                 x = draw_cap(surface, painter, each, x, middle, ui)
-            surface.blit(image, image.get_rect(midleft=(x + round(2 * ui), middle)))
+            painter.write(surface, words, 14 * ui, theme.ink, midleft=(x + 2 * ui, middle))
             self.places[words] = place
             right = place.left - round(8 * ui)
         return right
-
-
-def draw_plate(
-    surface: pygame.Surface,
-    painter: Painter,
-    lines: Sequence[str],
-    bounds: pygame.Rect,
-    **place: tuple[int, int],
-) -> None:
-    """Draw lines of text on a plate, the first line bold if there are several.
-
-    place: the plate's position, as for ``get_rect``; it stays within bounds.
-    """
-    theme, ui, fonts = painter.theme, painter.ui, painter.fonts
-    images = [
-        fonts.render(line, 15 * ui, theme.ink, bold=i == 0 and len(lines) > 1)
-        for i, line in enumerate(lines)
-    ]
-    width, step = max(image.get_width() for image in images), round(21 * ui)
-    plate = pygame.Rect(0, 0, width + round(22 * ui), step * len(images) + round(12 * ui))
-    for name, value in place.items():
-        setattr(plate, name, value)
-    plate.clamp_ip(bounds)
-    painter.panel(surface, plate, theme.plate, 6 * ui, theme.key_edge)
-    for i, image in enumerate(images):
-        at = plate.left + round(11 * ui), plate.top + round(6 * ui) + step * i + step // 2
-        surface.blit(image, image.get_rect(midleft=at))

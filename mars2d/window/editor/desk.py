@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from math import floor, hypot, log10
 
 from mars2d.core.errors import InputError
@@ -83,21 +83,6 @@ class History:
         self._saved = None
 
 
-class Gesture:
-    """The base of drags; corner: the index of the corner that it moves, if it moves one."""
-
-    corner: int | None = None
-
-    def to(self, point: Point, *, shift: bool) -> Draft:
-        """Return the draft with the pointer dragged to a point [m]."""
-        raise NotImplementedError
-
-    @property
-    def remark(self) -> str:
-        """A measure to show beside the pointer, for example ``1.50 m   90°``."""
-        return ""
-
-
 class Desk:
     """The draft with everything that tools need.
 
@@ -130,21 +115,23 @@ class Desk:
         self.history.put(draft, tag)
         self._forget()
 
-    def hold(self, draft: Draft) -> None:
-        """Show a draft in the middle of a drag."""
-        self._held = draft
-
-    def drag(self, gesture: Gesture, point: Point, *, shift: bool) -> None:
-        """Show the draft with a drag; an InputError is shown, and the drag stays as it was."""
+    def hold(self, to: Callable[[Point, bool], Draft], point: Point, *, shift: bool) -> None:
+        """Show the draft of a drag to a point; an InputError is shown, and it stays as it was."""
         try:
-            self.hold(gesture.to(point, shift=shift))
+            self._held = to(point, shift)
         except InputError as error:
             self.say(str(error), warns=True)
 
     def settle(self) -> None:
         """Continue with the draft of the drag."""
         if self._held is not None:
-            self.put(self._held)
+            self.put_new(self._held)
+
+    def put_new(self, draft: Draft) -> None:
+        """Continue with a draft, and select its new items."""
+        before = self.history.draft
+        self.put(draft)
+        self._show(before)
 
     def drop(self) -> bool:
         """Drop the draft of the drag; return whether there was one."""
@@ -189,7 +176,9 @@ class Desk:
     def _show(self, before: Draft) -> None:
         """Select the items that a draft before did not have, if there are such."""
         self._forget()
-        self.select(self.draft.new_since(before) or self.selection)
+        new = self.draft.new_since(before)
+        if not set(new) <= set(self.selection):
+            self.select(new)
 
     def say(self, text: str, *, warns: bool = False) -> None:
         """Show a text in the footer, until the next action."""
@@ -212,16 +201,14 @@ class Desk:
             return
         left = (*corners[: self.corner], *corners[self.corner + 1 :])
         self.corner = None
-        self.put(self.draft.with_corners(item, left))
+        self.put(self.draft.with_value(item, left))
 
     def duplicate(self) -> None:
         """Put a copy beside the selection, and select the copy."""
         items = [item for item in self.selection if item.kind != "workspace"]
         if items:
             aside = Motion(by=(2 * self.step, -2 * self.step))
-            draft, copies = self.draft.copied(items, aside)
-            self.put(draft)
-            self.select(copies)
+            self.put_new(self.draft.copied(items, aside))
 
     def nudge(self, dx: int, dy: int, *, fine: bool) -> None:
         """Move the last touched corner, or else the selection, by steps of the grid.
@@ -233,7 +220,7 @@ class Desk:
         if self.corner is not None and self.only is not None:
             corners = list(self.draft.corners(self.only) or ())
             corners[self.corner] = moved.point(corners[self.corner])
-            self.put(self.draft.with_corners(self.only, corners), tag="nudge")
+            self.put(self.draft.with_value(self.only, tuple(corners)), tag="nudge")
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
 

@@ -76,7 +76,7 @@ class Dialogs:
         if self._document.path is None:
             self.prompt = Prompt(
                 "Save as",
-                Answer("return", "Enter", "save", lambda text: self._save_as(text, then)),
+                Answer("Enter", "save", lambda text: self._save_as(text, then)),
                 field=TextField(self._document.proposal, opened_by_key=True),
             )
         elif self._document.new:
@@ -91,7 +91,7 @@ class Dialogs:
             return
         self.prompt = Prompt(
             f"{path} is there already.",
-            Answer("return", "Enter", "overwrite it", lambda _: self._write(path, then)),
+            Answer("Enter", "overwrite it", lambda _: self._write(path, then)),
         )
 
     def _write(self, path: Path, then: Callable[[], None] | None = None) -> None:
@@ -151,14 +151,13 @@ class Dialogs:
         if not self._desk.history.changed:
             self._discard()
             return
-        discard = Answer("backspace", "Backspace", "discard", lambda _: self._discard())
+        discard = Answer("Backspace", "discard", lambda _: self._discard())
         if self._live:
-            now = Answer("return", "Enter", "from now", lambda _: self.apply("now"))
-            start = "shift+return", "Shift Enter", "from the start"
-            anew = Answer(*start, lambda _: self.apply("start"))
+            now = Answer("Enter", "from now", lambda _: self.apply("now"))
+            anew = Answer("Shift Enter", "from the start", lambda _: self.apply("start"))
             self.prompt = Prompt("Use what was drawn?", now, anew, discard, escape="stay")
         else:
-            save = Answer("return", "Enter", "save", lambda _: self.save(then=self._discard))
+            save = Answer("Enter", "save", lambda _: self.save(then=self._discard))
             self.prompt = Prompt("Not saved yet.", save, discard, escape="stay")
 
     def _discard(self) -> None:

@@ -16,13 +16,16 @@ from mars2d.addons.beacon import Beacon
 from mars2d.addons.map import Map
 from mars2d.addons.waypoints import Waypoints
 from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.joints.hinge import Hinge
 from mars2d.bodies.props.base import Prop
-from mars2d.bodies.rigid import Rigid
+from mars2d.bodies.rigid import Rigid, Triple
 from mars2d.core import checks
 from mars2d.core.description import snake_case
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, bounds_of
 from mars2d.record.frame import Frame
+from mars2d.scenario.controllers import FollowRobot
+from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.item import FIELDS, Item, Kind, Motion
@@ -39,7 +42,8 @@ class Draft:
     """The items of a scenario; `base` is the scenario that holds everything else.
 
     Each item is valid by itself, except outlines, which may cross themselves while they are drawn.
-    outlines, walls: those of the first Map. routes: the waypoints, one list per robot.
+    outlines, walls: those of the first Map. routes: the waypoints, one list per robot. starts:
+    which bodies start at random.
     """
 
     base: Scenario
@@ -50,6 +54,7 @@ class Draft:
     walls: tuple[Outline, ...]
     routes: tuple[Outline, ...]
     beacons: tuple[Beacon, ...]
+    starts: tuple[RandomStarts, ...]
     workspace: Outline | None
 
     @classmethod
@@ -66,13 +71,15 @@ class Draft:
             walls=() if chart is None else tuple(chart.walls),
             routes=(*drawn, *[()] * (len(scenario.robots) - len(drawn))),
             beacons=tuple(_all(Beacon, scenario.addons)),
+            starts=tuple(scenario.random_starts),
             workspace=scenario.workspace,
         )
 
     @classmethod
     def empty(cls, scenario: Scenario) -> Self:
         """Return the draft of a scenario without its robots; no scenario can be empty."""
-        return replace(cls.of(scenario), robots=(), routes=())
+        draft = cls.of(scenario)
+        return draft.without([item for item in draft.items() if item.kind == "robot"])
 
     # -- as a scenario --------------------------------------------------------------------------
 
@@ -81,7 +88,8 @@ class Draft:
         return self.base.replace(
             robots=self.robots,
             props=self.props,
-            joints=self._joints(),
+            joints=self.joints,
+            random_starts=self.starts,
             workspace=self.workspace,
             addons=self._addons(self.outlines, self.base.addons),
         )
@@ -103,7 +111,7 @@ class Draft:
         drawn.__dict__.update(
             robots=self.robots,
             props=self.props,
-            joints=self._joints(),
+            joints=self.joints,
             workspace=self.workspace,
             addons=tuple(self._addons(sound, addons)),
             animation=animation,
@@ -111,14 +119,6 @@ class Draft:
         if self.workspace is None and not (self.robots or self.props or drawn.obstacles):
             drawn.__dict__["workspace"] = BLANK
         return drawn
-
-    def _names(self) -> set[str | None]:
-        return {robot.name for robot in self.robots} | {prop.name for prop in self.props}
-
-    def _joints(self) -> tuple[Joint, ...]:
-        """Return the joints whose bodies still exist."""
-        names = self._names() | {None}
-        return tuple(joint for joint in self.joints if {joint.a, joint.b} <= names)
 
     def _addons(self, outlines: Sequence[Outline], addons: Sequence[Addon]) -> list[Addon]:
         """Return the base's add-ons, those that are drawn replaced by their present state."""
@@ -167,7 +167,7 @@ class Draft:
         known = {id(before.value(item)) for item in before.items()}
         return [item for item in self.items() if id(self.value(item)) not in known]
 
-    def value(self, item: Item) -> object:
+    def value(self, item: Item) -> Any:
         """Return what an item is: a robot, a prop, corners, a beacon, or a waypoint's point."""
         if item.kind == "workspace":
             return self.workspace
@@ -185,46 +185,46 @@ class Draft:
 
     def name(self, item: Item) -> str:
         """Return an item's name in words."""
-        if item.kind == "robot":
-            return str(self.robots[item.number].name)
-        if item.kind == "prop":
-            return str(self.props[item.number].name)
-        if item.kind == "beacon":
-            return self.beacons[item.number].key
         if item.kind == "waypoint":
             return f"waypoint {item.part} of {self.robots[item.number].name}"
         if item.kind == "workspace":
             return "the workspace"
-        return f"{'obstacle' if item.kind == 'outline' else 'wall'} {item.number}"
+        if item.kind in ("outline", "wall"):
+            return f"{'obstacle' if item.kind == 'outline' else 'wall'} {item.number}"
+        value = self.value(item)
+        return value.key if item.kind == "beacon" else str(value.name)
 
     def corners(self, item: Item) -> Outline | None:
         """Return the corners of an outline, a wall or the workspace; None for other items."""
-        if item.kind in ("outline", "wall", "workspace"):
-            return cast("Outline | None", self.value(item))
-        return None
+        value: Outline = self.value(item)
+        return value if item.kind in ("outline", "wall", "workspace") else None
 
-    def pose(self, item: Item) -> tuple[float, float, float] | None:
+    def pose(self, item: Item) -> Triple | None:
         """Return the pose of a robot or prop; None for other items."""
-        if item.kind == "robot":
-            return self.robots[item.number].pose
-        return self.props[item.number].pose if item.kind == "prop" else None
+        return self.value(item).pose if item.kind in ("robot", "prop") else None
 
     def body(self, item: Item) -> Rigid | None:
         """Return the body of a robot or prop; None for other items."""
-        if item.kind == "robot":
-            return self.robots[item.number].rigid
-        return self.props[item.number].rigid if item.kind == "prop" else None
+        return self.value(item).rigid if item.kind in ("robot", "prop") else None
 
     def place(self, item: Item) -> Point:
         """Return the point of an item that snaps to the grid."""
-        pose = self.pose(item)
-        if pose is not None:
-            return pose[:2]
+        value = self.value(item)
         if item.kind == "waypoint":
-            return self.routes[item.number][item.part]
+            return cast("Point", value)
         if item.kind == "beacon":
-            return self.beacons[item.number].position
-        return (self.corners(item) or ((0.0, 0.0),))[0]
+            return cast("Point", value.position)
+        pose = self.pose(item)
+        return (value or ((0.0, 0.0),))[0] if pose is None else pose[:2]
+
+    def starts_at_random(self, item: Item) -> bool:
+        """Return whether a robot or prop starts elsewhere in each run."""
+        return any(self.name(item) in names for _, names in self._lots())
+
+    def _lots(self) -> list[tuple[RandomStarts, Sequence[str]]]:
+        """Return the random starts with the names of their bodies."""
+        robots = [str(robot.name) for robot in self.robots]
+        return [(each, each.bodies or robots) for each in self.starts]
 
     def bounds(self, items: Collection[Item]) -> tuple[float, float, float, float]:
         """Return (xmin, xmax, ymin, ymax) of items, metres."""
@@ -241,11 +241,12 @@ class Draft:
     # -- changes --------------------------------------------------------------------------------
 
     def moved(self, items: Collection[Item], motion: Motion) -> Self:
-        """Return the draft with items moved."""
+        """Return the draft with items moved. Bodies that started at random start there now."""
         draft = self
         for item in items:
-            draft = draft._with(item, draft._moved_one(item, motion))
-        return draft
+            draft = draft.with_value(item, draft._moved_one(item, motion))
+        names = {self.name(item) for item in items if item.kind in ("robot", "prop")}
+        return draft._fixed(names)._pinned(names)
 
     def _moved_one(self, item: Item, motion: Motion) -> object:
         if item.kind == "waypoint":
@@ -258,44 +259,75 @@ class Draft:
         corners = self.corners(item)
         if corners is not None:
             return tuple(motion.point(corner) for corner in corners)
-        body = self.member(item)
+        body = self.value(item)
         return body.replace(pose=motion.pose(body.pose))
 
-    def with_corners(self, item: Item, corners: Outline) -> Self:
-        """Return the draft with other corners of an outline, a wall or the workspace."""
-        return self._with(item, tuple(corners))
+    def _fixed(self, names: Collection[str]) -> Self:
+        """Return the draft with bodies that no longer start at random."""
+        left = [(each, [name for name in all_ if name not in names]) for each, all_ in self._lots()]
+        starts = tuple(each.replace(bodies=bodies) for each, bodies in left if bodies)
+        return self if self._lots() == left else replace(self, starts=starts)
 
-    def with_prop(self, index: int, prop: Prop) -> Self:
-        """Return the draft with one prop replaced."""
-        return self._with(Item("prop", index), prop)
+    def _pinned(self, names: Collection[str]) -> Self:
+        """Return the draft with the pins of hinges where those of some bodies that moved are."""
+        bodies: dict[str | None, Rigid] = {part.name: part.rigid for part in self._members()}
 
-    def member(self, item: Item) -> Robot | Prop:
-        """Return a robot or prop."""
-        return self.robots[item.number] if item.kind == "robot" else self.props[item.number]
+        def pinned(joint: Joint) -> Joint:
+            if not isinstance(joint, Hinge) or (joint.a in names) is (joint.b in names):
+                return joint
+            ends = [("a", joint.a), ("b", joint.b)]
+            (end, held), (other, beside) = ends if joint.a in names else ends[::-1]
+            pin = bodies[held].to_world(getattr(joint, f"anchor_{end}"))
+            return joint.replace(**{f"anchor_{other}": seen_from(bodies.get(beside), pin)})
+
+        return replace(self, joints=tuple(map(pinned, self.joints)))
+
+    def _members(self) -> tuple[Robot | Prop, ...]:
+        return (*self.robots, *self.props)
 
     def with_members(self, items: Collection[Item], change: Callable[[Any], Robot | Prop]) -> Self:
         """Return the draft with robots or props changed, each by a function of itself."""
         draft = self
         for item in items:
-            draft = draft._with(item, change(draft.member(item)))
-        return draft
+            draft = draft.with_value(item, change(draft.value(item)))
+        return draft._pinned({self.name(item) for item in items})
+
+    def renamed(self, item: Item, name: str) -> Self:
+        """Return the draft with another name of a robot or prop, wherever it is mentioned."""
+        old = self.name(item)
+        if name in {part.name for part in self._members()} - {old}:
+            raise InputError(f"{name!r} is the name of another body")
+
+        def new(known: Any) -> Any:
+            return name if known == old else known
+
+        joints = [joint.replace(a=new(joint.a), b=new(joint.b)) for joint in self.joints]
+        robots = [
+            robot.replace(controller=law.replace(leader=new(law.leader)))
+            if isinstance(law := robot.controller, FollowRobot)
+            else robot
+            for robot in self.robots
+        ]
+        starts = (each.replace(bodies=[*map(new, each.bodies)]) for each in self.starts)
+        draft = replace(self, robots=tuple(robots), joints=tuple(joints), starts=tuple(starts))
+        return draft.with_members([item], lambda part: part.replace(name=name))
 
     def joints_of(self, item: Item) -> tuple[Joint, ...]:
         """Return the joints that hold a robot or prop."""
-        name = self.member(item).name
-        return tuple(joint for joint in self._joints() if name in (joint.a, joint.b))
+        name = self.name(item)
+        return tuple(joint for joint in self.joints if name in (joint.a, joint.b))
 
-    def with_joint(self, joint: Joint, instead: Joint | None = None) -> Self:
-        """Return the draft with one more joint, or with one in place of another."""
+    def with_joint(self, joint: Joint | None, instead: Joint | None = None) -> Self:
+        """Return the draft with one more joint, or with one in place of another; None: without."""
+        new = () if joint is None else (joint,)
         if instead is None:
-            return replace(self, joints=(*self.joints, joint))
-        return replace(self, joints=tuple(joint if j is instead else j for j in self.joints))
+            draft = replace(self, joints=(*self.joints, *new))
+            return draft._fixed({name for each in new for name in (each.a, each.b) if name})
+        kept = [new if each is instead else (each,) for each in self.joints]
+        return replace(self, joints=tuple(joint for some in kept for joint in some))
 
-    def without_joint(self, joint: Joint) -> Self:
-        """Return the draft without a joint."""
-        return replace(self, joints=tuple(each for each in self.joints if each is not joint))
-
-    def _with(self, item: Item, value: Any) -> Self:
+    def with_value(self, item: Item, value: Any) -> Self:
+        """Return the draft with another robot, prop, beacon, point or outline for an item."""
         if item.kind == "workspace":
             return replace(self, workspace=value)
         field = FIELDS[item.kind]
@@ -308,42 +340,31 @@ class Draft:
         changes: dict[str, Any] = {field: tuple(listed)}
         return replace(self, **changes)
 
-    def with_robot(self, robot: Robot) -> tuple[Self, Item]:
-        """Return the draft with one more robot, which gets a new name, and its item."""
-        named = robot.replace(name=self.free_name("robot"))
-        draft = replace(self, robots=(*self.robots, named), routes=(*self.routes, ()))
-        return draft, Item("robot", len(self.robots))
+    def added(self, kind: Kind, value: Any, robot: int = 0) -> Self:
+        """Return the draft with one more item. Bodies and beacons get new names.
 
-    def with_new_prop(self, prop: Prop) -> tuple[Self, Item]:
-        """Return the draft with one more prop, which gets a new name, and its item."""
-        named = prop.replace(name=self.free_name(snake_case(type(prop).__name__)))
-        return replace(self, props=(*self.props, named)), Item("prop", len(self.props))
+        robot: whose waypoint it is, at the end of its route.
+        """
+        if kind == "waypoint":
+            route = (*self.routes[robot], value)
+            return replace(self, routes=(*self.routes[:robot], route, *self.routes[robot + 1 :]))
+        if kind in ("robot", "prop", "beacon"):
+            value = value.replace(name=self._free_name(snake_case(type(value).__name__)))
+        changes: dict[str, Any] = {FIELDS[kind]: (*getattr(self, FIELDS[kind]), value)}
+        if kind == "robot":
+            changes["routes"] = (*self.routes, ())
+        return replace(self, **changes)
 
-    def with_outline(self, corners: Outline) -> tuple[Self, Item]:
-        """Return the draft with one more solid obstacle, and its item."""
-        outlines = (*self.outlines, tuple(corners))
-        return replace(self, outlines=outlines), Item("outline", len(self.outlines))
-
-    def with_wall(self, corners: Outline) -> tuple[Self, Item]:
-        """Return the draft with one more wall of two or more corners, and its item."""
-        return replace(self, walls=(*self.walls, tuple(corners))), Item("wall", len(self.walls))
-
-    def with_waypoint(self, robot: int, point: Point) -> tuple[Self, Item]:
-        """Return the draft with one more waypoint at the end of a robot's route, and its item."""
-        route = self.routes[robot]
-        routes = (*self.routes[:robot], (*route, point), *self.routes[robot + 1 :])
-        return replace(self, routes=routes), Item("waypoint", robot, len(route))
-
-    def with_beacon(self, beacon: Beacon) -> tuple[Self, Item]:
-        """Return the draft with one more beacon, which gets a new name, and its item."""
-        taken = {addon.key for addon in (*self.base.addons, *self.beacons)}
-        names = ("beacon" if k == 0 else f"beacon{k}" for k in count())
-        named = beacon.replace(name=next(name for name in names if name not in taken))
-        return replace(self, beacons=(*self.beacons, named)), Item("beacon", len(self.beacons))
+    def _free_name(self, kind: str) -> str:
+        """Return the first name of a kind that nothing has, for example ``robot2``."""
+        taken = {part.name for part in self._members()}
+        taken |= {addon.key for addon in (*self.base.addons, *self.beacons)}
+        return next(name for name in map(f"{kind}{{}}".format, count()) if name not in taken)
 
     def without(self, items: Collection[Item]) -> Self:
-        """Return the draft without items; a robot's route goes with it."""
+        """Return the draft without items; with a body go its route and its joints."""
         gone = set(items)
+        names = {self.name(item) for item in gone if item.kind in ("robot", "prop")}
 
         def left(kind: Kind) -> tuple[Any, ...]:
             listed = enumerate(getattr(self, FIELDS[kind]))
@@ -357,29 +378,24 @@ class Draft:
         plain: tuple[Kind, ...] = ("robot", "prop", "outline", "wall", "beacon")
         kept: dict[str, Any] = {FIELDS[kind]: left(kind) for kind in plain}
         workspace = None if Item("workspace") in gone else self.workspace
-        return replace(self, workspace=workspace, routes=routes, **kept)
+        joints = tuple(joint for joint in self.joints if names.isdisjoint((joint.a, joint.b)))
+        draft = self._fixed(names)
+        return replace(draft, workspace=workspace, routes=routes, joints=joints, **kept)
 
-    def copied(self, items: Collection[Item], motion: Motion) -> tuple[Self, list[Item]]:
-        """Return the draft with moved copies of items, and the copies."""
-        draft, copies = self, []
+    def copied(self, items: Collection[Item], motion: Motion) -> Self:
+        """Return the draft with moved copies of items, tied to each other as these are."""
+        draft, names = self, dict[str | None, str | None]({None: None})
         for item in sorted(items):
-            value: Any = draft._moved_one(item, motion)
-            if item.kind == "waypoint":
-                draft, new = draft.with_waypoint(item.number, value)
-            else:
-                adders: dict[str, Callable[[Any], tuple[Self, Item]]] = {
-                    "robot": draft.with_robot, "prop": draft.with_new_prop,
-                    "outline": draft.with_outline, "wall": draft.with_wall,
-                    "beacon": draft.with_beacon,
-                }  # fmt: skip
-                draft, new = adders[item.kind](value)
-            copies.append(new)
-        return draft, copies
-
-    def free_name(self, kind: str) -> str:
-        """Return the first name of a kind that no body has, for example ``robot2``."""
-        taken = self._names()
-        return next(name for name in map(f"{kind}{{}}".format, count()) if name not in taken)
+            draft = draft.added(item.kind, draft._moved_one(item, motion), item.number)
+            if item.kind in ("robot", "prop"):
+                copies = draft.robots if item.kind == "robot" else draft.props
+                names[self.name(item)] = copies[-1].name
+        for joint in self.joints:
+            if joint.a in names and joint.b in names:
+                at = motion.point(joint.anchor_b) if joint.b is None else joint.anchor_b
+                copy_ = joint.replace(a=names[joint.a], b=names[joint.b], anchor_b=at)
+                draft = draft.with_joint(copy_)
+        return draft
 
     def frame(self, sketch: Scenario | None = None) -> Frame:
         """Return the instant before the start; sketch: the scenario to draw, by default its own."""
@@ -404,6 +420,15 @@ def flaw(outline: Outline, name: str = "it") -> str | None:
     except InputError as error:
         return str(error)
     return None
+
+
+def seen_from(body: Rigid | None, point: Point) -> Point:
+    """Return where a point of the world lies in a body's frame; None: in that of the world."""
+    if body is None:
+        return point
+    x, y, theta = body.pose
+    back = Motion(-theta, (x, y), (-x, -y))
+    return back.point(point)
 
 
 def _all(kind: type[Any] | tuple[type[Any], ...], addons: Sequence[Addon]) -> list[Any]:

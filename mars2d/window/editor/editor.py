@@ -19,51 +19,42 @@ from mars2d.output.layers.table import Layers
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
 from mars2d.scenario.scenario import Scenario
+from mars2d.window.editor.actions import TOOLS, actions_of
 from mars2d.window.editor.chrome import (
     Answer,
-    Button,
     Header,
     Prompt,
     draw_footer,
-    draw_plate,
 )
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
-from mars2d.window.editor.keys import action_of, groups
-from mars2d.window.editor.outlining import DrawPolygon, DrawRectangle, DrawWall, Workspace
 from mars2d.window.editor.panel import Panel
-from mars2d.window.editor.placing import PlaceBall, PlaceBeacon, PlaceBox, PlaceRobot, PlaceWaypoint
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Select
 from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_idle, draw_selected
 from mars2d.window.editor.tool import Tool
-from mars2d.window.editor.toolbar import WIDTH, tool_buttons
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.widgets.actions import action_of, label_of
+from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
-from mars2d.window.widgets.keys import chord
 from mars2d.window.widgets.menu import Menu
+from mars2d.window.widgets.slider import draw_tooltip
 from mars2d.window.widgets.text_field import TextField
 
-TOOLS: dict[str, type[Tool]] = {
-    "select": Select,
-    "robot": PlaceRobot,
-    "box": PlaceBox,
-    "ball": PlaceBall,
-    "wall": DrawWall,
-    "polygon": DrawPolygon,
-    "rectangle": DrawRectangle,
-    "waypoint": PlaceWaypoint,
-    "beacon": PlaceBeacon,
-    "workspace": Workspace,
-}
-NUDGES = {"left": (-1, 0), "right": (1, 0), "up": (0, 1), "down": (0, -1)}
+NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
+HEADER = ("undo", "redo", "start", "now", "save", "run")
+"""The actions with buttons in the header, where they are offered."""
+WIDTH, SIDE = 58.0, 46.0
+"""The widths of the toolbar and of its buttons, points."""
+STEP = 16.0
+"""The height of the line below them, with the step of the grid, points."""
 ASKED = frozenset({
     pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING, pygame.MOUSEBUTTONDOWN,
     pygame.MOUSEWHEEL,
@@ -111,38 +102,22 @@ class Editor:
         )  # fmt: skip
         self.menu, self.panel = Menu(), Panel(painter)
         self.properties = Properties(
-            self.desk, self.dialogs, self.document, self.menu, self._choose, self._tie
+            self.desk, self.dialogs, self.document, self.menu, self.choose, self._tie
         )
         self._stage, self._sketch = Stage(painter), Sketch()
-        self._header = Header(painter)
         self._pointer = (-1, -1)
         self._dragging = self._panning = self._space = False
         self._held: set[int] = set()
         self._names = len(draft.robots) + len(draft.props) <= MAX_NAMED
         self._plain = False  # whether only the add-ons that can be edited are drawn
-        self.tool_name, self.tool = "select", TOOLS["select"](self.desk)
-        self._actions: dict[str, Callable[[], None]] = {
-            **{name: lambda name=name: self._choose(name) for name in TOOLS},  # type: ignore[misc]
-            "pose": self._ask_pose,
-            "delete": self.desk.remove,
-            "duplicate": self.desk.duplicate,
-            "all": self._select_all,
-            "undo": self._undo,
-            "redo": self.desk.redo,
-            "snap": self._toggle_snap,
-            "names": self._toggle_names,
-            "fit": lambda: self.viewpoint.fit(self.desk.draft.sketch),
-            "dark": looks.actions["dark"],
-            "text": looks.actions["text"],
-            "help": self.help.turn,
-            "escape": self._escape,
-            "leave": self.dialogs.leave,
-            "save": self.dialogs.save,
-            "run": self.dialogs.run,
-            "now": lambda: self.dialogs.apply("now"),
-            "start": lambda: self.dialogs.apply("start"),
-        }
-        self._toolbar = tool_buttons(self._actions, self._is_on)
+        self.tool_name = "select"
+        self.tool: Tool = Select(self.desk)
+        self.groups = actions_of(self)
+        self._actions = {action.name: action for group in self.groups.values() for action in group}
+        tools = [self.groups["Tools"], [self._actions["snap"]]]
+        self._toolbar = Buttons(tools, side=SIDE, lettered=True)
+        in_header = [self._actions[name] for name in HEADER if name in self._actions]
+        self._header = Header(painter, in_header)
 
     @property
     def title(self) -> str:
@@ -192,7 +167,6 @@ class Editor:
             return True
 
     def _press_key(self, event: pygame.Event) -> None:
-        name = chord(event.key, event.mod)
         if event.key == pygame.K_SPACE:
             self._space = True
             return
@@ -201,23 +175,23 @@ class Editor:
             return
         again = event.key in self._held
         self._held.add(event.key)
-        key = action_of(name, event.unicode, live=self.live)
-        if self._dragging or (again and not (key is not None and key.repeats)):
+        action = action_of(event, self._actions.values())
+        if self._dragging or (again and not (action is not None and action.repeats)):
             return
-        if key is None or key.action not in ("help", "escape"):
+        if action is None or action.name not in ("help", "escape"):
             self.help.close()
         if event.key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.tool.confirm():
             return
         if event.key == pygame.K_BACKSPACE and self.tool.back():
             return
-        if key is None:
+        if action is None:
             return
         self.desk.say("")
-        if key.action == "nudge":
-            dx, dy = NUDGES[pygame.key.name(event.key)]
+        if action.name == "nudge":
+            dx, dy = NUDGES[label_of(event).removeprefix("Shift ")]
             self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
-        else:
-            self._actions[key.action]()
+        elif action.act is not None:
+            action.act()
 
     def _press(self, event: pygame.Event) -> None:
         if self.help.is_open:
@@ -240,10 +214,10 @@ class Editor:
             self.tool.cancel()
 
     def _press_left(self, pixel: tuple[int, int]) -> None:
-        button = self._toolbar.at(pixel) or self._header.at(pixel)
-        if button is not None:
+        button = self._actions.get(self._toolbar.at(pixel) or self._header.at(pixel) or "")
+        if button is not None and button.act is not None:
             self.desk.say("")
-            self._actions[button]()
+            button.act()
         elif self.layout.plot.collidepoint(pixel):
             if self._space:
                 self._panning = True
@@ -284,9 +258,11 @@ class Editor:
 
     # -- tools and changes ----------------------------------------------------------------------
 
-    def _choose(self, name: str) -> None:
+    def choose(self, name: str) -> None:
+        """Take up a tool."""
         self.tool.cancel()
-        self.tool_name, self.tool = name, TOOLS[name](self.desk)
+        made = next(make for tool, _, make, _ in TOOLS if tool == name)
+        self.tool_name, self.tool = name, made(self.desk)
         if self.layout.plot.collidepoint(self._pointer):
             self.tool.pointer = self._world(self._pointer)
 
@@ -294,21 +270,23 @@ class Editor:
         """Let the person choose what items are tied to by a joint of a kind."""
         self.tool.cancel()
         self.tool_name = "tie"
-        self.tool = Tie(self.desk, kind, items, lambda: self._choose("select"))
+        self.tool = Tie(self.desk, kind, items, lambda: self.choose("select"))
 
-    def _select_all(self) -> None:
-        self._choose("select")
+    def select_all(self) -> None:
+        """Select all items."""
+        self.choose("select")
         self.desk.select(self.desk.draft.items())
 
     def _complete(self) -> None:
         """Finish the outline that is being drawn."""
         self.tool.confirm()
 
-    def _ask_pose(self) -> None:
+    def ask_pose(self) -> None:
+        """Ask where to put the selection, or a new item."""
         if not (self.desk.selection or self.tool.puts):
             self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
-        enter = Answer("return", "Enter", "apply", self._put)
+        enter = Answer("Enter", "apply", self._put)
         self.dialogs.prompt = Prompt(
             "x y [degrees] =", enter, field=TextField(opened_by_key=True), doc="such as 1.5 2 90"
         )
@@ -322,15 +300,17 @@ class Editor:
             raise InputError(f"{text!r}: expected x y in metres, or x y degrees") from None
         self.tool.put(x, y, None if angle is None else radians(angle))
 
-    def _undo(self) -> None:
+    def undo(self) -> None:
         """Remove the last corner of the outline being drawn, or else undo the last change."""
         if not self.tool.back():
             self.desk.undo()
 
-    def _toggle_snap(self) -> None:
+    def switch_grid(self) -> None:
+        """Let points snap to the grid, or not."""
         self.desk.snaps = not self.desk.snaps
 
-    def _toggle_names(self) -> None:
+    def switch_names(self) -> None:
+        """Show or hide names."""
         self._names = not self._names
 
     # -- the view -------------------------------------------------------------------------------
@@ -352,14 +332,14 @@ class Editor:
         if layout != self.layout:  # it does not follow the workspace while that is drawn
             self.viewpoint.arrange(layout, self.desk.draft.sketch)
 
-    def _escape(self) -> None:
+    def escape(self) -> None:
         """Close the help, leave the tool, select nothing, or go back to the paused run."""
         if self.help.is_open:
             self.help.close()
         elif self.tool.cancel():
             pass
         elif self.tool_name != "select":
-            self._choose("select")
+            self.choose("select")
             self.desk.select()
         elif self.desk.selection:
             self.desk.select()
@@ -380,7 +360,7 @@ class Editor:
         self._draw_tools(surface, side)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.properties.rows(), self._pointer)
-        self._header.draw(surface, bar, self.title, self._note(), self._buttons(), self._pointer)
+        self._header.draw(surface, bar, self.title, self._note(), self._pointer)
         if self.dialogs.prompt is None:
             self._draw_foot(surface)
         else:
@@ -388,20 +368,21 @@ class Editor:
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
-        self.help.draw(surface, self.layout, self.painter, groups(live=self.live))
+        self.help.draw(surface, self.layout, self.painter, self.groups.items())
 
     def _draw_tools(self, surface: pygame.Surface, side: pygame.Rect) -> None:
         """Draw the buttons of the tools, and the step of the grid below them."""
         painter, theme = self.painter, self.painter.theme
         surface.fill(theme.bar, side)
         surface.fill(theme.edge, (side.right - 1, side.top, 1, side.height))
-        self._toolbar.draw(surface, side, painter, self._pointer)
+        bar = pygame.Rect(side.topleft, (side.width, side.height - round(STEP * painter.ui)))
+        self._toolbar.draw(surface, bar, painter, self._pointer)
         place = self._toolbar.places["snap"]
         step = f"{self.desk.step:g} m" if self.desk.snaps else "free"
-        words = painter.fonts.render(step, 0.3 * place.width, theme.text)
-        surface.blit(words, words.get_rect(midtop=(place.centerx, place.bottom + 2)))
+        below = (place.centerx, place.bottom + 2)
+        painter.write(surface, step, 0.3 * place.width, theme.text, midtop=below)
 
-    def _is_on(self, action: str) -> bool:
+    def is_on(self, action: str) -> bool:
         """Return whether a tool is chosen, or the grid snaps."""
         return self.desk.snaps if action == "snap" else action == self.tool_name
 
@@ -430,7 +411,7 @@ class Editor:
         if remark:
             x, y = self._pointer
             gap = round(16 * self.layout.ui)
-            draw_plate(surface, self.painter, [remark], plot, topleft=(x + gap, y + gap))
+            draw_tooltip(surface, self.painter, remark, topleft=(x + gap, y + gap))
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         desk, bar = self.desk, self.layout.footer
@@ -454,15 +435,3 @@ class Editor:
         if self.desk.history.changed:
             return "not saved yet"
         return "new" if self.document.new else ""
-
-    def _buttons(self) -> list[Button]:
-        history = self.desk.history
-        common = [
-            Button("undo", "Undo", works=history.can_undo),
-            Button("redo", "Redo", works=history.can_redo),
-        ]
-        if self.live:
-            return [*common, Button("start", "From the start"), Button("now", "Go on", first=True)]
-        changed = history.changed
-        save = Button("save", "Save", first=changed)
-        return [*common, save, Button("run", "Run", first=not changed)]

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import cos, degrees, hypot, pi, radians, sin
+from math import copysign, cos, degrees, hypot, pi, radians, sin
 from typing import Literal
 
 from mars2d.bodies.props.base import Prop
+from mars2d.bodies.props.box import Box
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.core.scene import Scene
 from mars2d.output.raster.theme import LIGHT
-from mars2d.window.editor.desk import Desk, Gesture
+from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, Motion, angle_of, tidy
 from mars2d.window.editor.readout import size_of, stretch, turned
+from mars2d.window.editor.tool import Drag
 
 REACH = 9.0
 """The radius in which a handle is hit, points."""
@@ -104,7 +106,7 @@ def _dots(desk: Desk, item: Item, corners: Outline) -> list[tuple[int, Point]]:
 def size_corners(draft: Draft, item: Item) -> list[Point]:
     """Return a rectangular prop's corners, counter-clockwise from the right rear; else none."""
     body = draft.body(item)
-    if item.kind != "prop" or body is None or draft.props[item.number].side_lengths is None:
+    if item.kind != "prop" or body is None or draft.value(item).side_lengths is None:
         return []
     return [body.to_world(point) for point in body.shape.rims[0].points]
 
@@ -139,93 +141,60 @@ def draw_handles(desk: Desk, scene: Scene) -> None:
 # -- drags ------------------------------------------------------------------------------------
 
 
-class Moving(Gesture):
-    """Moves the selection; the item that was grabbed snaps to the grid."""
+def moving(desk: Desk, grabbed: Item, start: Point) -> Drag:
+    """Move the selection; the grabbed item's own point snaps to the grid."""
+    draft, items, (x, y) = desk.draft, desk.selection, desk.draft.place(grabbed)
 
-    def __init__(self, desk: Desk, grabbed: Item, start: Point) -> None:
-        """Begin where the button was pressed."""
-        self.desk, self.start = desk, start
-        self.draft, self.items = desk.draft, desk.selection
-        self.place = desk.draft.place(grabbed)
+    def to(point: Point, _: bool) -> Draft:
+        goal = desk.snapped((x + point[0] - start[0], y + point[1] - start[1]))
+        return draft.moved(items, Motion(by=(goal[0] - x, goal[1] - y)))
 
-    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
-        """Move the selection to the pointer."""
-        (x, y), (ax, ay) = self.place, self.start
-        goal = self.desk.snapped((x + point[0] - ax, y + point[1] - ay))
-        return self.draft.moved(self.items, Motion(by=(goal[0] - x, goal[1] - y)))
+    return Drag(to)
 
 
-class Turning(Gesture):
-    """Turns the selection about the middle of its ring, with Shift in notches."""
+def turning(desk: Desk, ring: Ring) -> Drag:
+    """Turn the selection about the middle of its ring, with Shift in notches."""
+    draft, items, only = desk.draft, desk.selection, desk.only
+    one = only is not None and draft.pose(only) is not None
+    zero = 0.0 if one else ring.heading  # from where notches are counted
 
-    def __init__(self, desk: Desk, ring: Ring) -> None:
-        """Begin with the handle where it is."""
-        self.desk, self.ring = desk, ring
-        self.draft, self.items = desk.draft, desk.selection
-        pose = None if desk.only is None else desk.draft.pose(desk.only)
-        self.zero = ring.heading if pose is None else 0.0  # from where notches are counted
+    def to(point: Point, shift: bool) -> Draft:
+        step = NOTCH if shift else 1.0 if desk.snaps else 0.1
+        wanted = degrees(angle_of(ring.center, point) - zero)
+        angle = radians(round(wanted / step) * step) - (ring.heading - zero)
+        return draft.moved(items, Motion(angle, ring.center)) if abs(angle) > 1e-12 else draft
 
-    def to(self, point: Point, *, shift: bool) -> Draft:
-        """Turn the handle towards the pointer."""
-        step = NOTCH if shift else 1.0 if self.desk.snaps else 0.1
-        wanted = degrees(angle_of(self.ring.center, point) - self.zero)
-        angle = radians(round(wanted / step) * step) - (self.ring.heading - self.zero)
-        if abs(angle) < 1e-12:
-            return self.draft
-        return self.draft.moved(self.items, Motion(angle, self.ring.center))
-
-    @property
-    def remark(self) -> str:
-        """The heading of the one item that is selected."""
-        return "" if self.desk.only is None else turned(self.desk.draft, self.desk.only)
+    return Drag(to, lambda: "" if only is None else turned(desk.draft, only))
 
 
-class Cornering(Gesture):
-    """Moves a corner of an outline, a wall or the workspace; or adds one first."""
+def cornering(desk: Desk, item: Item, number: int, *, new: bool = False) -> Drag:
+    """Move a corner of an outline, a wall or the workspace; new: one that is added after it."""
+    draft, before = desk.draft, list(desk.draft.corners(item) or ())
+    k = number + 1 if new else number
+    if new:
+        before.insert(k, before[number])
 
-    def __init__(self, desk: Desk, item: Item, number: int, *, new: bool = False) -> None:
-        """Begin with a corner; new: add one after it, and move that."""
-        self.desk, self.item = desk, item
-        self.draft = desk.draft
-        corners = list(desk.draft.corners(item) or ())
-        self.corner: int = number + 1 if new else number
-        if new:
-            corners.insert(self.corner, corners[number])
-        self.corners = corners
+    def to(point: Point, _: bool) -> Draft:
+        return draft.with_value(item, (*before[:k], desk.snapped(point), *before[k + 1 :]))
 
-    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
-        """Put the corner at the pointer."""
-        corners = self.corners.copy()
-        corners[self.corner] = self.desk.snapped(point)
-        return self.draft.with_corners(self.item, corners)
-
-    @property
-    def remark(self) -> str:
-        """The edges at the corner."""
-        k, corners = self.corner, self.desk.draft.corners(self.item) or ()
-        edges = [(k - 1, k)] if k or self.item.kind != "wall" else []
+    def remark() -> str:
+        corners = desk.draft.corners(item) or ()
+        edges = [(k - 1, k)] if k or item.kind != "wall" else []
         edges += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not edges else []
         return "   ".join(stretch(corners[a], corners[b]) for a, b in edges)
 
+    return Drag(to, remark, k)
 
-class Sizing(Gesture):
-    """Resizes a rectangular prop by a corner; the opposite corner stays."""
 
-    def __init__(self, desk: Desk, item: Item, number: int) -> None:
-        """Begin with a corner."""
-        self.desk, self.item, self.draft = desk, item, desk.draft
-        self.fixed = size_corners(desk.draft, item)[(number + 2) % 4]
+def sizing(desk: Desk, item: Item, number: int) -> Drag:
+    """Resize a rectangular prop by a corner; the opposite corner stays."""
+    draft, fixed = desk.draft, size_corners(desk.draft, item)[(number + 2) % 4]
 
-    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
-        """Put the corner at the pointer."""
-        k = self.item.number
-        prop = spanned(self.draft.props[k], self.fixed, self.desk.snapped(point))
-        return self.draft.with_prop(k, prop)
+    def to(point: Point, _: bool) -> Draft:
+        goal = desk.snapped(point)
+        return draft.with_members([item], lambda prop: spanned(prop, fixed, goal))
 
-    @property
-    def remark(self) -> str:
-        """The length and width."""
-        return size_of(self.desk.draft, self.item)
+    return Drag(to, lambda: size_of(desk.draft, item))
 
 
 def spanned(prop: Prop, a: Point, b: Point) -> Prop:
@@ -235,7 +204,17 @@ def spanned(prop: Prop, a: Point, b: Point) -> Prop:
     dx, dy = b[0] - a[0], b[1] - a[1]
     along, across = c * dx + s * dy, c * dy - s * dx
     length, width = (tidy(max(abs(side), MIN_SIDE)) for side in (along, across))
-    along, across = (side / 2 if v >= 0 else -side / 2
-                     for side, v in ((length, along), (width, across)))  # fmt: skip
+    along, across = copysign(length / 2, along), copysign(width / 2, across)
     x, y = a[0] + c * along - s * across, a[1] + s * along + c * across
     return prop.with_side_lengths(length, width).replace(pose=(tidy(x), tidy(y), theta))
+
+
+def sized(prop: Prop, a: Point, b: Point) -> Prop:
+    """Return a prop that is drawn from a to b: a disc about a, a box, or a bar along the way."""
+    length, heading = hypot(b[0] - a[0], b[1] - a[1]), angle_of(a, b)
+    if prop.side_lengths is None:
+        return prop.replace(diameter=tidy(2 * length), pose=(*a, 0.0))
+    if isinstance(prop, Box):
+        return spanned(prop, a, b) if a[0] != b[0] and a[1] != b[1] else prop.at(*a)
+    middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
+    return prop.replace(length=tidy(length), pose=(*middle, tidy(heading)))

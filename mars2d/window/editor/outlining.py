@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Callable
+from functools import partial
 
+from mars2d.bodies.props.solid import Solid
+from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, rectangle
 from mars2d.core.scene import INK, Scene, faded
+from mars2d.geometry.shapes import Polygon
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, PAPER, Handle, handle_at
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.item import Item, tidy
 from mars2d.window.editor.picking import edge_at, foot_on
 from mars2d.window.editor.readout import sides, stretch
 from mars2d.window.editor.select import Handling
-from mars2d.window.editor.tool import Maker, Making, Tool
+from mars2d.window.editor.tool import Drag, Tool
 
 CLOSE = 10.0
 """A click this near to the first corner closes a polygon, points."""
@@ -24,7 +28,7 @@ NEAR = 8.0
 class Chain(Tool):
     """The base of tools that draw corner by corner."""
 
-    least: ClassVar[int] = 2
+    least = 2
 
     def __init__(self, desk: Desk) -> None:
         """Start without corners."""
@@ -34,10 +38,6 @@ class Chain(Tool):
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Add a corner."""
         self.add(self.desk.snapped(point))
-
-    def move(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """Draw the next edge to the pointer."""
-        self.pointer = point
 
     def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
         """Add a corner at a typed point."""
@@ -53,13 +53,14 @@ class Chain(Tool):
         corners, self.corners = self.corners, []
         if len(corners) < self.least:
             return bool(corners)
-        draft, item = self.made(tuple(corners))
-        self.desk.put(draft)
-        self.desk.select([item])
+        try:
+            self.desk.put_new(self.made(tuple(corners)))
+        except InputError as error:  # what is drawn crosses itself
+            self.desk.say(str(error), warns=True)
         return True
 
-    def made(self, corners: Outline) -> tuple[Draft, Item]:
-        """Return the draft with the outline, and its item."""
+    def made(self, corners: Outline) -> Draft:
+        """Return the draft with the outline."""
         raise NotImplementedError
 
     def back(self) -> bool:
@@ -96,11 +97,11 @@ class Chain(Tool):
 class DrawWall(Chain):
     """Draws walls: thin lines from corner to corner."""
 
-    hint: ClassVar[str] = "Click corner by corner; Enter, Esc or the right button ends the wall"
+    hint = "Click corner by corner; Enter, Esc or the right button ends the wall"
 
-    def made(self, corners: Outline) -> tuple[Draft, Item]:
+    def made(self, corners: Outline) -> Draft:
         """Return the draft with the wall."""
-        return self.desk.draft.with_wall(corners)
+        return self.desk.draft.added("wall", corners)
 
     def cancel(self) -> bool:
         """Keep the wall as far as it is drawn."""
@@ -110,10 +111,8 @@ class DrawWall(Chain):
 class DrawPolygon(Chain):
     """Draws solid obstacles."""
 
-    hint: ClassVar[str] = (
-        "Click corner by corner; the first one or Enter closes, Backspace goes back"
-    )
-    least: ClassVar[int] = 3
+    hint = "Click corner by corner; the first one or Enter closes, Backspace goes back"
+    least = 3
 
     def press(self, point: Point, *, shift: bool) -> None:
         """Add a corner; close the polygon at the first one."""
@@ -126,9 +125,9 @@ class DrawPolygon(Chain):
         first = self.corners[0]
         return self.desk.near(first, point, CLOSE) or self.desk.snapped(point) == first
 
-    def made(self, corners: Outline) -> tuple[Draft, Item]:
+    def made(self, corners: Outline) -> Draft:
         """Return the draft with the obstacle."""
-        return self.desk.draft.with_outline(corners)
+        return self.desk.draft.added("outline", corners)
 
     def draw(self, scene: Scene) -> None:
         """Draw the corners and the area."""
@@ -141,76 +140,56 @@ class DrawPolygon(Chain):
             scene.circle(self.corners[0], 0.0, stroke=MARK, width=2.0, pixels=8.0)
 
 
-class Rectangle(Making):
-    """A drag from corner to corner that makes an obstacle; min_side: points."""
+class DrawSolid(DrawPolygon):
+    """Draws props of any shape."""
 
-    min_side: ClassVar[float] = 0.0
-
-    def __init__(self, desk: Desk, start: Point) -> None:
-        """Begin with a corner."""
-        self.desk, self.draft, self.start = desk, desk.draft, desk.snapped(start)
-
-    def to(self, point: Point, *, shift: bool) -> Draft:  # noqa: ARG002
-        """Put the opposite corner at the pointer."""
-        (ax, ay), (bx, by) = self.start, self.desk.snapped(point)
-        if min(abs(ax - bx), abs(ay - by)) <= self.desk.metres(self.min_side):
-            self.item = None
-            return self.draft
-        draft, self.item = self.made(rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)))
-        return draft
-
-    def made(self, ring: Outline) -> tuple[Draft, Item]:
-        """Return the draft with the rectangle, and its item."""
-        return self.draft.with_outline(ring)
-
-    @property
-    def remark(self) -> str:
-        """The length and width, "" if there is no rectangle yet."""
-        ring = None if self.item is None else self.desk.draft.corners(self.item)
-        if not ring:
-            return ""
-        (ax, ay), (bx, by) = ring[0], ring[2]
-        return sides(bx - ax, by - ay)
+    def made(self, corners: Outline) -> Draft:
+        """Return the draft with the solid."""
+        shape = Polygon(corners)
+        x, y = shape.centroid
+        return self.desk.draft.added("prop", Solid(shape, pose=(tidy(x), tidy(y), 0.0)))
 
 
-class DrawRectangle(Maker):
+def framing(desk: Desk, point: Point, made: Callable[[Outline], Draft], least: float = 0) -> Drag:
+    """Draw a rectangle from corner to corner; least: its shortest side, points."""
+    draft, (ax, ay) = desk.draft, desk.snapped(point)
+
+    def to(end: Point, _: bool) -> Draft:
+        bx, by = desk.snapped(end)
+        if min(abs(ax - bx), abs(ay - by)) <= desk.metres(least):
+            return draft
+        return made(rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)))
+
+    def remark() -> str:
+        new = desk.draft.new_since(draft)
+        ring = desk.draft.corners(new[0]) if new else desk.draft.workspace
+        (left, low), _, (right, high), *_ = ring or ((0.0, 0.0),) * 3
+        return sides(right - left, high - low) if desk.draft is not draft else ""
+
+    return Drag(to, remark)
+
+
+class DrawRectangle(Tool):
     """Draws rectangular obstacles."""
 
-    hint: ClassVar[str] = "Drag from corner to corner"
-    gesture: Rectangle | None = None
+    hint = "Drag from corner to corner"
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Begin with a corner."""
-        self.pressed, self.gesture = point, Rectangle(self.desk, point)
-
-    def move(self, point: Point, *, shift: bool) -> None:
-        """Draw up to the pointer."""
-        self.pointer = point
-        if self.gesture is not None:
-            self.desk.drag(self.gesture, point, shift=shift)
+        draft = self.desk.draft
+        self.begin(framing(self.desk, point, partial(draft.added, "outline")), point)
 
     def draw(self, scene: Scene) -> None:
         """Draw the place of the first corner."""
-        if self.pointer is not None and self.gesture is None:
+        if self.pointer is not None and self.drag is None:
             place = self.desk.snapped(self.pointer)
             scene.circle(place, 0.0, fill=PAPER, stroke=MARK, width=1.5, pixels=3.5)
-
-
-class WorkspaceRectangle(Rectangle):
-    """A drag from corner to corner that makes the workspace."""
-
-    min_side: ClassVar[float] = 2.0
-
-    def made(self, ring: Outline) -> tuple[Draft, Item]:
-        """Return the draft with the rectangle as its workspace."""
-        item = Item("workspace")
-        return self.draft.with_corners(item, ring), item
 
 
 class Workspace(Handling):
     """Draws the workspace; moves, adds and removes its corners."""
 
-    hint: ClassVar[str] = "Drag corners; click an edge for a new one, Del removes one"
+    hint = "Drag corners; click an edge for a new one, Del removes one"
 
     def __init__(self, desk: Desk) -> None:
         """Select the workspace."""
@@ -225,9 +204,9 @@ class Workspace(Handling):
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Begin to drag a corner, or add one on an edge."""
         desk, corners = self.desk, self.desk.draft.workspace
-        self.pressed = point
         if corners is None:
-            self.gesture = WorkspaceRectangle(desk, point)
+            frame = partial(desk.draft.with_value, Item("workspace"))
+            self.begin(framing(desk, point, frame, least=2), point)
             return
         self._hold()
         handle = handle_at(desk, point)

@@ -95,8 +95,8 @@ class Panel:
                 painter.panel(surface, place, theme.key, 5 * ui)
             self._draw_row(surface, row, place, pointer)
         if len(rows) > self._first + room:
-            more = painter.fonts.render("▾", SIZE * ui, theme.muted)
-            surface.blit(more, more.get_rect(midbottom=(area.centerx, area.bottom)))
+            foot = (area.centerx, area.bottom)
+            painter.write(surface, "▾", SIZE * ui, theme.muted, midbottom=foot)
 
     def _draw_row(
         self, surface: pygame.Surface, row: Row, place: pygame.Rect, pointer: tuple[int, int]
@@ -111,9 +111,8 @@ class Panel:
         left = place.left + pad + round(12 * ui) * row.level
         room = right - left
         value = fonts.shorten(row.value, size, 0.62 * room) if row.value else ""
-        image = fonts.render(value, size, theme.ink)
-        at = image.get_rect(midright=(right, place.centery))
-        surface.blit(image, at)
+        end = (right, place.centery)
+        at = painter.write(surface, value, size, theme.ink, midright=end)
         edge = at.left if value else right
         if row.color:
             dot = pygame.Rect(0, 0, round(13 * ui), round(13 * ui))
@@ -121,8 +120,7 @@ class Panel:
             painter.panel(surface, dot, theme.shade(row.color), dot.width / 2)
             edge = dot.left
         title = fonts.shorten(row.title, size, edge - left - round(8 * ui) * bool(value), bold=bold)
-        words = fonts.render(title, size, ink, bold=bold)
-        surface.blit(words, words.get_rect(midleft=(left, place.centery)))
+        painter.write(surface, title, size, ink, bold=bold, midleft=(left, place.centery))
 
     def _draw_signs(
         self, surface: pygame.Surface, row: Row, place: pygame.Rect, pointer: tuple[int, int]
@@ -136,8 +134,7 @@ class Panel:
             if place.collidepoint(pointer):
                 edge = theme.selected if key.collidepoint(pointer) else theme.key_edge
                 painter.panel(surface, key, theme.bar, 4 * ui, edge)
-            words = painter.fonts.render(sign, SIZE * ui, theme.muted)
-            surface.blit(words, words.get_rect(center=key.center))
+            painter.write(surface, sign, SIZE * ui, theme.muted, center=key.center)
             self._signs.append((row, way, key))
             right = key.left - round(2 * ui)
         return right - round(2 * ui)

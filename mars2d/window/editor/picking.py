@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from itertools import pairwise
 from math import hypot
 
@@ -19,16 +20,20 @@ POINT_RADIUS = 9.0
 """The radius of beacons and waypoints on the screen, points."""
 
 
-def item_at(desk: Desk, point: Point) -> Item | None:
-    """Return the uppermost item at a point [m], or None; the workspace is never returned."""
+def item_at(desk: Desk, point: Point, but: Collection[Item] = ()) -> Item | None:
+    """Return the uppermost item at a point [m], or None; the workspace is never returned.
+
+    but: bodies that are looked through.
+    """
     draft = desk.draft
     small = [item for item in draft.items() if item.kind in ("waypoint", "beacon")]
     for item in reversed(small):
         if desk.near(point, draft.place(item), POINT_RADIUS):
             return item
-    body = body_at(draft.frame(), point, desk.metres(NEAR / 2))
+    robots = len(draft.robots)
+    without = [item.number + robots * (item.kind == "prop") for item in but]
+    body = body_at(draft.frame(), point, desk.metres(NEAR / 2), without)
     if body is not None:
-        robots = len(draft.robots)
         return Item("robot", body) if body < robots else Item("prop", body - robots)
     slack = desk.metres(NEAR)
     for i, wall in reversed(list(enumerate(draft.walls))):

@@ -1,76 +1,57 @@
-"""The tools that place new items: robots, boxes, balls, beacons, waypoints."""
+"""The tools that place new items: robots, props, beacons, waypoints."""
 
 from __future__ import annotations
 
-from math import degrees, hypot, radians
-from typing import ClassVar
+from math import degrees, radians
 
 import numpy as np
 
 from mars2d.addons.beacon import Beacon
-from mars2d.bodies.props.ball import Ball
 from mars2d.bodies.props.base import Prop
-from mars2d.bodies.props.box import Box
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.bodies import draw_prop, draw_robot
 from mars2d.scenario.robot import Robot
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.handles import MARK, NOTCH, spanned
+from mars2d.window.editor.handles import MARK, NOTCH, sized
 from mars2d.window.editor.item import Item, Motion, angle_of, tidy
 from mars2d.window.editor.picking import item_at
 from mars2d.window.editor.readout import size_of, turned
-from mars2d.window.editor.tool import Maker, Making
+from mars2d.window.editor.tool import Drag, Tool
 
 GHOST = faded(MARK, 0.7)
 
 
-class Placing(Making):
-    """The drag that places a new item and shapes it."""
-
-    def __init__(self, place: Place, start: Point) -> None:
-        """Begin where the button was pressed."""
-        self.place, self.start, self.draft = place, place.desk.snapped(start), place.desk.draft
-        self.begun = False
-
-    def to(self, point: Point, *, shift: bool) -> Draft:
-        """Return the draft with the new item."""
-        end = point if self.begun else self.start
-        draft, self.item = self.place.added(self.draft, self.start, end, shift=shift)
-        return draft
-
-
-class Place(Maker):
+class Place(Tool):
     """The base of tools that place an item by a click, and shape it by a drag."""
-
-    gesture: Placing | None = None
 
     def press(self, point: Point, *, shift: bool) -> None:
         """Place an item."""
-        self.pressed = point
-        self.gesture = Placing(self, point)
-        self.desk.drag(self.gesture, point, shift=shift)
+        start, draft = self.desk.snapped(point), self.desk.draft
 
-    def move(self, point: Point, *, shift: bool) -> None:
-        """Shape the new item."""
-        self.pointer = point
-        if self.gesture is not None and (self.gesture.begun or self.dragged(point)):
-            self.gesture.begun = True
-            self.desk.drag(self.gesture, point, shift=shift)
+        def to(end: Point, shift: bool) -> Draft:
+            return self.added(draft, start, end if self.moved else start, shift)
+
+        self.begin(Drag(to, self.measure), point)
+        self.desk.hold(to, point, shift=shift)
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Place an item at a typed point."""
-        draft, item = self.added(self.desk.draft, (x, y), (x, y), shift=False)
+        draft = self.added(self.desk.draft, (x, y), (x, y), False)
+        (item,) = draft.new_since(self.desk.draft)
         pose = draft.pose(item)
         if heading is not None and pose is not None:
             draft = draft.moved([item], Motion(heading - pose[2], (x, y)))
-        self.desk.put(draft)
-        self.desk.select([item])
+        self.desk.put_new(draft)
 
-    def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:
-        """Return a draft with a new item that was dragged from start to end, and the item."""
+    def added(self, draft: Draft, start: Point, end: Point, shift: bool) -> Draft:
+        """Return a draft with a new item that was dragged from start to end."""
         raise NotImplementedError
+
+    def measure(self) -> str:
+        """Return a measure of the item that a drag shapes."""
+        return ""
 
     def ghost(self, scene: Scene, place: Point) -> None:
         """Draw the item that a click would place."""
@@ -78,19 +59,14 @@ class Place(Maker):
 
     def draw(self, scene: Scene) -> None:
         """Draw the item that a click would place at the pointer."""
-        if self.gesture is None and self.pointer is not None:
+        if self.drag is None and self.pointer is not None:
             self.ghost(scene, self.desk.snapped(self.pointer))
-
-    @property
-    def new(self) -> Item | None:
-        """The item that the drag shapes."""
-        return self.gesture.item if self.gesture is not None and self.gesture.begun else None
 
 
 class PlaceRobot(Place):
     """Places robots that are like the selected one, or like the last one."""
 
-    hint: ClassVar[str] = "Click places a robot, a drag turns it; it is like the selected one"
+    hint = "Click places a robot, a drag turns it; it is like the selected one"
 
     def model(self, draft: Draft) -> Robot:
         """Return the robot that the next one is a copy of."""
@@ -99,85 +75,64 @@ class PlaceRobot(Place):
             return draft.robots[chosen.number]
         return draft.robots[-1] if draft.robots else Robot()
 
-    def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:
+    def added(self, draft: Draft, start: Point, end: Point, shift: bool) -> Draft:
         """Place a robot that heads towards the pointer."""
         robot = self.model(draft)
         heading = robot.pose[2]
         if end != start:
             step = NOTCH if shift else 1.0
             heading = tidy(radians(round(degrees(angle_of(start, end)) / step) * step))
-        return draft.with_robot(robot.replace(pose=(*start, heading)))
+        return draft.added("robot", robot.replace(pose=(*start, heading)))
+
+    def measure(self) -> str:
+        """Return the heading."""
+        return turned(self.desk.draft, Item("robot", len(self.desk.draft.robots) - 1))
 
     def ghost(self, scene: Scene, place: Point) -> None:
         """Draw a hollow robot."""
         robot = self.model(self.desk.draft)
         draw_robot(scene, robot, np.array((*place, robot.pose[2])), None, GHOST)
 
-    @property
-    def remark(self) -> str:
-        """The heading."""
-        return "" if self.new is None else turned(self.desk.draft, self.new)
-
 
 class PlaceProp(Place):
-    """The base of tools that place props of one kind."""
+    """Places props of a kind."""
 
-    kind: ClassVar[type[Prop]]
+    def __init__(self, desk: Desk, kind: type[Prop]) -> None:
+        """Start with nothing pressed."""
+        super().__init__(desk)
+        self._prop, name = kind(), kind.__name__.lower()
+        self.hint = f"Click places a {name}, a drag gives it its size"
+
+    def added(self, draft: Draft, start: Point, end: Point, shift: bool) -> Draft:  # noqa: ARG002
+        """Place a prop that is as large as the drag."""
+        corner = self.desk.snapped(end)
+        drawn = start not in (end, corner)
+        prop = sized(self._prop, start, corner) if drawn else self._prop.at(*start)
+        return draft.added("prop", prop)
+
+    def measure(self) -> str:
+        """Return the size."""
+        return size_of(self.desk.draft, Item("prop", len(self.desk.draft.props) - 1))
 
     def ghost(self, scene: Scene, place: Point) -> None:
         """Draw a hollow prop."""
-        draw_prop(scene, self.kind(), np.array((*place, 0.0)), MARK, hollow=True)
-
-    @property
-    def remark(self) -> str:
-        """The size."""
-        return "" if self.new is None else size_of(self.desk.draft, self.new)
-
-
-class PlaceBox(PlaceProp):
-    """Places boxes."""
-
-    kind: ClassVar[type[Prop]] = Box
-
-    hint: ClassVar[str] = "Click places a box, a drag gives it its size"
-
-    def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
-        """Place a box between two corners."""
-        corner = self.desk.snapped(end)
-        if end == start or start[0] == corner[0] or start[1] == corner[1]:
-            return draft.with_new_prop(Box(pose=(*start, 0.0)))
-        return draft.with_new_prop(spanned(Box(), start, corner))
-
-
-class PlaceBall(PlaceProp):
-    """Places balls."""
-
-    kind: ClassVar[type[Prop]] = Ball
-
-    hint: ClassVar[str] = "Click places a ball, a drag gives it its size"
-
-    def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
-        """Place a ball with its centre at `start`."""
-        x, y = self.desk.snapped(end)
-        ball, radius = Ball(pose=(*start, 0.0)), hypot(x - start[0], y - start[1])
-        sized = end != start and radius > 0
-        return draft.with_new_prop(ball.replace(diameter=tidy(2 * radius)) if sized else ball)
+        draw_prop(scene, self._prop, np.array((*place, 0.0)), MARK, hollow=True)
 
 
 class PlaceBeacon(Place):
     """Places beacons."""
 
-    hint: ClassVar[str] = "Click places a beacon"
+    hint = "Click places a beacon"
 
-    def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
+    def added(self, draft: Draft, start: Point, end: Point, shift: bool) -> Draft:  # noqa: ARG002
         """Place a beacon at the pointer."""
-        return draft.with_beacon(Beacon(at=self.desk.snapped(end)))
+        return draft.added("beacon", Beacon(at=self.desk.snapped(end)))
 
 
 class PlaceWaypoint(Place):
     """Places waypoints, each at the end of a robot's route."""
 
-    hint: ClassVar[str] = "Click places a waypoint for the robot in the ring; click another robot"
+    hint = "Click places a waypoint for the robot in the ring; click another robot"
 
     def __init__(self, desk: Desk) -> None:
         """Start with the selected robot, or else the first one."""
@@ -207,16 +162,14 @@ class PlaceWaypoint(Place):
         if self.robot is not None:
             super().put(x, y, heading)
 
-    def added(self, draft: Draft, start: Point, end: Point, *, shift: bool) -> tuple[Draft, Item]:  # noqa: ARG002
+    def added(self, draft: Draft, start: Point, end: Point, shift: bool) -> Draft:  # noqa: ARG002
         """Place a waypoint at the pointer."""
-        return draft.with_waypoint(self._robot, self.desk.snapped(end))
+        return draft.added("waypoint", self.desk.snapped(end), self._robot)
 
     def draw(self, scene: Scene) -> None:
         """Draw a ring round the robot whose route it is."""
         super().draw(scene)
         robot = self.robot
         if robot is not None:
-            body = self.desk.draft.body(robot)
-            assert body is not None
-            center, radius = body.bound
+            center, radius = self.desk.draft.robots[robot.number].rigid.bound
             scene.circle(center, radius, stroke=MARK, width=2.0, pixels=7.0)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from math import floor, log10
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mars2d.bodies.joints.base import Joint
-from mars2d.core.description import Description
+from mars2d.core.description import Description, schema_of
 from mars2d.core.errors import InputError, counted
 from mars2d.core.files import file_beside
 from mars2d.core.materials import Coefficient
@@ -36,24 +36,52 @@ from mars2d.window.widgets.menu import Entry, Menu
 from mars2d.window.widgets.text_field import TextField
 
 Pixel = tuple[int, int]
+Items = tuple[Item, ...]
+Field = dataclasses.Field[Any]
 
 SEVERAL = "several"
 """Shown where the selected bodies have different values."""
 CHOSEN = "✓"
 """Marks the entry of a menu that holds now."""
 BODY = ("mass", "diameter", "length", "width", "friction", "restitution", "ground_friction")
-"""The fields of robots and props that have a row."""
+"""The fields of robots and props that have a row of their own."""
 TEAM = ("title", "stop_time", "sampling_time", "on_exit", "physics")
 """The fields of a scenario that have a row when nothing is selected."""
+ELSEWHERE = ("name", "color", "pose", "shape", "controller", "a", "b")
+"""The fields that are changed in other ways."""
 COLORS = ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey")
 """The colours of the palette, in words."""
 AUTOMATIC = "automatic"
-"""The colour that a body has if it is given none."""
+"""What a value is called that follows from others, or that nobody has given."""
 NO_LAW = "none: it stands still"
 GIVEN = 0.5
 """The value of a sensor's number that has no default."""
 MAX_IDLE = 6
 """The most robots that are listed because they stand still."""
+
+
+class Subject(NamedTuple):
+    """Parts of the drawing that are shown and changed together, such as the drives of robots.
+
+    change: puts what a function returns in the place of each part.
+    """
+
+    parts: Sequence[Any]
+    change: Callable[[Callable[[Any], Any]], None]
+
+    def set(self, name: str, value: object) -> None:
+        """Set a field."""
+        self.change(lambda part: part.replace(**{name: value}))
+
+    @property
+    def fields(self) -> dict[str, Field]:
+        """The fields that all parts have, by their names."""
+        known = [{field.name: field for field in dataclasses.fields(part)} for part in self.parts]
+        return {name: f for name, f in known[0].items() if all(name in each for each in known)}
+
+    def in_words(self, name: str) -> str:
+        """Return a field's value in words."""
+        return _alike([_shown(part, self.fields[name]) for part in self.parts])
 
 
 class Properties:
@@ -69,11 +97,45 @@ class Properties:
         document: Document,
         menu: Menu,
         choose: Callable[[str], None],
-        tie: Callable[[type[Joint], tuple[Item, ...]], None],
+        tie: Callable[[type[Joint], Items], None],
     ) -> None:
         """Take the parts of the editor that it works with."""
         self._desk, self._dialogs, self._document = desk, dialogs, document
         self._menu, self._choose, self._tie = menu, choose, tie
+
+    # -- subjects -------------------------------------------------------------------------------
+
+    def _scenario(self) -> Subject:
+        draft, put = self._desk.draft, self._desk.put
+        return Subject([draft.base], lambda f: put(dataclasses.replace(draft, base=f(draft.base))))
+
+    def _members(self, items: Items) -> Subject:
+        draft, put = self._desk.draft, self._desk.put
+        parts = [draft.value(item) for item in items]
+        return Subject(parts, lambda f: put(draft.with_members(items, f)))
+
+    def _parts(self, robots: Items, name: str) -> Subject:
+        """Return a part of robots, such as their drives."""
+        whole = self._members(robots)
+        parts = [getattr(robot, name) for robot in whole.parts]
+        return Subject(
+            parts, lambda f: whole.change(lambda r: r.replace(**{name: f(getattr(r, name))}))
+        )
+
+    def _sensors(self, robots: Items, key: str) -> Subject:
+        """Return the sensors of robots with a name; a change to None removes them."""
+        whole = self._members(robots)
+
+        def changed(f: Callable[[Sensor], Sensor | None], robot: Robot) -> Robot:
+            found = (f(sensor) if sensor.key == key else sensor for sensor in robot.sensors)
+            return robot.replace(sensors=[sensor for sensor in found if sensor is not None])
+
+        parts = [robot.sensor(key) for robot in whole.parts]
+        return Subject(parts, lambda f: whole.change(partial(changed, f)))
+
+    def _joint(self, joint: Joint) -> Subject:
+        draft, put = self._desk.draft, self._desk.put
+        return Subject([joint], lambda f: put(draft.with_joint(f(joint), instead=joint)))
 
     # -- rows -----------------------------------------------------------------------------------
 
@@ -83,49 +145,44 @@ class Properties:
             return self._rows_of_scenario()
         first, *others = described(self._desk)
         rows = [Row(first, kind="title"), *(Row(line) for line in others)]
-        bodies = self._bodies()
+        bodies = tuple(item for item in self._desk.selection if item.kind in ("robot", "prop"))
         robots = tuple(item for item in bodies if item.kind == "robot")
-        if bodies and len(robots) == len(bodies):
+        if not bodies:
+            return rows
+        if robots == bodies:
             rows += [*self._rows_of_law(robots), *self._rows_of_drive(robots)]
-        rows += [*self._rows_of_body(bodies)]
-        if robots and len(robots) == len(bodies):
+        rows += self._rows_of_body(bodies)
+        if robots == bodies:
             rows += self._rows_of_sensors(robots)
         return rows + self._rows_of_joints(bodies)
 
-    def _bodies(self) -> tuple[Item, ...]:
-        return tuple(item for item in self._desk.selection if item.kind in ("robot", "prop"))
-
     def _rows_of_scenario(self) -> list[Row]:
-        base = self._desk.draft.base
-        rows = [Row("The scenario", kind="title")]
-        for name in TEAM:
-            field = base.__dataclass_fields__[name]
-            rows.append(self._row(field, [base], self._set_scenario))
-        idle = self.idle(self._desk.draft)
+        draft, team = self._desk.draft, self._scenario()
+        rows = [Row("The scenario", kind="title"), *(self._row(team, name) for name in TEAM)]
+        idle = self.idle(draft)
         for i, want in list(idle.items())[:MAX_IDLE]:
             item = Item("robot", i)
-            words = f"{self._desk.draft.name(item)} lacks {want}"
+            words = f"{draft.name(item)} lacks {want}"
             rows.append(Row(words, act=partial(self._select, item), kind="warning"))
         if len(idle) > MAX_IDLE:
             more = counted(len(idle) - MAX_IDLE, "more robot")
             rows.append(Row(f"and {more} that stand still", kind="warning"))
         return rows
 
+    def _select(self, item: Item, _: Pixel) -> None:
+        self._desk.select([item])
+
     def idle(self, draft: Draft) -> dict[int, str]:
         """Return what each robot of a draft lacks to be moved, by its number."""
         return standing_still(draft.sketch, self._document.control)
 
-    def _rows_of_law(self, robots: tuple[Item, ...]) -> list[Row]:
-        draft = self._desk.draft
-        laws = [draft.robots[item.number].controller for item in robots]
-        title = _alike([self._title_of(law) for law in laws])
+    def _rows_of_law(self, robots: Items) -> list[Row]:
+        laws = self._parts(robots, "controller")
+        title = _alike([self._title_of(law) for law in laws.parts])
         rows = [Row("Law", title, partial(self._offer_laws, robots))]
-        kinds = {type(law) for law in laws}
-        if len(kinds) == 1 and isinstance(laws[0], Controller):
-            change = partial(self._set_part, robots, "controller")
-            fields = dataclasses.fields(laws[0])
-            rows += [self._row(field, laws, change, level=1) for field in fields]
-        idle = self.idle(draft)
+        if isinstance(laws.parts[0], Controller) and len({*map(type, laws.parts)}) == 1:
+            rows += [self._row(laws, name, level=1) for name in laws.fields]
+        idle = self.idle(self._desk.draft)
         wants = [idle[item.number] for item in robots if item.number in idle]
         if wants:
             rows.append(Row(f"stands still: it lacks {wants[0]}", level=1, kind="warning"))
@@ -139,171 +196,177 @@ class Properties:
             return name_of(law)
         return "that of the team" if self._document.control is not None else NO_LAW
 
-    def _rows_of_drive(self, robots: tuple[Item, ...]) -> list[Row]:
-        drives = [self._desk.draft.robots[item.number].drive for item in robots]
-        kind = _alike([type(drive).__name__ for drive in drives])
-        speed = drives[0].__dataclass_fields__["max_linear_speed"]
-        change = partial(self._set_part, robots, "drive")
+    def _rows_of_drive(self, robots: Items) -> list[Row]:
+        drives = self._parts(robots, "drive")
+        kind = _alike([type(drive).__name__ for drive in drives.parts])
         return [
-            Row("Drive", kind, partial(self._offer_drives, robots)),
-            self._row(speed, drives, change, level=1),
+            Row("Drive", kind, partial(self._offer_drives, drives)),
+            self._row(drives, "max_linear_speed", level=1),
         ]
 
-    def _rows_of_body(self, bodies: tuple[Item, ...]) -> list[Row]:
-        if not bodies:
-            return []
-        parts = [self._desk.draft.member(item) for item in bodies]
-        rows = []
-        for name in BODY:
-            fields = [part.__dataclass_fields__.get(name) for part in parts]
-            shaped = any(isinstance(part, Robot) and part.shape is not None for part in parts)
-            if fields[0] is not None and all(fields) and not (shaped and name == "diameter"):
-                rows.append(self._row(fields[0], parts, partial(self._set_bodies, bodies)))
-        colors = [part.color for part in parts]
-        words = _alike([_color_in_words(color) for color in colors])
-        seen = self._seen_color(bodies[0]) if words != SEVERAL else ""
-        return [*rows, Row("Colour", words, partial(self._offer_colors, bodies), color=seen)]
+    def _rows_of_body(self, bodies: Items) -> list[Row]:
+        owners = self._members(bodies)
+        shaped = any(getattr(part, "shape", None) is not None for part in owners.parts)
+        rows = [
+            self._row(owners, name)
+            for name in BODY
+            if name in owners.fields
+            and not (name == "diameter" and shaped and bodies[0].kind == "robot")
+        ]
+        words = _alike([_color_in_words(part.color) for part in owners.parts])
+        color = partial(self._offer_colors, owners)
+        rows.append(Row("Colour", words, color, color=self._seen_color(bodies[0], words)))
+        if len(bodies) == 1:
+            name = self._desk.draft.name(bodies[0])
+            rows.insert(0, Row("Name", name, partial(self._ask_for_name, bodies[0])))
+        return [*rows, Row("More", "all other fields", partial(self._offer_more, owners))]
 
-    def _seen_color(self, item: Item) -> str:
-        """Return the colour in which a body is drawn."""
+    def _seen_color(self, item: Item, words: str) -> str:
+        """Return the colour in which a body is drawn, if there is one."""
         draft = self._desk.draft
+        if words == SEVERAL:
+            return ""
         if item.kind == "robot":
             return draft.sketch.colors[item.number]
         return draft.props[item.number].color or ""
 
-    def _rows_of_sensors(self, robots: tuple[Item, ...]) -> list[Row]:
+    def _rows_of_sensors(self, robots: Items) -> list[Row]:
         rows = [Row("Sensors", "add one", partial(self._offer_new_sensors, robots))]
-        carried = [self._desk.draft.robots[item.number].sensors for item in robots]
-        for sensor in carried[0]:
-            if all(any(each.key == sensor.key for each in sensors) for sensors in carried):
-                act = partial(self._offer_sensor, robots, sensor.key)
+        first, *others = (self._desk.draft.robots[item.number] for item in robots)
+        for sensor in first.sensors:
+            if all(robot.sensor(sensor.key) for robot in others):
+                act = partial(self._offer_part, sensor.key, self._sensors(robots, sensor.key))
                 rows.append(Row(sensor.key, type(sensor).__name__, act, level=1))
         return rows
 
-    def _rows_of_joints(self, bodies: tuple[Item, ...]) -> list[Row]:
-        if not bodies:
-            return []
+    def _rows_of_joints(self, bodies: Items) -> list[Row]:
         rows = [Row("Joints", "add one", partial(self._offer_new_joints, bodies))]
         if len(bodies) == 1:
-            name = self._desk.draft.member(bodies[0]).name
+            name = self._desk.draft.name(bodies[0])
             for joint in self._desk.draft.joints_of(bodies[0]):
-                other = joint.b if joint.a == name else joint.a
-                words = f"{type(joint).__name__} to {other or 'the floor'}"
-                rows.append(Row(words, act=partial(self._offer_joint, joint), level=1))
+                kind, other = type(joint).__name__, joint.b if joint.a == name else joint.a
+                act = partial(self._offer_part, kind, self._joint(joint))
+                rows.append(Row(f"{kind} to {other or 'the floor'}", act=act, level=1))
         return rows
 
-    def _row(
-        self,
-        field: dataclasses.Field[Any],
-        parts: Sequence[Any],
-        change: Callable[..., None],
-        level: int = 0,
-    ) -> Row:
-        """Return the row of a field of some parts; change: sets it by name and value."""
-        values = [getattr(part, field.name) for part in parts]
-        act = partial(self._ask, field, parts, change)
+    def _row(self, subject: Subject, name: str, level: int = 0) -> Row:
+        """Return the row of a field."""
+        values = [getattr(part, name) for part in subject.parts]
         numeric = all(isinstance(v, float | int) and not isinstance(v, bool) for v in values)
-        step = partial(self._step, field.name, values[0], change) if numeric else None
-        words = _alike([_in_words(value, field.metadata.get("unit", "")) for value in values])
-        title = _title(field.name)
-        return Row(title if level else title.capitalize(), words, act, step, level=level)
+        step = partial(self._step, subject, name) if numeric else None
+        title, act = _title(name), partial(self._ask, subject, name)
+        title = title if level else title.capitalize()
+        return Row(title, subject.in_words(name), act, step, level=level)
 
     # -- asking ---------------------------------------------------------------------------------
 
-    def _ask(
-        self,
-        field: dataclasses.Field[Any],
-        parts: Sequence[Any],
-        change: Callable[..., None],
-        pixel: Pixel,
-    ) -> None:
+    def _ask(self, subject: Subject, name: str, pixel: Pixel) -> None:
         """Let a person change a field: by a menu of its values, or by typing."""
-        value, choices = getattr(parts[0], field.name), self._choices(field, parts[0])
+        field, part = subject.fields[name], subject.parts[0]
+        value, choices = getattr(part, name), self._choices(field, part)
         if isinstance(value, bool):
-            change(field.name, not value)
+            subject.set(name, not value)
         elif choices:
             entries = [
                 Entry(
                     _in_words(each),
-                    partial(change, field.name, each),
+                    partial(subject.set, name, each),
                     value=CHOSEN * (each == value),
                 )
                 for each in choices
             ]
-            self._open(_title(field.name), entries, pixel)
+            self._open(_title(name), entries, pixel)
         else:
             unit = field.metadata.get("unit", "")
-            label = f"{_title(field.name)}{f' [{unit}]' if unit else ''} ="
-            text = repr(value) if isinstance(value, float) else _in_words(value)
-            self._type(label, field.metadata.get("doc", ""), text, field.name, change)
+            label = f"{_title(name)}{f' [{unit}]' if unit else ''} ="
+            exact = isinstance(value, float) and not isinstance(value, Coefficient)
+            text = repr(value) if exact else _in_words(value)
+            doc = field.metadata.get("doc", "")
+            self._type(label, doc, text, lambda typed: subject.set(name, _typed(field, typed)))
 
-    def _choices(self, field: dataclasses.Field[Any], part: Any) -> Sequence[Any]:
+    def _choices(self, field: Field, part: Any) -> Sequence[Any]:
         """Return the values that a field may have, if they are few."""
-        draft, chosen = self._desk.draft, {item.number for item in self._bodies()}
+        robots = self._desk.draft.robots
+        chosen = {item.number for item in self._desk.selection if item.kind == "robot"}
         if isinstance(part, FollowRobot) and field.name == "leader":
-            return [None, *(r.name for i, r in enumerate(draft.robots) if i not in chosen)]
+            return [None, *(r.name for i, r in enumerate(robots) if i not in chosen)]
         if isinstance(part, Controller) and field.name == "sensor":
-            return [sensor.key for i in chosen for sensor in draft.robots[i].sensors]
+            return [sensor.key for i in chosen for sensor in robots[i].sensors]
         choices: Sequence[Any] = field.metadata.get("of", ())
         return choices
 
-    def _type(
-        self, label: str, doc: str, text: str, name: str, change: Callable[..., None]
-    ) -> None:
+    def _type(self, label: str, doc: str, text: str, take: Callable[[str], None]) -> None:
         """Ask for a value by a field to type in."""
 
         def answer(typed: str) -> None:
-            _, value = parse_option(f"{name}={typed}")
-            change(name, None if value in ("", "none") else value)
-            self._prompted()
+            take(typed)
+            self._desk.say("")
 
         field = TextField(text)
         field.select_all()
-        enter = Answer("return", "Enter", "apply", answer)
-        self._dialogs.prompt = Prompt(label, enter, field=field, doc=doc)
+        self._dialogs.prompt = Prompt(label, Answer("Enter", "apply", answer), field=field, doc=doc)
 
-    def _prompted(self) -> None:
-        """Clear the last message."""
-        self._desk.say("")
+    def _ask_for_name(self, item: Item, _: Pixel) -> None:
+        draft, doc = self._desk.draft, "by which laws, joints and recordings call it"
 
-    def _step(self, name: str, value: float, change: Callable[..., None], way: int) -> None:
+        def take(typed: str) -> None:
+            if not typed.strip():
+                raise InputError("expected a name")
+            self._desk.put(draft.renamed(item, typed.strip()))
+
+        self._type("name =", doc, draft.name(item), take)
+
+    def _step(self, subject: Subject, name: str, way: int) -> None:
         """Change a number by half a power of ten that fits it."""
+        value = getattr(subject.parts[0], name)
         if isinstance(value, int):
             changed: float = value + way
         else:
             size = abs(value) * (1 if way > 0 else 0.999)
             step = 0.5 * 10.0 ** floor(log10(size)) if size else 0.1
             changed = round((value + way * step) / step) * step
-        try:
-            change(name, round(changed, 12))
-        except InputError as error:
-            self._desk.say(str(error), warns=True)
+        subject.set(name, round(changed, 12))
 
     def _open(self, title: str, entries: Sequence[Entry], pixel: Pixel) -> None:
         listed = [Entry(title), *entries]
         self._menu.open(title, lambda: listed, pixel)
 
-    def _select(self, item: Item, _: Pixel) -> None:
-        self._desk.select([item])
+    def _fields(
+        self, subject: Subject, pixel: Pixel, but: Sequence[str] = ELSEWHERE
+    ) -> Iterator[Entry]:
+        """Return an entry for each field that can be typed."""
+        for name in subject.fields:
+            if name not in but and all(_is_plain(getattr(p, name)) for p in subject.parts):
+                act = partial(self._ask, subject, name, pixel)
+                yield Entry(_title(name).capitalize(), act, value=subject.in_words(name))
+
+    def _offer_more(self, bodies: Subject, pixel: Pixel) -> None:
+        self._open("More", list(self._fields(bodies, pixel, (*ELSEWHERE, *BODY))), pixel)
+
+    def _offer_part(self, title: str, subject: Subject, pixel: Pixel) -> None:
+        """Open the menu of a part that can be removed."""
+        entries = [Entry("Remove it", partial(subject.change, lambda _: None))]
+        if len({*map(type, subject.parts)}) == 1:
+            entries += [Entry("Fields"), *self._fields(subject, pixel)]
+        self._open(title, entries, pixel)
 
     # -- laws -----------------------------------------------------------------------------------
 
-    def _offer_laws(self, robots: tuple[Item, ...], pixel: Pixel) -> None:
-        now = {type(self._desk.draft.robots[item.number].controller) for item in robots}
+    def _offer_laws(self, robots: Items, pixel: Pixel) -> None:
+        owners = self._members(robots)
+        now = {type(robot.controller) for robot in owners.parts}
         entries = []
         for kind in members("controllers").values():
             assert issubclass(kind, Controller)
-            mark = CHOSEN if now == {kind} else ""
             act = partial(self._give_law, robots, kind, pixel)
-            entries.append(Entry(kind.title, act, value=mark))
-        entries.append(Entry("from a file …", partial(self._ask_for_file, robots)))
+            entries.append(Entry(kind.title, act, value=CHOSEN * (now == {kind})))
+        entries.append(Entry("from a file …", partial(self._ask_for_file, owners)))
         without = "as the team's law says" if self._document.control is not None else NO_LAW
-        mark = CHOSEN if now == {type(None)} else ""
-        stop = partial(self._set_bodies, robots, "controller", None)
-        entries.append(Entry(without, stop, value=mark))
+        stop = partial(owners.set, "controller", None)
+        entries.append(Entry(without, stop, value=CHOSEN * (now == {type(None)})))
         self._open("Law", entries, pixel)
 
-    def _give_law(self, robots: tuple[Item, ...], kind: type[Controller], pixel: Pixel) -> None:
+    def _give_law(self, robots: Items, kind: type[Controller], pixel: Pixel) -> None:
         """Give robots a ready-made law, with the sensors that it needs."""
 
         def change(robot: Robot) -> Robot:
@@ -311,157 +374,75 @@ class Properties:
             added = [sensor for sensor in kind.needs if sensor.key not in carried]
             return robot.replace(controller=kind(), sensors=[*robot.sensors, *added])
 
-        self._desk.put(self._desk.draft.with_members(robots, change))
+        self._members(robots).change(change)
         needs = " and ".join(sensor.key for sensor in kind.needs)
         if kind is FollowWaypoints and self.idle(self._desk.draft).get(robots[0].number):
             self._choose("waypoint")
             self._desk.say("click its waypoints, one after the other")
         elif kind is FollowRobot and len(self._desk.draft.robots) > len(robots):
-            law = self._desk.draft.robots[robots[0].number].controller
-            field = FollowRobot.__dataclass_fields__["leader"]
-            self._ask(field, [law], partial(self._set_part, robots, "controller"), pixel)
+            self._ask(self._parts(robots, "controller"), "leader", pixel)
         elif needs:
             self._desk.say(f"it goes by its sensor {needs}")
 
-    def _ask_for_file(self, robots: tuple[Item, ...]) -> None:
-        def change(_: str, typed: object) -> None:
+    def _ask_for_file(self, robots: Subject) -> None:
+        def take(typed: str) -> None:
             reference = Reference.read("law", typed)
             beside = self._document.path or Path("scenario.toml")
             file = file_beside(Path(reference.file), beside, "a law", [".py"])
             # Each robot gets the law loaded again, so that robots share nothing.
-            self._desk.put(
-                self._desk.draft.with_members(
-                    robots, lambda robot: robot.replace(controller=law_in(file, reference.name))
-                )
-            )
+            robots.change(lambda robot: robot.replace(controller=law_in(file, reference.name)))
 
         doc = "a file of Python and a function in it, such as walk.py:walk"
-        self._type("Law =", doc, "", "law", change)
+        self._type("Law =", doc, "", take)
 
     # -- drives, colours, sensors, joints -------------------------------------------------------
 
-    def _offer_drives(self, robots: tuple[Item, ...], pixel: Pixel) -> None:
-        drives = [self._desk.draft.robots[item.number].drive for item in robots]
-        kinds = {type(drive) for drive in drives}
+    def _offer_drives(self, drives: Subject, pixel: Pixel) -> None:
+        kinds = {type(drive) for drive in drives.parts}
 
-        def take(kind: type[Description]) -> None:
-            def change(robot: Robot) -> Robot:
-                known = kind.__dataclass_fields__
-                kept = {k: v for k, v in serialize.changed(robot.drive).items() if k in known}
-                return robot.replace(drive=kind(**kept))
-
-            self._desk.put(self._desk.draft.with_members(robots, change))
+        def taken(kind: type[Description], drive: Description) -> Description:
+            known = kind.__dataclass_fields__
+            return kind(**{k: v for k, v in serialize.changed(drive).items() if k in known})
 
         entries = [
-            Entry(name, partial(take, kind), value=CHOSEN * (kinds == {kind}))
+            Entry(
+                name, partial(drives.change, partial(taken, kind)), value=CHOSEN * (kinds == {kind})
+            )
             for name, kind in members("bodies").items()
         ]
         if len(kinds) == 1:
-            change = partial(self._set_part, robots, "drive")
-            entries += [Entry("Fields"), *self._entries(drives, change, pixel)]
+            entries += [Entry("Fields"), *self._fields(drives, pixel)]
         self._open("Drive", entries, pixel)
 
-    def _entries(
-        self, parts: Sequence[Description], change: Callable[..., None], pixel: Pixel
-    ) -> Iterable[Entry]:
-        """Return an entry for each field of some parts of one kind."""
-        for field in dataclasses.fields(parts[0]):
-            row = self._row(field, parts, change)
-            if row.act is not None and _is_plain(getattr(parts[0], field.name)):
-                yield Entry(row.title, partial(row.act, pixel), value=row.value)
-
-    def _offer_colors(self, bodies: tuple[Item, ...], pixel: Pixel) -> None:
+    def _offer_colors(self, bodies: Subject, pixel: Pixel) -> None:
         entries = [
-            Entry(words, partial(self._set_bodies, bodies, "color", color), colors=[color])
+            Entry(words, partial(bodies.set, "color", color), colors=[color])
             for words, color in zip(COLORS, PALETTE, strict=True)
         ]
-        field = self._desk.draft.member(bodies[0]).__dataclass_fields__["color"]
-        parts = [self._desk.draft.member(item) for item in bodies]
-        other = partial(self._ask, field, parts, partial(self._set_bodies, bodies), pixel)
-        entries.append(Entry("another …", other))
-        entries.append(Entry(AUTOMATIC, partial(self._set_bodies, bodies, "color", None)))
+        entries.append(Entry("another …", partial(self._ask, bodies, "color", pixel)))
+        entries.append(Entry(AUTOMATIC, partial(bodies.set, "color", None)))
         self._open("Colour", entries, pixel)
 
-    def _offer_new_sensors(self, robots: tuple[Item, ...], pixel: Pixel) -> None:
-        def add(kind: type[Description]) -> None:
-            needed = {f.name: GIVEN for f in dataclasses.fields(kind) if _is_needed(f)}
-
-            def change(robot: Robot) -> Robot:
-                sensor = kind(**needed)
-                assert isinstance(sensor, Sensor)
-                taken = {each.key for each in robot.sensors}
+    def _offer_new_sensors(self, robots: Items, pixel: Pixel) -> None:
+        def added(kind: type[Any], robot: Robot) -> Robot:
+            sensor = kind(**{f.name: GIVEN for f in dataclasses.fields(kind) if _is_needed(f)})
+            taken = {each.key for each in robot.sensors}
+            if sensor.key in taken:
                 names = (f"{sensor.key}{k}" for k in range(2, len(taken) + 3))
-                if sensor.key in taken:
-                    sensor = sensor.replace(name=next(n for n in names if n not in taken))
-                return robot.replace(sensors=[*robot.sensors, sensor])
+                sensor = sensor.replace(name=next(n for n in names if n not in taken))
+            return robot.replace(sensors=[*robot.sensors, sensor])
 
-            self._desk.put(self._desk.draft.with_members(robots, change))
-
+        change = self._members(robots).change
         kinds = members("sensors").items()
-        self._open("Add a sensor", [Entry(n, partial(add, kind)) for n, kind in kinds], pixel)
+        entries = [Entry(name, partial(change, partial(added, kind))) for name, kind in kinds]
+        self._open("Add a sensor", entries, pixel)
 
-    def _offer_sensor(self, robots: tuple[Item, ...], key: str, pixel: Pixel) -> None:
-        """Open the menu of a sensor's fields."""
-        draft = self._desk.draft
-        sensors = [draft.robots[item.number].sensor(key) for item in robots]
-        kind = type(sensors[0])
-
-        def put(change: Callable[[Sensor], list[Sensor]]) -> None:
-            def changed(robot: Robot) -> Robot:
-                listed = [change(s) if s.key == key else [s] for s in robot.sensors]
-                return robot.replace(sensors=[sensor for part in listed for sensor in part])
-
-            self._desk.put(self._desk.draft.with_members(robots, changed))
-
-        def set_field(name: str, value: object) -> None:
-            put(lambda sensor: [sensor.replace(**{name: value})])
-
-        entries = [Entry("Remove it", partial(put, lambda _: []))]
-        found = [sensor for sensor in sensors if sensor is not None]
-        if all(type(sensor) is kind for sensor in found):
-            entries += [Entry("Fields"), *self._entries(found, set_field, pixel)]
-        self._open(key, entries, pixel)
-
-    def _offer_new_joints(self, bodies: tuple[Item, ...], pixel: Pixel) -> None:
+    def _offer_new_joints(self, bodies: Items, pixel: Pixel) -> None:
         entries = [
             Entry(name, partial(self._tie, kind, bodies))  # type: ignore[arg-type]
             for name, kind in members("joints").items()
         ]
         self._open("Tie it by a", entries, pixel)
-
-    def _offer_joint(self, joint: Joint, pixel: Pixel) -> None:
-        """Open the menu of a joint's fields."""
-
-        def change(name: str, value: object) -> None:
-            draft = self._desk.draft
-            self._desk.put(draft.with_joint(joint.replace(**{name: value}), instead=joint))
-
-        def remove() -> None:
-            self._desk.put(self._desk.draft.without_joint(joint))
-
-        entries = [Entry("Remove it", remove), Entry("Fields")]
-        entries += self._entries([joint], change, pixel)
-        self._open(type(joint).__name__, entries, pixel)
-
-    # -- changes --------------------------------------------------------------------------------
-
-    def _set_scenario(self, name: str, value: object) -> None:
-        draft = self._desk.draft
-        base = draft.base.replace(**{name: value})
-        self._desk.put(dataclasses.replace(draft, base=base))
-
-    def _set_bodies(self, bodies: tuple[Item, ...], name: str, value: object) -> None:
-        """Set a field of bodies."""
-        change = self._desk.draft.with_members(bodies, lambda body: body.replace(**{name: value}))
-        self._desk.put(change)
-
-    def _set_part(self, robots: tuple[Item, ...], part: str, name: str, value: object) -> None:
-        """Set a field of a part of robots, such as their drive."""
-
-        def change(robot: Robot) -> Robot:
-            return robot.replace(**{part: getattr(robot, part).replace(**{name: value})})
-
-        self._desk.put(self._desk.draft.with_members(robots, change))
 
 
 def _alike(words: Sequence[str]) -> str:
@@ -472,6 +453,25 @@ def _alike(words: Sequence[str]) -> str:
 def _title(name: str) -> str:
     """Return a field's name in words."""
     return name.replace("_", " ")
+
+
+def _shown(part: object, field: Field) -> str:
+    """Return a field's value in words; in place of None the value that follows from others."""
+    value, unit = getattr(part, field.name), field.metadata.get("unit", "")
+    if value is not None or "None: " not in field.metadata.get("doc", ""):
+        return _in_words(value, unit)
+    wholes = (getattr(part, name, None) for name in ("inertia", "surface"))
+    found = (getattr(whole, field.name, None) for whole in wholes)
+    follows = next((each for each in found if each is not None), None)
+    return AUTOMATIC if follows is None else f"{AUTOMATIC} ({_in_words(follows, unit)})"
+
+
+def _typed(field: Field, text: str) -> object:
+    """Return the value of a field that was typed: as text, or as a number, a tuple, a word."""
+    if field.default is None and text.strip().lower() in ("", "none", AUTOMATIC):
+        return None
+    as_text = schema_of(field).get("type") == "string"
+    return text if as_text else parse_option(f"{field.name}={text}")[1]
 
 
 def _in_words(value: object, unit: str = "") -> str:
@@ -500,6 +500,6 @@ def _is_plain(value: object) -> bool:
     return value is None or isinstance(value, bool | float | int | str)
 
 
-def _is_needed(field: dataclasses.Field[Any]) -> bool:
+def _is_needed(field: Field) -> bool:
     missing = dataclasses.MISSING
     return field.default is missing and field.default_factory is missing

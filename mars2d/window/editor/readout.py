@@ -23,7 +23,9 @@ def described(desk: Desk) -> list[str]:
     item = items[0]
     corners, pose = draft.corners(item), draft.pose(item)
     lines = [draft.name(item)]
-    if pose is not None:
+    if pose is not None and draft.starts_at_random(item):
+        lines.append("starts at random, until it is moved")
+    elif pose is not None:
         lines.append(f"{_place(pose[:2])}   θ {in_both_units(pose[2])}")
     elif corners is None:
         lines.append(_place(draft.place(item)))
@@ -53,7 +55,7 @@ def size_of(draft: Draft, item: Item) -> str:
     body = draft.body(item)
     if item.kind != "prop" or body is None:
         return ""
-    lengths = draft.props[item.number].side_lengths
+    lengths = draft.value(item).side_lengths
     if lengths is not None:
         return sides(*lengths)
     return f"diameter {2 * body.bound[1]:.4g} m" if body.is_disc else ""

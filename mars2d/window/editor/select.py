@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point, rectangle
 from mars2d.core.scene import Scene, faded
 from mars2d.window.editor.handles import (
     MARK,
-    Cornering,
     Handle,
-    Moving,
-    Sizing,
-    Turning,
+    cornering,
     draw_handles,
     handle_at,
+    moving,
     ring_of,
+    sizing,
+    turning,
 )
 from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.picking import item_at, items_within
@@ -26,45 +24,22 @@ from mars2d.window.editor.tool import Tool
 class Handling(Tool):
     """The base of tools that drag handles."""
 
-    puts: ClassVar[bool] = False
-    moved = False
-
-    def move(self, point: Point, *, shift: bool) -> None:
-        """Go on with a drag."""
-        self.pointer = point
-        if self.gesture is not None and (self.moved or self.dragged(point)):
-            self.moved = True
-            self.desk.drag(self.gesture, point, shift=shift)
-
-    def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """End the drag, and keep its changes."""
-        corner = None if self.gesture is None else self.gesture.corner
-        self.gesture, self.pressed, self.moved = None, None, False
-        self.desk.settle()
-        if corner is not None and self.desk.only is not None:
-            self.desk.corner = corner
-
-    def cancel(self) -> bool:
-        """Cancel the drag."""
-        busy = self.gesture is not None
-        self.gesture, self.pressed, self.moved = None, None, False
-        return self.desk.drop() or busy
+    puts = False
 
     def take(self, handle: Handle, point: Point) -> None:
         """Begin to drag a handle."""
         desk, item, ring = self.desk, self.desk.only, ring_of(self.desk)
-        self.pressed = point
         if handle.kind == "turn" and ring is not None:
-            self.gesture = Turning(desk, ring)
+            self.begin(turning(desk, ring), point)
         elif item is not None and handle.kind == "size":
-            self.gesture = Sizing(desk, item, handle.number)
+            self.begin(sizing(desk, item, handle.number), point)
         elif item is not None:
-            new = handle.kind == "dot"
-            self.gesture = Cornering(desk, item, handle.number, new=new)
-            if new:
+            drag = cornering(desk, item, handle.number, new=handle.kind == "dot")
+            self.begin(drag, point)
+            if handle.kind == "dot":
                 self.moved = True  # a mere click on a dot adds the corner, too
-                desk.drag(self.gesture, handle.point, shift=False)
-            desk.corner = self.gesture.corner
+                desk.hold(drag.to, handle.point, shift=False)
+            desk.corner = drag.corner
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put the selection at a point: its corner, a body's pose, or an outline's first corner."""
@@ -77,7 +52,7 @@ class Handling(Tool):
             raise InputError("only one robot or prop alone has a heading: expected x y")
         if corners is not None and desk.corner is not None:
             k = desk.corner
-            desk.put(draft.with_corners(held, (*corners[:k], (x, y), *corners[k + 1 :])))
+            desk.put(draft.with_value(held, (*corners[:k], (x, y), *corners[k + 1 :])))
             return
         angle = 0.0 if heading is None or pose is None else heading - pose[2]
         by = x - place[0], y - place[1]
@@ -91,7 +66,7 @@ class Handling(Tool):
 class Select(Handling):
     """Selects and moves items."""
 
-    hint: ClassVar[str] = "Click or drag to select; drag moves, the ring turns"
+    hint = "Click or drag to select; drag moves, the ring turns"
     _band: tuple[Point, Point] | None = None
     _kept: tuple[Item, ...] = ()
     _clicked: Item | None = None
@@ -103,7 +78,7 @@ class Select(Handling):
         if handle is not None:
             self.take(handle, point)
             return
-        item, self.pressed = item_at(desk, point), point
+        item = item_at(desk, point)
         self._clicked = None
         if item is None:
             self._kept = desk.selection if shift else ()
@@ -119,7 +94,7 @@ class Select(Handling):
             self._clicked = item
             desk.corner = None
         if item in desk.selection:
-            self.gesture = Moving(desk, item, point)
+            self.begin(moving(desk, item, point), point)
 
     def move(self, point: Point, *, shift: bool) -> None:
         """Drag the handle or item, or select the items within the rectangle."""

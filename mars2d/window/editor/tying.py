@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import Any
 
 from mars2d.bodies.joints.base import Joint
+from mars2d.bodies.joints.hinge import Hinge
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene, faded
 from mars2d.window.editor.desk import Desk
+from mars2d.window.editor.draft import seen_from
 from mars2d.window.editor.handles import MARK
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.picking import item_at
@@ -16,10 +18,12 @@ from mars2d.window.editor.tool import Tool
 
 
 class Tie(Tool):
-    """Ties bodies by joints of a kind: a click on another body, or on the floor, ends it."""
+    """Ties bodies by joints of a kind: a click on another body, or on the floor, ends it.
 
-    hint: ClassVar[str] = "Click the body that it is tied to; a click on the floor ties it there"
-    puts: ClassVar[bool] = False
+    Joints hold bodies at their centres; a hinge is a pin where the click is.
+    """
+
+    puts = False
 
     def __init__(
         self, desk: Desk, kind: type[Joint], items: tuple[Item, ...], done: Callable[[], None]
@@ -27,23 +31,24 @@ class Tie(Tool):
         """Take the bodies to tie; done: called when they are tied."""
         super().__init__(desk)
         self._kind, self._items, self._done = kind, items, done
+        self._pins = issubclass(kind, Hinge)
+        to = "the pin goes through" if self._pins else "it is tied to"
+        self.hint = f"Click the body that {to}; a click on the floor ties it there"
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Tie the bodies to the item at a point [m]."""
         desk, draft = self.desk, self.desk.draft
-        other = item_at(desk, point)
-        ends: dict[str, Any] = {"anchor_b": desk.snapped(point)}
-        if other is not None and other.kind in ("robot", "prop"):
-            ends = {"b": draft.member(other).name}
+        at, other = desk.snapped(point), item_at(desk, point, self._items)
+        body = None if other is None else draft.body(other)
+        ends: dict[str, Any] = {"b": None if body is None else body.name}
+        if body is None or self._pins:
+            ends["anchor_b"] = seen_from(body, at)
         for item in self._items:
-            if item != other:
-                draft = draft.with_joint(self._kind(a=str(draft.member(item).name), **ends))
+            if self._pins:
+                ends["anchor_a"] = seen_from(draft.body(item), at)
+            draft = draft.with_joint(self._kind(a=draft.name(item), **ends))
         desk.put(draft)
         self._done()
-
-    def move(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
-        """Draw the joint to the pointer."""
-        self.pointer = point
 
     def draw(self, scene: Scene) -> None:
         """Draw a line from each body to the pointer."""

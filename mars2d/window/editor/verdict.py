@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.plane import Outline, outside_polygon
+from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.scenario import starts
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.draft import Draft, flaw
@@ -27,16 +27,14 @@ MIN_INTERVAL_COSTS = 8.0
 """The same as a multiple of the time that the last judgement took."""
 
 
-@dataclass(frozen=True)
-class Fault:
+class Fault(NamedTuple):
     """A fault in words, and the items that it concerns."""
 
     text: str
     culprits: tuple[Item, ...] = ()
 
 
-@dataclass(frozen=True)
-class Verdict:
+class Verdict(NamedTuple):
     """The scenario of a draft, None if the draft is not valid; and its faults."""
 
     scenario: Scenario | None
@@ -114,107 +112,63 @@ def _misplaced(draft: Draft) -> Iterator[Fault]:
     """Find bodies that start where the Scenario does not allow it."""
     items = [item for item in draft.items() if item.kind in ("robot", "prop")]
     items.sort(key=lambda item: item.kind == "prop")  # as in Scenario.bodies
-    bodies = [body for item in items if (body := draft.body(item)) is not None]
-    yield from _outside(draft, items, bodies)
-    yield from _in_obstacles(draft, items, bodies)
-    yield from _overlapping(draft, items, bodies)
-
-
-def _outside(draft: Draft, items: list[Item], bodies: list[Rigid]) -> Iterator[Fault]:
-    """Find robots outside the workspace, and bodies in its wall."""
-    base, workspace = draft.base, draft.workspace
-    if workspace is None or base.on_exit == "ignore":
-        return
+    bodies = [draft.value(item).rigid for item in items]
+    overlap, obstacles = draft.base.max_overlap, list(_obstacles(draft))
+    outlines = tuple(outline for outline, _ in obstacles)
     for item, body in zip(items, bodies, strict=True):
-        try:
-            if item.kind == "robot":
-                starts.check_in_workspace([body], workspace)
-        except InputError:
-            yield Fault(f"{body.name} starts outside the workspace", (item,))
-            continue
-        try:
-            if base.on_exit == "wall":
-                starts.check_off_walls([body], workspace, base.max_overlap)
-        except InputError:
-            yield Fault(f"{body.name} starts in the wall round the workspace", (item,))
-
-
-def _in_obstacles(draft: Draft, items: list[Item], bodies: list[Rigid]) -> Iterator[Fault]:
-    """Find bodies in obstacles."""
-    obstacles = list(_obstacles(draft))
-    if not obstacles:
-        return
-    corners = [np.array(outline) for outline, _ in obstacles]
-    low = np.array([ring.min(axis=0) for ring in corners])
-    high = np.array([ring.max(axis=0) for ring in corners])
-    for item, body in zip(items, bodies, strict=True):
-        center, radius = body.bound
-        near = (low <= np.add(center, radius)).all(axis=1)
-        near &= (high >= np.subtract(center, radius)).all(axis=1)
-        for k in np.flatnonzero(near).tolist():
+        where = _outside(draft, item, body)
+        if where:
+            yield Fault(f"{body.name} starts {where}", (item,))
+        for k in starts.cut_by(body, outlines, overlap)[:1]:
             outline, obstacle = obstacles[k]
-            try:
-                starts.check_off_obstacles([body], [outline], draft.base.max_overlap)
-            except InputError:
-                what = "an obstacle" if obstacle is None else draft.name(obstacle)
-                within = inside(center, outline)
-                hint = "; if it is a room, draw it as walls" if within else ""
-                where = "inside" if within else "in contact with"
-                culprits = (item,) if obstacle is None else (item, obstacle)
-                yield Fault(f"{body.name} starts {where} {what}{hint}", culprits)
-                break
-
-
-def _obstacles(draft: Draft) -> Iterator[tuple[Outline, Item | None]]:
-    """Return the obstacles with their items; None for those that other add-ons make."""
-    mine: set[Outline] = set()
-    for i, outline in enumerate(draft.outlines):
-        mine.add(outline)
-        yield outline, Item("outline", i)
-    for i, wall in enumerate(draft.walls):
-        for piece in pairwise(wall):
-            mine.add(piece)
-            yield piece, Item("wall", i)
-    for outline in draft.sketch.obstacles:
-        if outline not in mine:
-            yield outline, None
-
-
-def _overlapping(draft: Draft, items: list[Item], bodies: list[Rigid]) -> Iterator[Fault]:
-    """Find bodies that overlap, unless a hinge joins them."""
-    joined = draft.sketch.joined
+            within = inside(body.bound[0], outline)
+            what = "an obstacle" if obstacle is None else draft.name(obstacle)
+            where = f"inside {what}; if it is a room, draw it as walls"
+            text = where if within else f"in contact with {what}"
+            yield Fault(f"{body.name} starts {text}", (item, obstacle or item))
     centers = np.array([body.bound[0] for body in bodies])
     radii = np.array([body.bound[1] for body in bodies])
     for i, a in enumerate(bodies[:-1]):
         gaps = np.hypot(*(centers[i + 1 :] - centers[i]).T) - radii[i + 1 :] - radii[i]
         for k in (np.flatnonzero(gaps < 0) + i + 1).tolist():
-            if (i, k) in joined:
-                continue
-            try:
-                starts.check_apart([a, bodies[k]], draft.base.max_overlap)
-            except InputError:
-                deep = _depth(a, bodies[k], -float(gaps[k - i - 1]))
+            deep = starts.depth(a, bodies[k], overlap)
+            if deep and (i, k) not in draft.sketch.joined:
                 text = f"{a.name} and {bodies[k].name} overlap by {deep:.2g} m"
                 yield Fault(text, (items[i], items[k]))
 
 
-def _depth(a: Rigid, b: Rigid, of_bounds: float) -> float:
-    """Return about how deep two bodies overlap, metres; of_bounds: the same for their bounds."""
-    if a.is_disc and b.is_disc:
-        return of_bounds
-    import shapely
+def _outside(draft: Draft, item: Item, body: Rigid) -> str:
+    """Return where a body starts outside the workspace or in its wall, "" for neither."""
+    base, workspace = draft.base, draft.workspace
+    if workspace is None or base.on_exit == "ignore":
+        return ""
+    if item.kind == "robot" and not _within(body.pose[:2], workspace):
+        return "outside the workspace"
+    try:
+        if base.on_exit == "wall":
+            starts.check_off_walls([body], workspace, base.max_overlap)
+    except InputError:
+        return "in the wall round the workspace"
+    return ""
 
-    common = shapely.intersection(starts.footprint(a), starts.footprint(b))
-    return float(2 * shapely.maximum_inscribed_circle(common).length)
+
+def _within(point: Point, workspace: Outline) -> bool:
+    x, y = np.array([point]).T
+    return not outside_polygon(x, y, np.array(workspace))[0]
+
+
+def _obstacles(draft: Draft) -> Iterator[tuple[Outline, Item | None]]:
+    """Return the obstacles with their items; None for those that other add-ons make."""
+    mine = {outline: Item("outline", i) for i, outline in enumerate(draft.outlines)}
+    for i, wall in enumerate(draft.walls):
+        mine |= dict.fromkeys(pairwise(wall), Item("wall", i))
+    for outline in draft.sketch.obstacles:
+        yield outline, mine.get(outline)
 
 
 def _stray(draft: Draft) -> Iterator[Fault]:
     """Find waypoints outside the workspace."""
-    if draft.workspace is None or draft.base.on_exit == "ignore":
-        return
-    ring = np.array(draft.workspace)
-    for item in draft.items():
-        if item.kind == "waypoint":
-            x, y = np.array([draft.place(item)]).T
-            if outside_polygon(x, y, ring)[0]:
-                yield Fault(f"{draft.name(item)} lies outside the workspace", (item,))
+    ring = None if draft.base.on_exit == "ignore" else draft.workspace
+    for item in draft.items() if ring else ():
+        if item.kind == "waypoint" and not _within(draft.place(item), ring or ()):
+            yield Fault(f"{draft.name(item)} lies outside the workspace", (item,))

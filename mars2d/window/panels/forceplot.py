@@ -13,6 +13,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Float, Frame
 from mars2d.window.panels.forcemeter import Bound, Reading, bound_of, span_of
 from mars2d.window.widgets.plot import Limits, draw_axes, draw_curve, polylines
+from mars2d.window.widgets.words import Word, write_line
 
 MAX_OVER_BOUND = 3.0
 """The upper end of the force axis, at most, as a multiple of the bound."""
@@ -25,14 +26,14 @@ HEAD, LEFT, FOOT = 22.0, 44.0, 17.0
 
 
 def draw_force(
-    surface: pygame.Surface,
-    rect: pygame.Rect,
     painter: Painter,
     frame: Frame,
     body: int,
     reading: Reading,
+    surface: pygame.Surface,
+    rect: pygame.Rect,
 ) -> None:
-    """Draw a meter's reading of the net contact force on a body within a rectangle."""
+    """Draw a reading of the net contact force on a body within a rectangle."""
     ui, bound = painter.ui, bound_of(frame, body)
     _draw_title(surface, rect, painter, reading, bound)
     area = pygame.Rect(
@@ -56,30 +57,22 @@ def _draw_title(
     reading: Reading,
     bound: Bound | None,
 ) -> None:
-    """Write the present force, and the names of the curves."""
+    """Write the names of the curves, as far as there is room, and the present force."""
     ui, fonts, theme = painter.ui, painter.fonts, painter.theme
-    middle = rect.top + round(HEAD / 2 * ui)
+    line = pygame.Rect(rect.topleft, (rect.width, round(HEAD * ui)))
     now = float(reading.force[-1]) if len(reading.force) else 0.0
-    image = fonts.render(in_newtons(now), 14 * ui, theme.shade(FORCE), bold=True)
-    surface.blit(image, image.get_rect(midright=(rect.right, middle)))
-    room = rect.width - image.get_width() - 8 * ui
-    x = rect.left
-    words = [("net contact force", theme.ink, True)]
+    force = Word(in_newtons(now), theme.shade(FORCE), 14, bold=True)
+    groups = [[Word("net contact force", theme.ink, 12, bold=True)]]
     if reading.effort is not None and bound is not None:
-        words.append(("effort", theme.effort, False))
+        groups.append([Word("effort", theme.effort, 12)])
         if (reading.effort >= SLIPPING).any():
-            words.append(("slips", theme.text, False))
-    for word, color, bold in words:
-        image = fonts.render(word, 12 * ui, color, bold=bold)
-        if x + image.get_width() - rect.left > room:
+            groups.append([Word("■", SLIP, 12), Word("slips", theme.text, 12)])
+    room = rect.width - fonts.width(force.text, 14 * ui, bold=True)
+    for k in range(len(groups), 0, -1):
+        names = [word for group in groups[:k] for word in group]
+        if sum(fonts.width(each.text, 12 * ui, bold=each.bold) + 9 * ui for each in names) <= room:
             break
-        if word == "slips":
-            patch = pygame.Rect(0, 0, round(9 * ui), round(9 * ui))
-            patch.midleft = x, middle
-            surface.fill(SLIP, patch)
-            x += round(13 * ui)
-        surface.blit(image, image.get_rect(midleft=(x, middle)))
-        x += image.get_width() + round(10 * ui)
+    write_line(surface, line, painter, names, [force])
 
 
 def _draw_curves(
@@ -98,7 +91,7 @@ def _draw_curves(
     ends = np.minimum(ends, frame.time)  # of the control steps
     edges = np.append(reading.start, ends)
     if reading.effort is not None and len(reading.effort) and bound is not None:
-        for a, b in _stretches(reading.effort >= SLIPPING):
+        for a, b in stretches(reading.effort >= SLIPPING):
             left, right = limits.pixels(area, edges[[a, b]], np.zeros(2))[:, 0].round().tolist()
             band = pygame.Surface((max(1, int(right - left)), area.height))
             band.fill(SLIP)
@@ -142,7 +135,7 @@ def _top(force: Float, bound: Bound | None) -> float:
     return max(1.45 * bound.force, min(1.1 * peak, MAX_OVER_BOUND * bound.force))
 
 
-def _stretches(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def stretches(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """Return the stretches of set flags, each as its start and its end."""
     changes = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
     return list(zip(changes[::2].tolist(), changes[1::2].tolist(), strict=True))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import NamedTuple
 
 import pygame
 
@@ -13,7 +14,7 @@ from mars2d.core.description import snake_case
 from mars2d.output.layers.forces import SLIP, SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
-from mars2d.window.panels.forcemeter import Meter
+from mars2d.window.panels.forcemeter import reading_of
 from mars2d.window.panels.forceplot import draw_force
 from mars2d.window.panels.readout import (
     MAX_MESSAGES,
@@ -29,6 +30,7 @@ from mars2d.window.panels.readout import (
 from mars2d.window.panels.sensorplot import TITLE, SensorPlot, plot_of
 from mars2d.window.screen.selection import Selection
 from mars2d.window.widgets.dock import Panel
+from mars2d.window.widgets.words import Word, write_line
 
 COLUMN, LEAST, LEAST_IN_CONTACT = 300.0, 176.0, 268.0
 """The least width of a column of sections, and the least height of the inspector, points: with the
@@ -55,8 +57,9 @@ class Section(NamedTuple):
     height: points. least: the lowest height where there is little room; None: the same height.
     """
 
+    name: str
     height: float
-    draw: Callable[[pygame.Surface, pygame.Rect], None]
+    draw: Callable[[pygame.Surface, pygame.Rect], object]
     least: float | None = None
 
 
@@ -81,9 +84,8 @@ class Inspector(Panel):
         """Start with nothing drawn."""
         self.painter, self.selection, self.plays = painter, selection, False
         self._clock = clock
-        self._meter = Meter()
         self._image: pygame.Surface | None = None
-        self._listed: list[tuple[str, Section]] = []
+        self._sections: list[Section] = []
         self._of: tuple[object, ...] = ()
         self._frame: Frame | None = None
         self._drawn_at = 0.0
@@ -99,7 +101,7 @@ class Inspector(Panel):
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the least and the wanted height at a width, points."""
-        each = [section.height + GAP for _, section in self._look(frame)]
+        each = [section.height + GAP for section in self._look(frame)]
         columns = _columns(width)
         wanted = sum(each) if columns == 1 else (sum(each) + max(each)) / columns
         least = LEAST_IN_CONTACT if frame.scenario.physics == "contact" else LEAST
@@ -119,29 +121,27 @@ class Inspector(Panel):
             self._image.fill(self.painter.theme.plate)
             for column, top, part in self._chosen(sections, rect.height, columns):
                 left = column * (width + gap)
-                place = pygame.Rect(left, top, width, round(part.height * ui))
-                part.draw(self._image, place)
+                part.draw(self._image, pygame.Rect(left, top, width, round(part.height * ui)))
         surface.blit(self._image, rect)
 
-    def _look(self, frame: Frame) -> list[tuple[str, Section]]:
-        """Return the sections with their names, as they were last seen or as they are now."""
+    def _look(self, frame: Frame) -> list[Section]:
+        """Return the sections as they were last seen, or as they are now."""
         body, ui, theme = self.selection.body, self.painter.ui, self.painter.theme
         if body is None:
             return []
         of = body, self.plays, touching(frame, body), frame.scenario, ui, theme
-        reading = self._meter.read(frame, body)  # at each control step, else it would start over
         now = self._clock()
         late = frame is not self._frame and now - self._drawn_at >= DRAW_INTERVAL
-        if not self._listed or of != self._of or late:
-            self._listed = list(self._sections(frame, body, reading))
+        if of != self._of or late:
+            self._sections = list(self._made(frame, body))
             self._image, self._of, self._frame, self._drawn_at = None, of, frame, now
-        return self._listed
+        return self._sections
 
     def _pixels(self, section: Section) -> int:
         return round((section.height + GAP) * self.painter.ui)
 
     def _chosen(
-        self, sections: list[tuple[str, Section]], height: int, columns: int = 1
+        self, sections: Sequence[Section], height: int, columns: int = 1
     ) -> Iterator[tuple[int, int, Section]]:
         """Yield the sections for which there is room, in order of importance.
 
@@ -149,146 +149,108 @@ class Inspector(Panel):
         """
         left_out: list[str] = []
         column, top = 0, 0
-        whole = sum(self._pixels(section) for _, section in sections) <= height
+        whole = sum(map(self._pixels, sections)) <= height
         last = 0 if whole else round(LINE * self.painter.ui)  # for the names of those left out
-        for name, section in sections:
+        for each in sections:
+            section = each
             if top and self._pixels(section) > height - top and column + 1 < columns:
                 column, top = column + 1, 0
             important = section.least is not None
             room = height - top - (last if column == columns - 1 and not important else 0)
             if section.least is not None and self._pixels(section) > room:
                 lower = room / self.painter.ui - GAP
-                section = section._replace(height=max(section.least, lower))  # noqa: PLW2901
+                section = section._replace(height=max(section.least, lower))
             if self._pixels(section) <= room:
                 yield column, top, section
                 top += self._pixels(section)
             else:
-                left_out.append(name)
+                left_out.append(section.name)
         if left_out and top + last <= height:
-            yield column, top, self._text(f"no room for {', '.join(left_out)}")
+            word = Word(f"no room for {', '.join(left_out)}", self.painter.theme.muted, 11.5)
+            line = partial(write_line, painter=self.painter, left=[word])
+            yield column, top, Section("", LINE - GAP, line)
 
-    def _sections(self, frame: Frame, body: int, reading: Any) -> Iterator[tuple[str, Section]]:
-        """Yield all sections with their names."""
-        n = len(frame.scenario.robots)
-        rows = state_of(frame, body)
-        effort = float(frame.effort[body]) if body < min(n, len(frame.effort)) else None
-        height = HEAD + ROW * (len(rows) + (effort is not None))
-        yield (
-            "its state",
-            Section(
-                height,
-                lambda surface, rect: self._draw_state(surface, rect, frame, body, rows, effort),
-            ),
-        )
+    def _made(self, frame: Frame, body: int) -> Iterator[Section]:
+        """Yield all sections."""
+        robots, rows = frame.scenario.robots, state_of(frame, body)
+        effort = float(frame.effort[body]) if body < min(len(robots), len(frame.effort)) else None
+        high = HEAD + ROW * (len(rows) + (effort is not None))
+        yield Section("its state", high, partial(self._draw_state, frame, body, rows, effort))
         if frame.scenario.physics == "contact":
-            yield "contacts", self._line("contacts", " · ".join(contacts_of(frame, body)) or "none")
-        if frame.scenario.physics == "contact" and (reading.force.any() or not self.plays):
-            yield (
-                "forces",
-                Section(
-                    FORCE,
-                    lambda surface, rect: draw_force(
-                        surface, rect, self.painter, frame, body, reading
-                    ),
-                    MIN_FORCE,
-                ),
-            )
-        dynamics = dynamics_of(frame, body)
-        if dynamics:
-            yield (
-                "energy",
-                Section(
-                    ROW * len(dynamics),
-                    lambda surface, rect: self._draw_rows(surface, rect, rect.top, dynamics),
-                ),
-            )
-        for plot in sensor_plots(frame, body):
-            yield plot.sensor.key, self._sensor(plot)
-        if body < n and any(addon.carries_messages for addon in frame.scenario.addons):
+            text = " · ".join(contacts_of(frame, body)) or "none"
+            yield Section("contacts", TITLE, partial(self._heading, "contacts", text))
+            reading = reading_of(frame, body)
+            if reading.force.any() or not self.plays:
+                plot = partial(draw_force, self.painter, frame, body, reading)
+                yield Section("forces", FORCE, plot, MIN_FORCE)
+        if dynamics := dynamics_of(frame, body):
+            yield Section("energy", ROW * len(dynamics), partial(self._draw_rows, dynamics))
+        for sensed in sensor_plots(frame, body):
+            high = TITLE + sensed.height
+            yield Section(sensed.sensor.key, high, partial(self._draw_sensor, sensed))
+        if body < len(robots) and any(each.carries_messages for each in frame.scenario.addons):
             heard = [
                 f"{sender}, {frame.time - sent:.1f} s ago: {rounded(text)}"
                 for sender, sent, text in inbox(frame, body)
             ]
-            yield "its inbox", self._list("inbox", heard)
+            high = TITLE + MAX_MESSAGES * LINE  # whatever has come
+            yield Section("its inbox", high, partial(self._draw_inbox, heard))
 
     # -- sections -----------------------------------------------------------------------------
 
     def _draw_state(
         self,
-        surface: pygame.Surface,
-        rect: pygame.Rect,
         frame: Frame,
         body: int,
-        rows: list[Row],
+        rows: Sequence[Row],
         effort: float | None,
-    ) -> None:
-        """Draw the name and kind of a body, and its rows of numbers."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        colors = (*frame.scenario.colors, *prop_colors(frame.scenario.props))
-        middle = rect.top + round(HEAD / 2 * ui)
-        center = rect.left + 7 * ui, float(middle)
-        pygame.draw.aacircle(surface, theme.muted, center, 7.5 * ui)
-        pygame.draw.aacircle(surface, theme.shade(colors[body]), center, 6.5 * ui)
-        kind = fonts.render(kind_of(frame, body), 12.5 * ui, theme.muted)
-        beside = rect.right - round(CLOSE * ui)
-        surface.blit(kind, kind.get_rect(midright=(beside, middle)))
-        room = beside - rect.left - kind.get_width() - 34 * ui
-        name = fonts.shorten(str(frame.scenario.bodies[body].name), 17 * ui, room, bold=True)
-        image = fonts.render(name, 17 * ui, theme.ink, bold=True)
-        surface.blit(image, image.get_rect(midleft=(rect.left + round(22 * ui), middle)))
-        top = rect.top + round(HEAD * ui)
-        self._draw_rows(surface, rect, top, rows)
-        if effort is not None:
-            line = pygame.Rect(
-                rect.left, top + round(len(rows) * ROW * ui), rect.width, round(ROW * ui)
-            )
-            self._draw_effort(surface, line, effort)
-
-    def _draw_rows(
-        self, surface: pygame.Surface, rect: pygame.Rect, top: int, rows: list[Row]
-    ) -> None:
-        """Draw rows of numbers one below the other."""
-        ui = self.painter.ui
-        for k, (what, numbers) in enumerate(rows):
-            line = pygame.Rect(rect.left, top + round(k * ROW * ui), rect.width, round(ROW * ui))
-            self._draw_row(surface, line, what, numbers)
-
-    def _draw_row(
-        self,
         surface: pygame.Surface,
         rect: pygame.Rect,
-        what: str,
-        numbers: list[tuple[str, str]],
     ) -> None:
-        """Draw a row of up to three numbers, in columns if these are wide enough."""
+        """Draw the name and kind of a body, and its rows of numbers."""
+        ui, theme = self.painter.ui, self.painter.theme
+        colors = (*frame.scenario.colors, *prop_colors(frame.scenario.props))
+        head = pygame.Rect(rect.topleft, (rect.width - round(CLOSE * ui), round(HEAD * ui)))
+        center = rect.left + 7 * ui, float(head.centery)
+        pygame.draw.aacircle(surface, theme.muted, center, 7.5 * ui)
+        pygame.draw.aacircle(surface, theme.shade(colors[body]), center, 6.5 * ui)
+        inset = round(22 * ui)
+        head.left, head.width = head.left + inset, head.width - inset
+        name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)
+        write_line(surface, head, self.painter, [name], [Word(kind_of(frame, body), theme.muted)])
+        rest = pygame.Rect(rect.left, head.bottom, rect.width, rect.bottom - head.bottom)
+        self._draw_rows(rows, surface, rest)
+        if effort is not None:
+            line = pygame.Rect(rect.left, 0, rect.width, round(ROW * ui))
+            line.top = rest.top + round(len(rows) * ROW * ui)
+            self._draw_effort(surface, line, effort)
+
+    def _draw_rows(self, rows: Sequence[Row], surface: pygame.Surface, rect: pygame.Rect) -> None:
+        """Draw rows of up to three numbers, in columns if these are wide enough."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        image = fonts.render(what, 12.5 * ui, theme.muted)
-        surface.blit(image, image.get_rect(midleft=rect.midleft))
         left, gap = rect.left + round(LABEL * ui), round(8 * ui)
         column = (rect.right - left) / 3
-        for size in (12.5 * ui, 11.5 * ui, 10.5 * ui):
-            texts = [[fonts.render(f"{name} ", size, theme.muted),
-                      fonts.render(value, size, theme.ink)] for name, value in numbers]  # fmt: skip
-            widths = [sum(image.get_width() for image in pair) for pair in texts]
-            if sum(widths) + gap * (len(widths) - 1) <= rect.right - left:
-                break
-        in_columns = all(width + gap <= column for width in widths[:-1])
-        x = left
-        for k, pair in enumerate(texts):
-            x = round(left + k * column) if in_columns else x
-            for image in pair:
-                surface.blit(image, image.get_rect(midleft=(x, rect.centery)))
-                x += image.get_width()
-            x += gap
+        for k, (what, numbers) in enumerate(rows):
+            y = rect.top + round(k * ROW * ui) + round(ROW * ui) // 2
+            self.painter.write(surface, what, 12.5 * ui, theme.muted, midleft=(rect.left, y))
+            for size in (12.5 * ui, 11.5 * ui, 10.5 * ui):
+                widths = [fonts.width(f"{name} {value}", size) for name, value in numbers]
+                if sum(widths) + gap * (len(widths) - 1) <= rect.right - left:
+                    break
+            in_columns = all(width + gap <= column for width in widths[:-1])
+            x = left
+            for place, (name, value) in enumerate(numbers):
+                x = round(left + place * column) if in_columns else x
+                x = self.painter.write(surface, f"{name} ", size, theme.muted, midleft=(x, y)).right
+                x = self.painter.write(surface, value, size, theme.ink, midleft=(x, y)).right + gap
 
     def _draw_effort(self, surface: pygame.Surface, rect: pygame.Rect, effort: float) -> None:
         """Draw the effort of the drive as a bar."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        image = fonts.render("effort", 12.5 * ui, theme.muted)
-        surface.blit(image, image.get_rect(midleft=rect.midleft))
+        ui, theme = self.painter.ui, self.painter.theme
         slips = effort >= SLIPPING
-        word = fonts.render("slips" if slips else f"{100 * effort:.0f} %", 12.5 * ui, theme.ink)
-        surface.blit(word, word.get_rect(midright=rect.midright))
+        value = "slips" if slips else f"{100 * effort:.0f} %"
+        words = [Word("effort", theme.muted)], [Word(value, theme.ink)]
+        write_line(surface, rect, self.painter, *words)
         left = rect.left + round(LABEL * ui)
         bar = pygame.Rect(left, 0, rect.right - round(52 * ui) - left, round(6 * ui))
         bar.centery = rect.centery
@@ -299,62 +261,30 @@ class Inspector(Panel):
             color = SLIP if slips else theme.effort
             pygame.draw.rect(surface, color, bar, border_radius=radius)
 
-    def _sensor(self, plot: SensorPlot) -> Section:
-        """Return the section of a sensor: its name and its plot."""
-        ui = self.painter.ui
+    def _draw_sensor(self, plot: SensorPlot, surface: pygame.Surface, rect: pygame.Rect) -> None:
+        """Draw the name of a sensor and its plot."""
+        kind, key = snake_case(type(plot.sensor).__name__), plot.sensor.key
+        self._heading(key, "" if kind == key else kind, surface, rect)
+        rest = pygame.Rect(rect.left, 0, rect.width, round(plot.height * self.painter.ui))
+        rest.bottom = rect.bottom
+        plot.draw(surface, rest, self.painter)
 
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            kind = snake_case(type(plot.sensor).__name__)
-            self._heading(surface, rect, plot.sensor.key, "" if kind == plot.sensor.key else kind)
-            rest = pygame.Rect(rect.left, 0, rect.width, round(plot.height * ui))
-            rest.bottom = rect.bottom
-            plot.draw(surface, rest, self.painter)
+    def _draw_inbox(self, lines: Sequence[str], surface: pygame.Surface, rect: pygame.Rect) -> None:
+        ui, theme = self.painter.ui, self.painter.theme
+        self._heading("inbox", "" if lines else "nothing yet", surface, rect)
+        for k, line in enumerate(lines):
+            row = pygame.Rect(rect.left, 0, rect.width, round(LINE * ui))
+            row.top = rect.top + round((TITLE + k * LINE) * ui)
+            write_line(surface, row, self.painter, [Word(line, theme.text)])
 
-        return Section(TITLE + plot.height, draw)
-
-    def _line(self, title: str, text: str) -> Section:
-        """Return a section of one line."""
-        ui, fonts = self.painter.ui, self.painter.fonts
-
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            room = rect.width - fonts.width(title, 12.5 * ui, bold=True) - 12 * ui
-            self._heading(surface, rect, title, fonts.shorten(text, 12 * ui, room))
-
-        return Section(TITLE, draw)
-
-    def _list(self, title: str, lines: list[str]) -> Section:
-        """Return a section of lines of text; its height does not depend on their number."""
+    def _heading(self, title: str, more: str, surface: pygame.Surface, rect: pygame.Rect) -> None:
+        """Draw a line above a section, its title and more at the right."""
         ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            self._heading(surface, rect, title, "" if lines else "nothing yet")
-            for k, line in enumerate(lines[:MAX_MESSAGES]):
-                text = fonts.shorten(line, 12.5 * ui, rect.width)
-                image = fonts.render(text, 12.5 * ui, theme.text)
-                middle = rect.top + round((TITLE + (k + 0.5) * LINE) * ui)
-                surface.blit(image, image.get_rect(midleft=(rect.left, middle)))
-
-        return Section(TITLE + MAX_MESSAGES * LINE, draw)
-
-    def _text(self, text: str) -> Section:
-        """Return a section of one muted line."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            short = fonts.shorten(text, 11.5 * ui, rect.width)
-            image = fonts.render(short, 11.5 * ui, theme.muted)
-            surface.blit(image, image.get_rect(midleft=rect.midleft))
-
-        return Section(LINE - GAP, draw)
-
-    def _heading(self, surface: pygame.Surface, rect: pygame.Rect, title: str, more: str) -> None:
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        middle = rect.top + round(TITLE / 2 * ui)
         surface.fill(theme.edge, (rect.left, rect.top - round(GAP / 2 * ui), rect.width, 1))
-        image = fonts.render(title, 12.5 * ui, theme.ink, bold=True)
-        surface.blit(image, image.get_rect(midleft=(rect.left, middle)))
-        image = fonts.render(more, 12 * ui, theme.muted)
-        surface.blit(image, image.get_rect(midright=(rect.right, middle)))
+        line = pygame.Rect(rect.topleft, (rect.width, round(TITLE * ui)))
+        room = rect.width - fonts.width(title, 12.5 * ui, bold=True) - 12 * ui
+        at_end = Word(fonts.shorten(more, 12 * ui, room), theme.muted, 12)
+        write_line(surface, line, self.painter, [Word(title, theme.ink, bold=True)], [at_end])
 
 
 def _columns(width: float) -> int:

@@ -21,6 +21,7 @@ from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.slider import ValueSlider
 from mars2d.window.widgets.text_field import TextField
+from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.timeline import Timeline
 
 Pixel = tuple[int, int]
@@ -106,8 +107,6 @@ class ParameterPanel(Panel):
         self._scroll = 0.0  # points
         self._room = 0.0
         self._cut = False  # whether there is no room for all lines
-        self._image: pygame.Surface | None = None
-        self._drawn: tuple[object, ...] = ()
 
     # -- what there is ------------------------------------------------------------------------
 
@@ -144,23 +143,11 @@ class ParameterPanel(Panel):
     # -- drawing ------------------------------------------------------------------------------
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
-        """Draw the content within a rectangle; the picture is kept until it changes."""
-        lines, painter = self._look(), self.painter
-        state = (
-            rect.copy(), painter.ui, painter.theme, lines, self.focus, self._typing, self._words(),
-            self._held, self._value, self._scroll,
-        )  # fmt: skip
-        if self._image is None or state != self._drawn:
-            self._draw(surface, rect, lines)
-            self._drawn = *state[:-1], self._scroll
-            self._image = surface.subsurface(rect.clip(surface.get_rect())).copy()
-        else:
-            surface.blit(self._image, rect)
-
-    def _draw(self, surface: pygame.Surface, rect: pygame.Rect, lines: list[Line]) -> None:
-        ui = self.painter.ui
-        below = self._draw_words(surface, rect)
-        room = pygame.Rect(rect.left, rect.top, rect.width, rect.height - below)
+        """Draw the content within a rectangle: as many lines as there is room for."""
+        lines, ui, theme = self._look(), self.painter.ui, self.painter.theme
+        room = pygame.Rect(
+            rect.topleft, (rect.width, rect.height - self._draw_words(surface, rect))
+        )
         whole = sum(line.height for line in lines)
         self._room = room.height / ui
         self._cut = whole > self._room + 2
@@ -176,7 +163,7 @@ class ParameterPanel(Panel):
             if place.bottom <= room.top or place.top >= room.bottom:
                 continue
             if line.parameter is None:
-                self._draw_heading(surface, place, line.text)
+                write_line(surface, place, self.painter, [Word(line.text, theme.muted, bold=True)])
             else:
                 self.places[line.parameter.name] = place.clip(room)
                 self._draw_row(surface, place, line.text, line.parameter)
@@ -184,63 +171,37 @@ class ParameterPanel(Panel):
             self._draw_scrollbar(surface, room, whole)
         surface.set_clip(clip)
 
-    def _draw_heading(self, surface: pygame.Surface, place: pygame.Rect, text: str) -> None:
-        ui, fonts = self.painter.ui, self.painter.fonts
-        word = fonts.shorten(text, 12.5 * ui, place.width, bold=True)
-        image = fonts.render(word, 12.5 * ui, self.painter.theme.muted, bold=True)
-        surface.blit(image, image.get_rect(midleft=(place.left, place.centery)))
-
     def _draw_row(
         self, surface: pygame.Surface, place: pygame.Rect, text: str, parameter: Parameter
     ) -> None:
         """Draw a name, its value, the button that puts it back, and below them the slider."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        ui, theme, pad = self.painter.ui, self.painter.theme, round(PAD * self.painter.ui)
         name, held = parameter.name, parameter.name == self._held
         if name == self.focus:
             self.painter.panel(surface, place, theme.key, 5 * ui, theme.selected)
         value = self._value if held else parameter.value
-        inner = place.inflate(-2 * round(PAD * ui), 0)
-        above = pygame.Rect(inner.topleft, (inner.width, round(NAME * ui)))
-        right = above.right
+        above = pygame.Rect(place.left + pad, place.top, place.width - 2 * pad, round(NAME * ui))
+        line = pygame.Rect(above.bottomleft, (above.width, place.bottom - above.bottom))
+        line = line.inflate(-round(12 * ui), -round(4 * ui))
         if value != parameter.default and not held:
             reset = pygame.Rect(0, 0, round(RESET * ui), round(RESET * ui))
-            reset.midright = above.right + round(PAD / 2 * ui), above.centery
+            reset.midright = above.right + pad // 2, above.centery
             draw_icon(surface, CONTROLS["restart"].icon, theme.muted, reset.inflate(8, 8))
             self.resets[name] = reset
-            right = reset.left - round(PAD / 2 * ui)
-        left = self._draw_value(surface, (right, above.centery), parameter, value)
-        word = fonts.shorten(text, SIZE * ui, left - 2 * round(PAD * ui) - above.left)
-        image = fonts.render(word, SIZE * ui, theme.text)
-        surface.blit(image, image.get_rect(midleft=above.midleft))
-        line = pygame.Rect(inner.left, above.bottom, inner.width, place.bottom - above.bottom)
-        line = line.inflate(-round(12 * ui), -round(4 * ui))
+            above.width = reset.left - pad // 2 - above.left
+        number = Word(_number(parameter, value), theme.ink, SIZE, bold=value != parameter.default)
+        unit = [Word(parameter.unit, theme.muted, 0.9 * SIZE)] if parameter.unit else []
+        words = [number, *unit]
+        if name == self.focus and self.typed.text:
+            box = pygame.Rect(0, 0, round(TYPED_WIDTH * ui), round((NAME - 3) * ui))
+            box.midright, words = above.midright, []
+            self.painter.panel(surface, box, theme.paper, 4 * ui, theme.selected)
+            self.typed.draw(surface, box.inflate(-round(10 * ui), 0), self.painter, SIZE * ui)
+            above.width = box.left - 2 * pad - above.left
+        write_line(surface, above, self.painter, [Word(text, theme.text, SIZE)], words)
         slider = self._sliders.setdefault(name, ValueSlider())
         ends = parameter.low, parameter.high
         slider.draw(surface, line, self.painter, value, parameter.default, ends, held=held)
-
-    def _draw_value(
-        self, surface: pygame.Surface, end: Pixel, parameter: Parameter, value: float
-    ) -> int:
-        """Draw a value with its unit, or the number that is typed, up to `end` at the right.
-
-        Returns where it begins, pixels from the left.
-        """
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        right, middle = end
-        if parameter.name == self.focus and self.typed.text:
-            box = pygame.Rect(0, 0, round(TYPED_WIDTH * ui), round((NAME - 3) * ui))
-            box.midright = end
-            self.painter.panel(surface, box, theme.paper, 4 * ui, theme.selected)
-            inner = box.inflate(-round(10 * ui), 0)
-            self.typed.draw(surface, inner, self.painter, SIZE * ui)
-            return box.left
-        if parameter.unit:
-            unit = fonts.render(f" {parameter.unit}", 0.9 * SIZE * ui, theme.muted)
-            right -= unit.get_width()
-            surface.blit(unit, unit.get_rect(midleft=(right, middle)))
-        word = _number(parameter, value)
-        number = fonts.render(word, SIZE * ui, theme.ink, bold=value != parameter.default)
-        return surface.blit(number, number.get_rect(midright=(right, middle))).left
 
     def _draw_scrollbar(self, surface: pygame.Surface, room: pygame.Rect, whole: float) -> None:
         ui, theme = self.painter.ui, self.painter.theme
@@ -262,8 +223,8 @@ class ParameterPanel(Panel):
         below = round((max(len(lines), LINES) * WORDS + 4) * ui)
         top = rect.bottom - below + round(4 * ui)
         for k, line in enumerate(lines):
-            image = fonts.render(line, 12.5 * ui, color)
-            surface.blit(image, (rect.left, top + round(k * WORDS * ui)))
+            place = rect.left, top + k * WORDS * ui
+            self.painter.write(surface, line, 12.5 * ui, color, topleft=place)
         return below
 
     def _words(self) -> tuple[str, Say]:
@@ -367,11 +328,6 @@ class ParameterPanel(Panel):
         """Take the focus from all sliders."""
         self.focus = None
         self.typed.clear()
-
-    @property
-    def _typing(self) -> tuple[object, ...]:
-        """All of what is typed that is drawn."""
-        return self.typed.text, self.typed.caret, self.typed.selected, self.typed.composed
 
     def press(self, event: pygame.Event) -> bool:
         """Give an event of the keyboard to the slider that has the focus; return if it took it."""

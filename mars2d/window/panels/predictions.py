@@ -9,12 +9,13 @@ from typing import NamedTuple
 
 import pygame
 
-from mars2d.core.errors import LawError, counted
+from mars2d.core.errors import LawError
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 from mars2d.record.frame import Frame
-from mars2d.scenario.prediction import Prediction, number
+from mars2d.scenario.prediction import SIGNS, Prediction, cells, number, summary
 from mars2d.window.widgets.dock import Panel
+from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -69,8 +70,6 @@ class Predictions(Panel):
         self._timeline, self._clock, self._wanted = timeline, clock, False
         self._read: tuple[World, int] | None = None
         self._next, self._cost = -math.inf, 0.0
-        self._image: pygame.Surface | None = None
-        self._image_of: tuple[object, ...] = ()
         self._first = 0  # the prediction at the top, if there is no room for all
 
     @property
@@ -122,77 +121,60 @@ class Predictions(Panel):
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
         """Draw the table, and below it the values that could not be read."""
-        theme, words = self.painter.theme, self._words(rect.width)
-        of = rect.size, self.reading, self._first, words, theme, self.painter.ui
-        if self._image is None or self._image_of != of:
-            self._image = pygame.Surface(rect.size, 0, 32)
-            self._image.fill(theme.plate)
-            self._draw(self._image, words)
-            self._image_of = of
-        surface.blit(self._image, rect)
-
-    def _draw(self, surface: pygame.Surface, words: list[str]) -> None:
-        """Draw the whole content on a surface of its own."""
-        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
-        rows, (width, height) = self.reading.predictions, surface.get_size()
-        top, foot = 0, height - round(len(words) * LINE * ui) if rows else 0
-        each = self._column(width)
-        columns = [round(width - UNIT * ui - k * each) for k in (2, 1, 0)]
+        ui, theme, painter = self.painter.ui, self.painter.theme, self.painter
+        rows, words = self.reading.predictions, self._words(rect.width)
+        top, foot = rect.top, rect.bottom - round(len(words) * LINE * ui) if rows else rect.top
+        each = self._column(rect.width)
+        columns = [round(rect.right - UNIT * ui - k * each) for k in (2, 1, 0)]
         titles = ("predicted", "measured", "tolerance") if rows else ()
         for title, right in zip(titles, columns, strict=False):
-            image = fonts.render(title, 11.5 * ui, theme.muted)
-            surface.blit(image, image.get_rect(topright=(right, top)))
+            painter.write(surface, title, 11.5 * ui, theme.muted, topright=(right, top))
         top += round(TITLES * ui) if rows else 0
         room = max(1, int((foot - top) / (ROW * ui)))
         self._first = min(max(self._first, 0), max(0, len(rows) - room))
         for prediction in rows[self._first : self._first + room]:
-            self._draw_row(surface, top, prediction, columns)
-            top += round(ROW * ui)
+            place = pygame.Rect(rect.left, top, rect.width, round(ROW * ui))
+            self._draw_row(surface, place, prediction, columns)
+            top = place.bottom
+        color = theme.error.ink if self._failed else theme.muted
         for k, line in enumerate(words):
-            color = theme.error.ink if self._failed else theme.muted
-            image = fonts.render(line, 12 * ui, color)
-            surface.blit(image, (0, foot + round(k * LINE * ui)))
+            place = pygame.Rect(rect.left, foot + round(k * LINE * ui), rect.width, 0)
+            painter.write(surface, line, 12 * ui, color, topleft=place.topleft)
         if len(rows) > room:
-            more = fonts.render(f"wheel: {len(rows) - room} more", 12 * ui, theme.muted)
-            surface.blit(more, more.get_rect(bottomright=(width, height)))
+            more = f"wheel: {len(rows) - room} more"
+            painter.write(surface, more, 12 * ui, theme.muted, bottomright=rect.bottomright)
 
     def _column(self, width: float) -> float:
         """Return the width of a column of numbers, pixels, given that of the panel's content."""
         return (width - UNIT * self.painter.ui) / 3.1
 
     def _draw_row(
-        self,
-        surface: pygame.Surface,
-        top: int,
-        prediction: Prediction,
-        columns: list[int],
+        self, surface: pygame.Surface, rect: pygame.Rect, p: Prediction, columns: list[int]
     ) -> None:
         """Draw a prediction: its name and how it stands, and below that its numbers."""
-        ui, theme, fonts = self.painter.ui, self.painter.theme, self.painter.fonts
-        width = surface.get_width()
-        said, color = self._verdict(prediction, theme)
-        state = fonts.render(said, 12 * ui, color, bold=True)
-        surface.blit(state, state.get_rect(topright=(width, top)))
-        mark = pygame.Rect(0, top + round(3 * ui), round(MARK * ui), round(MARK * ui))
-        self.painter.panel(surface, mark, color, mark.width / 2)
+        ui, theme, painter = self.painter.ui, self.painter.theme, self.painter
+        said, color = self._verdict(p, theme)
+        mark = pygame.Rect(rect.left, rect.top + round(3 * ui), round(MARK * ui), round(MARK * ui))
+        painter.panel(surface, mark, color, mark.width / 2)
         left = mark.right + round(7 * ui)
-        room = width - state.get_width() - round(10 * ui) - left
-        name = fonts.render(
-            fonts.shorten(prediction.name, 13 * ui, room), 13 * ui, theme.ink
-        )  # fmt: skip
-        surface.blit(name, (left, top - round(ui)))
-        low, p = top + round(17 * ui), prediction
+        line = pygame.Rect(left, rect.top - round(2 * ui), rect.right - left, round(18 * ui))
+        name, state = Word(p.name, theme.ink, 13), Word(said, color, 12, bold=True)
+        write_line(surface, line, painter, [name], [state])
+        low = rect.top + round(17 * ui)
+        if p.reason:
+            words = painter.fonts.shorten(p.reason, 12 * ui, rect.right - left)
+            painter.write(surface, words, 12 * ui, theme.muted, topleft=(left, low))
+            return
         measured = p.measured if math.isfinite(p.measured) else None
-        tolerance = f"{p.tolerance:.{3 if p.tolerance < 1000 else 6}g}"
-        each = self._column(width) - 8 * ui
-        cells = [self._fitted(value, p.tolerance, each) for value in (p.predicted, measured)]
-        for k, (cell, right) in enumerate(zip((*cells, tolerance), columns, strict=True)):
+        each = self._column(rect.width) - 8 * ui
+        shown = [self._fitted(value, p.tolerance, each) for value in (p.predicted, measured)]
+        shown[0] = SIGNS[p.bound] + shown[0]
+        for k, (cell, right) in enumerate(zip((*shown, cells(p)[-1]), columns, strict=True)):
             ink = color if k == 1 and self.reading.finished else theme.text
-            image = fonts.render(cell, NUMBER * ui, ink, bold=k == 1)
-            surface.blit(image, image.get_rect(topright=(right, low)))
-        unit = fonts.shorten(prediction.unit, 12 * ui, (UNIT - 6) * ui)
-        image = fonts.render(unit, 12 * ui, theme.muted)
-        surface.blit(image, (columns[-1] + round(6 * ui), low + round(ui)))
+            painter.write(surface, cell, NUMBER * ui, ink, bold=k == 1, topright=(right, low))
+        unit = painter.fonts.shorten(p.unit, 12 * ui, (UNIT - 6) * ui)
+        place = columns[-1] + round(6 * ui), low + round(ui)
+        painter.write(surface, unit, 12 * ui, theme.muted, topleft=place)
 
     def _fitted(self, value: float | None, tolerance: float, room: float) -> str:
         """Return a number with the digits that its tolerance needs, or as many as there is room."""
@@ -205,6 +187,8 @@ class Predictions(Panel):
 
     def _verdict(self, prediction: Prediction, theme: Theme) -> tuple[str, str]:
         """Return how a prediction stands, in words, and their colour."""
+        if prediction.reason:
+            return prediction.verdict, theme.muted
         if prediction.ok:
             return ("ok" if self.reading.finished else "ok so far"), theme.running.ink
         if self.reading.finished:
@@ -220,13 +204,15 @@ class Predictions(Panel):
         """Return lines about the run, and about values that could not be read; width: pixels."""
         timeline, reading, ui = self._timeline, self.reading, self.painter.ui
         if timeline is not None and timeline.world.operator.log:
-            text = "A hand has changed this run; the predictions are for one without."
+            first = timeline.world.recorder.options
+            new = [f"{k} = {v:.6g}" for k, v in timeline.options.items() if first.get(k) != v]
+            again = f"R: again with {', '.join(new)}, and predict." if new else "R: again."
+            text = f"A hand has changed this run; the predictions are for one without. {again}"
         elif not reading.predictions and reading.error is None:
             text = "Nothing is measured yet."
         elif reading.error is not None:
             text = f"{'Failed' if reading.finished else 'Not yet'}: {reading.error}"
         else:
-            held = sum(each.ok for each in reading.predictions)
             when = "at the end" if reading.finished else f"at {reading.time:.4g} s"
-            text = f"{held} of {counted(len(reading.predictions), 'prediction')} ok {when}"
+            text = f"{summary(reading.predictions)} {when}"
         return self.painter.fonts.wrap(text, 12 * ui, width, MAX_WORDS)

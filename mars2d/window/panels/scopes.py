@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ from mars2d.window.panels.trace import Trace, What
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
+from mars2d.window.widgets.actions import of_controls
 from mars2d.window.widgets.buttons import Buttons, draw_icon
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.plot import (
@@ -104,7 +106,7 @@ class Scopes(Panel):
         self.painter, self._player, self._clock = painter, player, clock
         self.traces: list[Trace] = []
         self.span: float | None = None
-        self._buttons = Buttons([("scopes", "figure", "table")], actions, lambda _: False)
+        self._buttons = Buttons([of_controls(("scopes", "figure", "table"), actions)])
         self._plots: list[_Plot] = []
         self._image: pygame.Surface | None = None
         self._place = pygame.Rect(0, 0, 0, 0)
@@ -169,13 +171,16 @@ class Scopes(Panel):
     def save_figure(self, frame: Frame, saver: Saver) -> None:
         """Save what is plotted as a figure, of all that was run."""
 
-        def draw() -> Any:
+        def write(path: Path) -> None:
+            from mars2d.output.figures.figure import save_drawing
             from mars2d.output.figures.signals import draw_signals
 
-            record, signals = self._signals(frame)
-            return draw_signals(record, signals)[0].figure
+            def draw() -> Any:
+                return draw_signals(*self._signals(frame))[0].figure
 
-        saver.figure(draw)
+            save_drawing(draw, path)
+
+        saver.save("figure", ".png", write)
 
     def save_table(self, frame: Frame, saver: Saver) -> None:
         """Save the numbers of what is plotted, of all that was run."""

@@ -20,7 +20,9 @@ from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
 from mars2d.sensors.bumper import LIT
 from mars2d.window.panels.forcemeter import span_of
+from mars2d.window.panels.forceplot import stretches
 from mars2d.window.widgets.plot import Limits, draw_curve, polylines
+from mars2d.window.widgets.words import Word, write_line
 
 ROW, FLAG_ROW, FAN, CELLS, BARS = 24.0, 15.0, 62.0, 18.0, 40.0
 """The heights of a line over time, a flag, a fan of bearings, colours and bars, points."""
@@ -124,20 +126,17 @@ class _Lines:
     color: str
 
     def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
-        ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+        ui, theme = painter.ui, painter.theme
         values, height = self.history.values, round(ROW * ui)
         several = values.shape[1] > 1
         name_room = round(NAME * ui) if several else 0
         for k in range(values.shape[1]):
             quantity = self.named[k] if self.named else self.quantity
             row = pygame.Rect(rect.left, rect.top + k * height, rect.width, height)
-            if several:
-                word = quantity.name if self.named else f"[{k}]"
-                image = fonts.render(word, 12 * ui, theme.text)
-                surface.blit(image, image.get_rect(midleft=row.midleft))
-            word = _in_words(float(values[-1, k]), quantity)
-            image = fonts.render(word, 12 * ui, theme.ink)
-            surface.blit(image, image.get_rect(midright=row.midright))
+            name = quantity.name if self.named else f"[{k}]"
+            names = [Word(name, theme.text, 12)] if several else []
+            value = Word(_in_words(float(values[-1, k]), quantity), theme.ink, 12)
+            write_line(surface, row, painter, names, [value])
             area = pygame.Rect(
                 row.left + name_room, row.top + 2,
                 row.width - name_room - round(VALUE * ui), height - 4,
@@ -196,19 +195,14 @@ class _Flags:
             x = area.left + area.width * np.linspace(
                 self.history.first, self.history.last, len(values)
             )
-            flags = np.concatenate([[False], values[:, k], [False]]).astype(int)
-            changes = np.flatnonzero(np.diff(flags))
-            for a, b in zip(changes[::2].tolist(), changes[1::2].tolist(), strict=True):
+            for a, b in stretches(values[:, k]):
                 left, right = float(x[a]), float(x[min(b, len(x) - 1)])
                 surface.fill(lit, (left, area.top, max(2, right - left), area.height))
-            if several:
-                image = painter.fonts.render(self.names[k], 12 * ui, theme.text)
-                surface.blit(image, image.get_rect(midleft=(rect.left, area.centery)))
             now = bool(values[-1, k])
-            image = painter.fonts.render(
-                "True" if now else "False", 12 * ui, lit if now else theme.muted, bold=now
-            )
-            surface.blit(image, image.get_rect(midright=(rect.right, area.centery)))
+            names = [Word(self.names[k], theme.text, 12)] if several else []
+            value = Word(str(now), lit if now else theme.muted, 12, bold=now)
+            row = pygame.Rect(rect.left, area.top, rect.width, area.height)
+            write_line(surface, row, painter, names, [value])
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,7 +255,7 @@ def _bearings(
     reach: float,
 ) -> pygame.Rect:
     """Draw the axes of bearings and distances; return the rectangle between them."""
-    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+    ui, theme = painter.ui, painter.theme
     room = round(44 * ui)
     area = pygame.Rect(
         rect.left + room, rect.top + round(4 * ui), rect.width - room, rect.height - round(20 * ui)
@@ -270,17 +264,15 @@ def _bearings(
         y = area.bottom - round(share * area.height)
         surface.fill(theme.grid if share else theme.grid_axis, (area.left, y, area.width, 1))
         if share:
-            image = fonts.render(f"{share * reach:.3g} m", 11 * ui, theme.muted)
-            surface.blit(image, image.get_rect(midright=(area.left - round(6 * ui), y)))
+            place, word = (area.left - 6 * ui, y), f"{share * reach:.3g} m"
+            painter.write(surface, word, 11 * ui, theme.muted, midright=place)
     low, high = angles
     ahead = 0.0 if low < 0 < high else (low + high) / 2
-    for angle in (high, ahead, low):
+    for side, angle in zip(("topleft", "midtop", "topright"), (high, ahead, low), strict=True):
         x = area.right - round((angle - low) / max(high - low, 1e-9) * area.width)
         surface.fill(theme.grid, (x, area.top, 1, area.height))
-        image = fonts.render(_degrees(angle), 11 * ui, theme.muted)
-        place = image.get_rect(midtop=(x, area.bottom + round(2 * ui)))
-        place.left = min(max(place.left, area.left), area.right - place.width)
-        surface.blit(image, place)
+        image = painter.fonts.render(_degrees(angle), 11 * ui, theme.muted)
+        surface.blit(image, image.get_rect(**{side: (x, area.bottom + round(2 * ui))}))
     return area
 
 

@@ -136,7 +136,6 @@ class Marks:
         self._seen = 0  # rows of the contact log
         self._next = 0.0
         self._touched: list[int] = []
-        self._handled: tuple[World | None, int, list[int]] = None, 0, []
 
     def rows(self) -> Mapping[MarkKind, Sequence[int]]:
         """Return the rows of each kind in ascending order; collisions may lag by a moment."""
@@ -144,17 +143,10 @@ class Marks:
         self._look(world, time.monotonic())
         return {
             "collision": self._touched,
-            "hand": self._by_hand(world),
+            "hand": sorted({each.row for each in world.operator.log}),
             "branch": sorted({timeline.parted(other) for other in timeline.branches}),
             "error": [world.iteration] if world.over and not world.finished else [],
         }
-
-    def _by_hand(self, world: World) -> list[int]:
-        """Return the rows at which a person intervened."""
-        log = world.operator.log
-        if self._handled[:2] != (world, len(log)):
-            self._handled = world, len(log), sorted({each.row for each in log})
-        return self._handled[2]
 
     def _look(self, world: World, now: float) -> None:
         """Read the contacts that began since the last reading."""

@@ -1,150 +1,148 @@
-"""The keys of the run window: one table for commands and for the help."""
+"""The actions of the run window: one table makes its keys, its buttons and its help."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 
 import pygame
 
+from mars2d.output.controls import CONTROLS, PAUSE
 from mars2d.output.layers.table import LAYERS
-from mars2d.window.widgets.keys import CONTROL, MODIFIERS, Key, chord
+from mars2d.window.widgets.actions import Action, action_of
+from mars2d.window.widgets.keys import CONTROL, MODIFIERS
 
 MAX_NUMBER = 1_000_000
 """The largest number that can be typed before a command."""
 
 
+def _action(name: str, label: str, does: str, *also: str, repeats: bool = False) -> Action:
+    """Return an action with its key, a line of help, and the title and icon of its button."""
+    control = CONTROLS.get(name)
+    title, icon = (control.title, control.icon) if control else ("", "")
+    lit = PAUSE if name == "pause" else ""
+    return Action(name, does, (label,), None, also, title, icon, lit, repeats=repeats)
+
+
 TIME = (
-    Key("pause", ("space",), ("Space",), "pause, go on; in manual mode, one step"),
-    Key(
-        "step",
-        ("right",),
-        ("→",),
-        "one step, then pause; a typed number is the count",
-        repeats=True,
-    ),
-    Key("back", ("left",), ("←",), "one step back; a typed number is the count", repeats=True),
-    Key("leap", ("page down",), ("PgDn",), "ten steps, then pause", repeats=True),
-    Key("leap_back", ("page up",), ("PgUp",), "ten steps back", repeats=True),
-    Key("start", ("home",), ("Home",), "go to the start"),
-    Key("newest", ("end",), ("End",), "go to the newest step"),
-    Key("contact", ("n",), ("N",), "next contact"),
-    Key("contact_back", ("shift+n",), ("Shift N",), "previous contact"),
-    Key("contacts", ("k",), ("K",), "stop or slow down at contacts"),
-    Key("loop", ("j",), ("J",), "loop on and off"),
-    Key("faster", ("+", "=", "[+]"), ("+",), "faster", repeats=True),
-    Key("slower", ("-", "[-]"), ("\N{MINUS SIGN}",), "slower", repeats=True),
-    Key("restart", ("r",), ("R",), "restart at time 0, with the file as it is now"),
-    Key("branch", ("b",), ("B",), "switch to another branch"),
+    _action("pause", "Space", "pause, go on; in manual mode, one step"),
+    _action("step", "→", "one step, then pause; a typed number is the count", repeats=True),
+    _action("back", "←", "one step back; a typed number is the count", repeats=True),
+    _action("leap", "PgDn", "ten steps, then pause", repeats=True),
+    _action("leap_back", "PgUp", "ten steps back", repeats=True),
+    _action("start", "Home", "go to the start"),
+    _action("newest", "End", "go to the newest step"),
+    _action("contact", "N", "next contact"),
+    _action("contact_back", "Shift N", "previous contact"),
+    _action("contacts", "K", "stop or slow down at contacts"),
+    _action("loop", "J", "loop on and off"),
+    _action("faster", "+", "faster", "=", repeats=True),
+    _action("slower", "\N{MINUS SIGN}", "slower", repeats=True),
+    _action("restart", "R", "restart at time 0, with the file as it is now"),
+    _action("branch", "B", "switch to another branch"),
 )
 
 _SEE = (
-    Key("grid", ("g",), ("G",), "grid on and off"),
-    Key("trails", ("t",), ("T",), "trails on and off"),
-    Key("sensors", ("s",), ("S",), "sensors on and off; if a robot is selected, only its own"),
-    Key("messages", ("m",), ("M",), "messages between robots on and off"),
-    Key("forces", ("x",), ("X",), "contacts, forces and slipping on and off"),
-    Key("theory", ("y",), ("Y",), "theoretical predictions on and off"),
-    Key("addons", ("o",), ("O",), "drawings of add-ons on and off"),
-    Key("names", ("i",), ("I",), "names on and off"),
-    Key("velocities", ("u",), ("U",), "velocities on and off"),
-    Key("layers", ("a",), ("A",), "choose layers"),
-    Key("scopes", ("q",), ("Q",), "choose plots over time"),
-    Key("predictions", ("f3",), ("F3",), "predictions and measurements on and off"),
-    Key("select", ("tab",), ("Tab",), "select the next robot or prop, and inspect it"),
-    Key("follow", ("l",), ("L",), "let the camera follow the selected body, or all robots"),
-    Key("fit", ("f", "ctrl+0"), ("F",), "fit the workspace into the window"),
-    Key("nearer", ("ctrl++", "ctrl+=", "ctrl+[+]"), ("Ctrl +",), "zoom in", repeats=True),
-    Key("farther", ("ctrl+-", "ctrl+[-]"), ("Ctrl \N{MINUS SIGN}",), "zoom out", repeats=True),
-    Key("screen", ("f11",), ("F11",), "full screen on and off"),
-    Key("dark", ("d",), ("D",), "dark or light"),
-    Key("text", ("z",), ("Z",), "size of text and lines: for the back row"),
+    _action("grid", "G", "grid on and off"),
+    _action("trails", "T", "trails on and off"),
+    _action("sensors", "S", "sensors on and off; if a robot is selected, only its own"),
+    _action("messages", "M", "messages between robots on and off"),
+    _action("forces", "X", "contacts, forces and slipping on and off"),
+    _action("theory", "Y", "theoretical predictions on and off"),
+    _action("addons", "O", "drawings of add-ons on and off"),
+    _action("names", "I", "names on and off"),
+    _action("velocities", "U", "velocities on and off"),
+    _action("layers", "A", "choose layers"),
+    _action("scopes", "Q", "choose plots over time"),
+    _action("predictions", "F3", "predictions and measurements on and off"),
+    _action("select", "Tab", "select the next robot or prop, and inspect it"),
+    _action("follow", "L", "let the camera follow the selected body, or all robots"),
+    _action("fit", "F", "fit the workspace into the window", "Ctrl 0"),
+    _action("nearer", "Ctrl +", "zoom in", "Ctrl =", "Ctrl [+]", repeats=True),
+    _action("farther", "Ctrl \N{MINUS SIGN}", "zoom out", "Ctrl [-]", repeats=True),
+    _action("screen", "F11", "full screen on and off"),
+    _action("dark", "D", "dark or light"),
+    _action("text", "Z", "size of text and lines: for the back row"),
 )
 SEE = (
     *_SEE,
     *(
-        Key(layer.name, (layer.key,), (layer.key.upper(),), f"{layer.title.lower()} on and off")
+        _action(layer.name, layer.key.upper(), f"{layer.title.lower()} on and off")
         for layer in LAYERS
-        if layer.key and layer.name not in {key.action for key in _SEE}
+        if layer.key and layer.name not in {each.name for each in _SEE}
     ),
 )
 
-LEAVE = Key("leave", ("ctrl+q", "ctrl+w"), ("Ctrl Q",), "close the window")
+LEAVE = _action("leave", "Ctrl Q", "close the window", "Ctrl W")
 
 DO = (
-    Key("parameters", ("f2",), ("F2",), "sliders of parameters on and off"),
-    Key("drive", ("h",), ("H",), "drive the selected robot by hand: arrow keys, WASD, controller"),
-    Key("edit", ("e",), ("E",), "draw walls, robots and more, while paused"),
-    Key("undo", ("ctrl+z",), ("Ctrl Z",), "undo the last manual action"),
-    Key("picture", ("p", "ctrl+s"), ("P",), "save a picture"),
-    Key("film", ("v",), ("V",), "start and stop a film"),
-    Key("python", ("c",), ("C",), "save the scenario as a Python file, and copy it"),
-    Key("help", ("f1",), ("F1",), "all keys on and off"),
-    Key("escape", ("escape",), ("Esc",), "close the menu or the help, let go, deselect"),
+    _action("parameters", "F2", "sliders of parameters on and off"),
+    _action("drive", "H", "drive the selected robot by hand: arrow keys, WASD, controller"),
+    _action("edit", "E", "draw walls, robots and more, while paused"),
+    _action("undo", "Ctrl Z", "undo the last manual action"),
+    _action("picture", "P", "save a picture", "Ctrl S"),
+    _action("film", "V", "start and stop a film"),
+    _action("python", "C", "save the scenario as a Python file, and copy it"),
+    _action("help", "F1", "all keys on and off"),
+    _action("escape", "Esc", "close the menu or the help, let go, deselect"),
     LEAVE,
 )
 
-KEYS = (*TIME, *SEE, *DO)
+ACTIONS = (*TIME, *SEE, *DO)
 
 MOUSE = (
-    Key("zoom", (), ("Wheel",), "zoom about the pointer; over the time bar, zoom in time"),
-    Key("pick", (), ("Click",), "select and inspect a robot or prop; on the floor, deselect"),
-    Key("carry", (), ("Drag it",), "pull a robot or prop; while paused, move it"),
-    Key("menu", (), ("Right click",), "open a menu of actions"),
-    Key("turn", (), ("Right drag",), "turn a robot or prop, while paused"),
-    Key("pan", (), ("Drag",), "on the floor, move the picture; on the time bar, go to a time"),
+    _action("zoom", "Wheel", "zoom about the pointer; over the time bar, zoom in time"),
+    _action("pick", "Click", "select and inspect a robot or prop; on the floor, deselect"),
+    _action("carry", "Drag it", "pull a robot or prop; while paused, move it"),
+    _action("menu", "Right click", "open a menu of actions"),
+    _action("turn", "Right drag", "turn a robot or prop, while paused"),
+    _action("pan", "Drag", "on the floor, move the picture; on the time bar, go to a time"),
 )
 
-GROUPS: Mapping[str, Sequence[Key]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}
-"""All keys, in the groups of the help."""
+GROUPS: Mapping[str, Sequence[Action]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}
+"""All of them, in the groups of the help."""
 
-_BY_NAME = {name: key for key in KEYS for name in key.names}
-_STEP = next(key for key in KEYS if key.action == "step")
+_BY_NAME = {action.name: action for action in ACTIONS}
 
 
-def action_of(name: str, character: str, *, manual: bool) -> Key | None:
-    """Return the command of a key, or None.
-
-    name: as `chord` returns it. character: the text that it types, which identifies + on every
-    keyboard. manual: whether the window is in MARS's manual mode, in which each key without another
-    command does one step.
-    """
-    if name.startswith("ctrl+"):
-        return _BY_NAME.get(name) or _BY_NAME.get(name.replace("shift+", ""))
-    key = (_BY_NAME.get(character) if character in "+-" else None) or _BY_NAME.get(name)
-    if not manual or name in MODIFIERS or character.isdigit():
-        return key
-    return _STEP if key is None or key.action == "pause" else key
+def bound(
+    names: Iterable[str], acts: Mapping[str, Callable[[], None]], on: Callable[[str], bool]
+) -> list[Action]:
+    """Return the actions of some names with their effects; on: whether one's setting is on."""
+    return [replace(_BY_NAME[name], act=acts[name], on=partial(on, name)) for name in names]
 
 
 class Keyboard:
-    """Turns pressed keys into commands; digits make a number for the next command."""
+    """Turns pressed keys into actions; digits make a number for the next one."""
 
     def __init__(self) -> None:
         """Start with no key held and nothing typed."""
         self.number = 0  # typed so far
         self._held: set[int] = set()
 
-    def press(self, code: int, character: str, modifiers: int = 0, *, manual: bool) -> Key | None:
-        """Press a key; return its command, or None.
+    def press(self, event: pygame.Event, *, manual: bool) -> Action | None:
+        """Press a key; return its action, or None.
 
-        code, modifiers: pygame's. character, manual: as for `action_of`.
+        manual: whether the window is in MARS's manual mode, in which each key without another
+        action does one step.
         """
-        held = code in self._held
-        self._held.add(code)
-        name = pygame.key.name(code)
-        both = chord(code, modifiers)
-        if modifiers & CONTROL or both in _BY_NAME:
-            name = both
-        elif _is_digit(character):
+        held = event.key in self._held
+        self._held.add(event.key)
+        control = event.mod & CONTROL
+        if _is_digit(event.unicode) and not control:
             if not held:
-                self.number = min(10 * self.number + int(character), MAX_NUMBER)
+                self.number = min(10 * self.number + int(event.unicode), MAX_NUMBER)
             return None
-        key = action_of(name, character, manual=manual)
-        return key if key is not None and (key.repeats or not held) else None
+        action = action_of(event, ACTIONS)
+        steps = manual and not control and pygame.key.name(event.key) not in MODIFIERS
+        if steps and (action is None or action.name == "pause"):
+            action = _BY_NAME["step"]
+        return action if action is not None and (action.repeats or not held) else None
 
-    def forget(self, code: int, character: str) -> None:
+    def forget(self, event: pygame.Event) -> None:
         """Forget the typed number after a key, unless it is a digit or only modifies others."""
-        if not _is_digit(character) and pygame.key.name(code) not in MODIFIERS:
+        if not _is_digit(event.unicode) and pygame.key.name(event.key) not in MODIFIERS:
             self.number = 0
 
     def typed(self, otherwise: int) -> int:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import partial
 from math import inf
+from threading import Lock
 
 import pygame
 
@@ -25,8 +27,8 @@ from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.source import Source
 from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.actions import label_of
 from mars2d.window.widgets.help import Help
-from mars2d.window.widgets.keys import chord
 from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Notes
 
@@ -67,7 +69,9 @@ class PlayerWindow(ABC):
         self._controls = Controls(self.player, marked or source)
         self._keyboard, self._rest = keys.Keyboard(), Rest()
         self._open = False
-        self._passing, self._awaited = False, ""  # whether laws may be asked; the line waited for
+        self._passing = False  # whether laws may be asked
+        self._limit = Deadline(patience(), give_up, self._calls, self._answer)
+        self._screen = Lock()  # held by the thread that draws
         self._actions: dict[str, Callable[[], None]] = {
             **time_actions(self.player, self._keyboard.typed),
             "contact": lambda: self._to_contact(self.player.next_contact),
@@ -108,7 +112,7 @@ class PlayerWindow(ABC):
                 self._open = True
                 self.draw(screen)  # before the first law is asked: it may take long
                 pygame.display.flip()
-                with Deadline(patience(), give_up, self._calls, self._answer):
+                with self._limit:
                     self._loop(screen)
             finally:
                 self.saver.close()
@@ -127,7 +131,7 @@ class PlayerWindow(ABC):
             for event in self._rest.events():
                 self._handle(event)
             now = time.perf_counter()
-            self._passing, self._awaited = True, ""
+            self._passing = True
             self._pass_time(now - last)
             self._passing = False
             last = now
@@ -150,8 +154,9 @@ class PlayerWindow(ABC):
     def _show_picture(self, screen: pygame.Surface) -> None:
         """Draw the window and put it on the screen."""
         start = time.perf_counter()
-        self._paint(screen)
-        pygame.display.flip()
+        with self._screen:
+            self._paint(screen)
+            pygame.display.flip()
         self.player.drawing = time.perf_counter() - start
 
     def _paint(self, screen: pygame.Surface) -> None:
@@ -166,24 +171,27 @@ class PlayerWindow(ABC):
 
     def _answer(self, where: str) -> str:
         """Answer the user while a law takes long at a line; return why to break it off, or ""."""
-        if self._passing and where != self._awaited:
-            self._awaited = where
-            self.notes.say(f"waiting for {where}; Esc breaks it off", kind="warning")
+        blocked = self._limit.blocked
+        if self._passing:
+            how = "Ctrl Q ends the program, and saves" if blocked else "Esc breaks it off"
+            self.notes.say(f"waiting for {where}; {how}", kind="warning")
         surface = pygame.display.get_surface()
-        if surface is not None:
-            self.draw(surface)
-            pygame.display.flip()
+        if surface is not None and not (blocked and sys.platform == "darwin"):
+            with self._screen:  # a call in C may end while another thread draws
+                self.draw(surface)
+                pygame.display.flip()
         pygame.event.pump()
         closed = pygame.event.peek(pygame.QUIT)
         moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))
         for event in moved:  # for later, in their order
             if event.key != pygame.K_ESCAPE:
                 pygame.event.post(event)
-        pressed = {chord(each.key, each.mod) for each in moved if each.type == pygame.KEYDOWN}
-        if closed or not pressed.isdisjoint(keys.LEAVE.names):
+        pressed = {label_of(each) for each in moved if each.type == pygame.KEYDOWN}
+        if closed or not pressed.isdisjoint((*keys.LEAVE.labels, *keys.LEAVE.also)):
             self._open = False
             return "did not return before the window was closed"
-        return "did not return before Esc was pressed" if "escape" in pressed else ""
+        broken_off = "Esc" in pressed and not blocked
+        return "did not return before Esc was pressed" if broken_off else ""
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -204,7 +212,7 @@ class PlayerWindow(ABC):
         elif self._take(event):
             pass
         elif event.type == pygame.KEYDOWN:
-            self._press(event.key, event.unicode, event.mod)
+            self._press(event)
         elif event.type == pygame.KEYUP:
             self._keyboard.release(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
@@ -220,11 +228,11 @@ class PlayerWindow(ABC):
     def _point(self, event: pygame.Event) -> None:
         """Handle an event of the mouse on the picture."""
 
-    def _press(self, code: int, character: str, modifiers: int) -> None:
-        key = self._keyboard.press(code, character, modifiers, manual=self.player.manual)
-        if key is not None and key.action in self._actions:
-            self._actions[key.action]()
-        self._keyboard.forget(code, character)
+    def _press(self, event: pygame.Event) -> None:
+        action = self._keyboard.press(event, manual=self.player.manual)
+        if action is not None and action.name in self._actions:
+            self._actions[action.name]()
+        self._keyboard.forget(event)
 
     def _is_on(self, action: str) -> bool:
         """Return whether the setting that a button switches is on."""

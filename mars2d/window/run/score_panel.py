@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import pygame
@@ -11,15 +10,16 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
-from mars2d.window.run.play import Play, Result, Seat
+from mars2d.window.run.play import Play, Seat
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.help import draw_cap
+from mars2d.window.widgets.words import Word, write_line
 
 TIME, ROW, LINE, KEYS, WORDS, GAP = 34.0, 24.0, 18.0, 36.0, 32.0, 8.0
 """The heights of the time left, a row, a line of text, keys, who has won, and gaps, points."""
 DOT = 11.0
 """The diameter of a robot's dot, points."""
-SMALL, SIZE = 13.0, 15.0
+SMALL, SIZE, LARGE = 13.0, 15.0, 22.0
 """The heights of letters, points."""
 MAX_LINES = 3
 """The most lines of why a game has ended."""
@@ -29,10 +29,7 @@ class Part(NamedTuple):
     """A part of the panel: its height [points], and the function that draws it."""
 
     height: float
-    draw: Callable[[pygame.Surface, pygame.Rect], None]
-
-
-GAP_PART = Part(GAP / 2, lambda _surface, _rect: None)
+    draw: Callable[[pygame.Surface, pygame.Rect], object]
 
 
 class ScorePanel(Panel):
@@ -62,129 +59,108 @@ class ScorePanel(Panel):
 
     def _standing(self, frame: Frame, width: float) -> Iterator[Part]:
         """Yield the parts that are seen during a game."""
-        play, scenario = self.play, frame.scenario
+        play, scenario, theme = self.play, frame.scenario, self.painter.theme
         left = max(scenario.stop_time - frame.time, 0.0)
-        yield Part(TIME, partial(self._row, "time left", f"{left:.1f} s", large=True))
+        at_end = Word(f"{left:.1f} s", theme.ink, 24, bold=True)
+        yield self._line(TIME, [Word("time left", theme.muted, SMALL)], [at_end])
         distance = play.distance(frame)
         if distance is not None:
-            yield Part(ROW, partial(self._row, "distance", f"{distance:.2f} m"))
-        yield Part(GAP, self._line)
+            at_end = Word(f"{distance:.2f} m", theme.ink, SIZE, bold=True)
+            yield self._line(ROW, [Word("distance", theme.muted, SMALL)], [at_end])
+        yield Part(GAP, self._rule)
         score = play.score()
         for role, team in roles_of(scenario).items():
-            points = score.get(role, "")
-            color = self.painter.theme.shade(scenario.colors[team[0]])
-            yield Part(ROW, partial(self._role, color, role, play.played_by(role), points))
-            for seat in play.seats:
-                if seat.robot in team:
-                    yield from self._of_seat(seat, frame, width)
+            seats = [seat for seat in play.seats if seat.robot in team]
+            about = role, play.played_by(role), score.get(role, "")
+            yield from self._role(frame, team[0], about, seats, width)
         for seat in play.seats:
             if not seat.role:
-                color = self.painter.theme.shade(scenario.colors[seat.robot])
-                name = str(scenario.robots[seat.robot].name)
-                yield Part(ROW, partial(self._role, color, name, "you", ""))
-                yield from self._of_seat(seat, frame, width)
+                about = str(scenario.robots[seat.robot].name), "you", ""
+                yield from self._role(frame, seat.robot, about, [seat], width)
         if words := self._tally():
-            yield Part(GAP, self._line)
+            yield Part(GAP, self._rule)
             yield from self._wrapped(words, width, 2)
 
-    def _of_seat(self, seat: Seat, frame: Frame, width: float) -> Iterator[Part]:
-        """Yield a person's keys, and how the role wins."""
-        yield Part(KEYS, partial(self._keys, seat))
-        contest = self.play.contest
-        if contest is not None and seat.role:
-            yield from self._wrapped(contest.aim(seat.role, frame.scenario), width, 2)
-        yield GAP_PART
+    def _role(
+        self,
+        frame: Frame,
+        robot: int,
+        about: tuple[str, str, str],
+        seats: Sequence[Seat],
+        width: float,
+    ) -> Iterator[Part]:
+        """Yield a role, who plays it, its points, and for each person the keys and the aim."""
+        theme, contest = self.painter.theme, self.play.contest
+        role, by, points = about
+        words = Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted, SMALL)
+        color = theme.shade(frame.scenario.colors[robot])
+        yield self._line(ROW, words, [Word(points, theme.ink, SIZE, bold=True)], color)
+        for seat in seats:
+            yield self._keys(seat.keys)
+            if contest is not None and seat.role:
+                yield from self._wrapped(contest.aim(seat.role, frame.scenario), width, 2)
+            yield self._line(GAP / 2)
 
     def _ending(self, frame: Frame, width: float) -> Iterator[Part]:
         """Yield how a game has ended, why, and the keys to go on with; nothing before."""
-        result = self.play.result
+        result, theme = self.play.result, self.painter.theme
         if result is None:
             return
-        yield Part(WORDS, partial(self._words, result))
+        yield self._line(WORDS, [Word(result.words, theme.running.ink, LARGE, bold=True)])
         yield from self._wrapped(frame.over_message, width, MAX_LINES)
         yield from self._wrapped(result.news, width, 2)
-        yield Part(KEYS, partial(self._key, ("R",), "play again"))
+        yield self._keys(("R",), "play again")
         numbers = tuple(str(choice.number) for choice in self.play.choices)
         if numbers:
-            yield Part(KEYS, partial(self._key, numbers, "other roles"))
-        yield Part(GAP, self._line)
+            yield self._keys(numbers, "other roles")
+        yield Part(GAP, self._rule)
 
     def _wrapped(self, text: str, width: float, most: int) -> Iterator[Part]:
         """Yield lines of text."""
-        ui = self.painter.ui
+        ui, theme = self.painter.ui, self.painter.theme
         for line in self.painter.fonts.wrap(text, SMALL * ui, width * ui, most) if text else ():
-            yield Part(LINE, partial(self._text, line))
+            yield self._line(LINE, [Word(line, theme.text, SMALL)])
 
     def _tally(self) -> str:
         """Return the games won so far, by one person or by the first role of two."""
         seats = [seat for seat in self.play.seats if seat.role]
         words = self.play.tally(seats[0].role).in_words if seats else ""
-        who = f" as {seats[0].role}" if seats else ""
-        return f"so far{who}: {words}" if words else ""
+        return f"so far as {seats[0].role}: {words}" if words else ""
 
     # -- drawing ------------------------------------------------------------------------------
 
-    def _row(
+    def _line(
         self,
-        name: str,
-        value: str,
-        surface: pygame.Surface,
-        rect: pygame.Rect,
-        *,
-        large: bool = False,
-    ) -> None:
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        label = fonts.render(name, SMALL * ui, theme.muted)
-        surface.blit(label, label.get_rect(midleft=(rect.left, rect.centery)))
-        size = 24 if large else SIZE
-        image = fonts.render(value, size * ui, theme.ink, bold=True)
-        surface.blit(image, image.get_rect(midright=(rect.right, rect.centery)))
+        height: float,
+        left: Sequence[Word] = (),
+        right: Sequence[Word] = (),
+        color: str | None = None,
+    ) -> Part:
+        """Return a line of words; color: of a dot before them."""
+        painter = self.painter
 
-    def _role(
-        self,
-        color: str,
-        role: str,
-        by: str,
-        points: str,
-        surface: pygame.Surface,
-        rect: pygame.Rect,
-    ) -> None:
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        draw_dot(surface, self.painter, color, (rect.left + round(DOT / 2 * ui), rect.centery))
-        name = fonts.render(role, SIZE * ui, theme.ink, bold=True)
-        x = rect.left + round((DOT + 8) * ui)
-        surface.blit(name, name.get_rect(midleft=(x, rect.centery)))
-        x += name.get_width() + round(8 * ui)
-        number = fonts.render(points, SIZE * ui, theme.ink, bold=True)
-        place = number.get_rect(midright=(rect.right, rect.centery))
-        surface.blit(number, place)
-        room = place.left - x - round(8 * ui)
-        who = fonts.render(fonts.shorten(by, SMALL * ui, room), SMALL * ui, theme.muted)
-        surface.blit(who, who.get_rect(midleft=(x, rect.centery)))
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            if color is not None:
+                half = round(DOT / 2 * painter.ui)
+                draw_dot(surface, painter, color, (rect.left + half, rect.centery))
+                inset = round((DOT + 8) * painter.ui)
+                rect = pygame.Rect(rect.left + inset, rect.top, rect.width - inset, rect.height)
+            write_line(surface, rect, painter, left, right)
 
-    def _keys(self, seat: Seat, surface: pygame.Surface, rect: pygame.Rect) -> None:
-        draw_keys(surface, self.painter, seat.keys, rect.midleft)
+        return Part(height, draw)
 
-    def _key(
-        self, keys: tuple[str, ...], does: str, surface: pygame.Surface, rect: pygame.Rect
-    ) -> None:
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        x = draw_keys(surface, self.painter, keys, rect.midleft)
-        words = fonts.render(does, SIZE * ui, theme.text)
-        surface.blit(words, words.get_rect(midleft=(x + round(4 * ui), rect.centery)))
+    def _keys(self, keys: tuple[str, ...], does: str = "") -> Part:
+        """Return the caps of keys, and what they do."""
+        painter = self.painter
 
-    def _words(self, result: Result, surface: pygame.Surface, rect: pygame.Rect) -> None:
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        text = fonts.shorten(result.words, 22 * ui, rect.width, bold=True)
-        image = fonts.render(text, 22 * ui, theme.running.ink, bold=True)
-        surface.blit(image, image.get_rect(midleft=rect.midleft))
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            x = draw_keys(surface, painter, keys, rect.midleft) + round(4 * painter.ui)
+            place = x, rect.centery
+            painter.write(surface, does, SIZE * painter.ui, painter.theme.text, midleft=place)
 
-    def _text(self, text: str, surface: pygame.Surface, rect: pygame.Rect) -> None:
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        image = fonts.render(fonts.shorten(text, SMALL * ui, rect.width), SMALL * ui, theme.text)
-        surface.blit(image, image.get_rect(midleft=rect.midleft))
+        return Part(KEYS, draw)
 
-    def _line(self, surface: pygame.Surface, rect: pygame.Rect) -> None:
+    def _rule(self, surface: pygame.Surface, rect: pygame.Rect) -> None:
         surface.fill(self.painter.theme.edge, (rect.left, rect.centery, rect.width, 1))
 
 

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 import pygame
-from numpy.typing import NDArray
 
 from mars2d.core.plane import grid_step
 from mars2d.core.scene import Scene
@@ -87,42 +86,6 @@ class Span(NamedTuple):
         return Span(first, first + rows)
 
 
-@dataclass(slots=True)
-class _Ticks:
-    """The columns of pixels, from the left of the line, in which events of one kind lie.
-
-    rows: the rows of the events; this list may grow. width: the line's, pixels. span: the part
-    that is shown. count: how many events have been read.
-    """
-
-    rows: Sequence[int]
-    width: int
-    span: Span
-    count: int = 0
-    columns: NDArray[np.bool_] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.columns = np.zeros(self.width + 1, dtype=bool)
-
-    def stretches(self, left: int, thick: int) -> list[tuple[int, int]]:
-        """Return runs of columns with events, each as its first pixel and its width.
-
-        left: where the line begins. thick: the width of a tick, pixels.
-        """
-        new = np.array(self.rows[self.count :], dtype=np.float64)
-        new = new[(new >= self.span.first) & (new <= self.span.last)]
-        share = (new - self.span.first) / self.span.rows
-        places = np.rint(left + self.width * share).astype(int)
-        self.columns[places - left] = True
-        self.count = len(self.rows)
-        columns = np.flatnonzero(self.columns)
-        gaps = np.flatnonzero(np.diff(columns) > thick)
-        starts = columns[np.concatenate([[0], gaps + 1])] if len(columns) else columns
-        ends = columns[np.concatenate([gaps, [-1]])] if len(columns) else columns
-        firsts = (starts + left - thick // 2).tolist()
-        return list(zip(firsts, (ends - starts + thick).tolist(), strict=True))
-
-
 class TimeBar(Slider):
     """Shows the state of an experiment along a line, and finds the row at a pixel.
 
@@ -138,7 +101,7 @@ class TimeBar(Slider):
         self._row = -1  # that was drawn last
         self._bar = pygame.Rect(0, 0, 0, 0)
         self._all = pygame.Rect(0, 0, 0, 0)  # the button that shows all
-        self._ticks: dict[MarkKind, _Ticks] = {}
+        self._ticks: dict[MarkKind, tuple[object, list[tuple[int, int]]]] = {}
 
     def row_at(self, x: float) -> int | None:
         """Return the recorded row nearest to a pixel from the left.
@@ -269,21 +232,19 @@ class TimeBar(Slider):
         self._all = pygame.Rect(0, 0, button, button)
         self._all.midright = (rect.right - round(6 * ui), line.centery)
 
-    def _at_end(self, row: float, state: TimeState) -> str:
-        """Return the time at an end of the line: in whole seconds, if these are its ends."""
-        return _time(round(row) if self.zoomed else row, state, None if self.zoomed else 0)
-
     def _ends(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
         """Write the times at both ends."""
         if not self._labelled:
             return
         ui, line = painter.ui, self._line
         gap = round(12 * ui)
-        first, last = (self._at_end(end, state) for end in self.span)
-        start = painter.fonts.render(first, 13 * ui, painter.theme.muted)
-        surface.blit(start, start.get_rect(midright=(line.left - gap, line.centery)))
-        end = painter.fonts.render(last, 13 * ui, painter.theme.muted)
-        surface.blit(end, end.get_rect(midleft=(line.right + gap, line.centery)))
+        for end, place in zip(self.span, ("midright", "midleft"), strict=True):
+            x = line.left - gap if place == "midright" else line.right + gap
+            # In whole seconds, if these are the ends of the run.
+            row, digits = (round(end), None) if self.zoomed else (end, 0)
+            text = _time(row, state, digits)
+            image = painter.fonts.render(text, 13 * ui, painter.theme.muted)
+            surface.blit(image, image.get_rect(**{place: (x, line.centery)}))
 
     def _band(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
         """Draw the line, over it the recorded part, and over that the part before the handle."""
@@ -306,7 +267,7 @@ class TimeBar(Slider):
             height = (below if mark.below else above) + long - top
             wide = thick * (2 if kind == "error" else 1)
             color = mark.color(painter.theme)
-            for x, width in self._ticks_of(kind, state).stretches(line.left, wide):
+            for x, width in self._stretches(kind, state.marks.get(kind, ()), wide):
                 surface.fill(color, (x, top, width, height))
 
     def _overview(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
@@ -323,18 +284,25 @@ class TimeBar(Slider):
         surface.fill(theme.selected, part)
         draw_icon(surface, CONTROLS["fit"].icon, theme.text, self._all)
 
-    def _ticks_of(self, kind: MarkKind, state: TimeState) -> _Ticks:
-        """Return the ticks of a kind of event; they are kept while their list only grows."""
-        rows, width, span = state.marks.get(kind, ()), self._line.width, self.span
-        ticks = self._ticks.get(kind)
-        if (
-            ticks is None
-            or ticks.rows is not rows
-            or (ticks.width, ticks.span) != (width, span)
-            or ticks.count > len(rows)
-        ):
-            ticks = self._ticks[kind] = _Ticks(rows, width, span)
-        return ticks
+    def _stretches(self, kind: MarkKind, rows: Sequence[int], thick: int) -> list[tuple[int, int]]:
+        """Return runs of columns of pixels with events, each as its first pixel and its width.
+
+        thick: the width of a tick, pixels. They are found again where there is something new.
+        """
+        of = len(rows), rows[-1:], self._line.left, self._line.width, self.span, thick
+        known, found = self._ticks.get(kind, (None, []))
+        if known != of:
+            seen = np.array([row for row in rows if self.span.first <= row <= self.span.last])
+            share = (seen - self.span.first) / self.span.rows
+            columns = np.unique(np.rint(self._line.left + self._line.width * share).astype(int))
+            parts = np.split(columns, np.flatnonzero(np.diff(columns) > thick) + 1)
+            found = [
+                (int(each[0]) - thick // 2, int(each[-1] - each[0]) + thick)
+                for each in parts
+                if len(each)
+            ]
+            self._ticks[kind] = of, found
+        return found
 
     def _handle(
         self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool

@@ -10,6 +10,7 @@ import pygame
 from mars2d.output.layers.table import LAYERS
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
+from mars2d.window.run.keys import bound
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.menu import Entry, Menu
 
@@ -35,8 +36,8 @@ class Toolbar:
         offered = [SEE, CHANGE if live else (), SAVE, LOOK]
         groups = [[name for name in group if name in actions] for group in offered]
         self.bars = [
-            Buttons(TRANSPORT, actions, lit),
-            Buttons([group for group in groups if group], actions, lit),
+            Buttons([bound(group, actions, lit) for group in some if group])
+            for some in (TRANSPORT, groups)
         ]
         self.menu = Menu()
 

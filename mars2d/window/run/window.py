@@ -257,7 +257,7 @@ class Window(PlayerWindow):
         frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
-        self._inspector.plays = self._drives
+        self._inspector.plays = self._inspector.frames = self._drives
         *_, ymin, ymax = frame.scenario.bounds
         room = self.dock.arrange(
             layout, frame, partial(fitted, frame.scenario, layout.size), ymax - ymin

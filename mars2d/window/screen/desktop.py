@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import re
+import subprocess
 import sys
 
 import pygame
@@ -17,11 +18,6 @@ MIN_SCALE, MAX_SCALE = 0.5, 8.0
 USUAL_DPI = 96.0
 MAX_SHARE = 0.9
 """The largest share of the desktop that a new window takes."""
-
-
-def be_sharp() -> None:
-    """Ask Windows not to enlarge the window's pixels; call it before the display starts."""
-    os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")
 
 
 def desktop_scale() -> float:
@@ -81,20 +77,10 @@ def _of_x11() -> float | None:
 
 
 def _resources() -> str:
-    """Return the X server's resources, lines of names and values; "" without a server."""
+    """Return the X server's resources, lines of names and values; "" where they can't be asked."""
     try:
-        x11 = ctypes.CDLL("libX11.so.6")
-    except OSError:
+        return subprocess.run(
+            ["xrdb", "-query"], capture_output=True, text=True, timeout=2, check=False
+        ).stdout
+    except (OSError, subprocess.TimeoutExpired):
         return ""
-    x11.XOpenDisplay.restype = ctypes.c_void_p
-    x11.XOpenDisplay.argtypes = [ctypes.c_char_p]
-    x11.XResourceManagerString.restype = ctypes.c_char_p
-    x11.XResourceManagerString.argtypes = [ctypes.c_void_p]
-    x11.XCloseDisplay.argtypes = [ctypes.c_void_p]
-    display = x11.XOpenDisplay(None)
-    if not display:
-        return ""
-    try:
-        return (x11.XResourceManagerString(display) or b"").decode("latin-1")
-    finally:
-        x11.XCloseDisplay(display)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-import time
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
 from mars2d.core.description import Description, flag, number
@@ -27,8 +26,6 @@ NO_DISPLAY = (
 
 NOT_REAL = ("dummy", "offscreen", "evdev", "disk")
 """SDL's video drivers without a screen."""
-ATTEMPTS = 3
-"""How often to try to start the display."""
 
 _tried: list[bool] = []
 """Whether the display was started only to see whether it can be."""
@@ -74,26 +71,19 @@ def open_display() -> None:
     """Start pygame's display. Raises InputError without a real screen."""
     import pygame
 
-    from mars2d.window.screen.desktop import be_sharp
-
     if pygame.display.get_init():
         if pygame.display.get_driver() in NOT_REAL:
             raise InputError(NO_DISPLAY)
         return
-    be_sharp()
-    be_quick()
-    for attempt in range(ATTEMPTS):
-        try:
-            pygame.display.init()
-        except pygame.error:
-            # A bare X server resets when its last window closes, and refuses connections meanwhile.
-            if attempt + 1 < ATTEMPTS and os.environ.get("DISPLAY"):
-                time.sleep(0.1)
-            continue
+    # On Windows the desktop enlarges no pixels; elsewhere, OpenGL in software takes ten times as
+    # long as to copy pictures to the screen.
+    os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")
+    os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
+    with suppress(pygame.error):
+        pygame.display.init()
         if pygame.display.get_driver() not in NOT_REAL:
             return
         pygame.display.quit()
-        break
     raise InputError(NO_DISPLAY)
 
 
@@ -145,11 +135,3 @@ def _icon(painter: Painter) -> pygame.Surface:
     surface = pygame.Surface((64, 64), pygame.SRCALPHA, 32)
     painter.paint(surface, scene.shapes, Camera(29.0, 32.0, 32.0), shaded=False)
     return surface
-
-
-def be_quick() -> None:
-    """Ask SDL to copy pictures to the screen without OpenGL; call it before the display starts.
-
-    OpenGL in software takes ten times as long.
-    """
-    os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")

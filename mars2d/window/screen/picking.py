@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from math import dist, hypot
 from typing import NamedTuple
@@ -71,15 +72,20 @@ class Finder:
         return body_at(frame, point, slack) if near.any() else None
 
 
-def body_at(frame: Frame, point: tuple[float, float], slack: float) -> int | None:
+def body_at(
+    frame: Frame, point: tuple[float, float], slack: float, but: Collection[int] = ()
+) -> int | None:
     """Return the body at a point, or None; robots lie above props.
 
-    Bodies are indices of `Scenario.bodies`. slack: how far beside its edge one is hit, metres.
+    Bodies are indices of `Scenario.bodies`. slack: how far beside its edge one is hit, metres. but:
+    bodies that are looked through.
     """
     poses = np.hstack([frame.pose, frame.prop_pose])
     n = frame.pose.shape[1]
     order = [*reversed(range(n)), *reversed(range(n, poses.shape[1]))]
     for i in order:
+        if i in but:
+            continue
         x, y, theta = poses[:, i].tolist()
         c, s = np.cos(theta), np.sin(theta)
         dx, dy = point[0] - x, point[1] - y

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -42,9 +42,16 @@ class Saver:
         self._notes, self._stem = notes, stem
         self._film: Filming | None = None
 
+    def save(self, what: str, suffix: str, write: Callable[[Path], str | None]) -> bool:
+        """Save something in a new file; return whether that worked.
+
+        what: for the note. write: writes the file, and may return what more there is to say.
+        """
+        return self._try(lambda: f"{what}: {saved(_here(), self._stem, suffix, write)}")
+
     def picture(self, surface: pygame.Surface) -> None:
         """Save a picture."""
-        self._try(lambda: f"picture: {save_picture(surface, _here(), self._stem)}")
+        self.save("picture", ".png", partial(save_png, surface))
 
     def python(
         self,
@@ -52,48 +59,37 @@ class Saver:
         control: Callable[[Any], Any] | None,
         options: Mapping[str, Any] | None = None,
     ) -> None:
-        """Save a scenario as a Python file; see `save_python`."""
+        """Save a scenario as Python, and copy it to the clipboard if there is one.
 
-        def save() -> str:
-            path, copied = save_python(scenario, _here(), self._stem, control, options)
-            return f"scenario: {path}{', and on the clipboard' if copied else ''}"
+        control: the law of the team. options: the parameters that were set, for a comment.
+        """
 
-        self._try(save)
+        def write(path: Path) -> str:
+            text = as_python(scenario, control, path.parent, options)
+            with atomic_write(path) as file:
+                file.write(text.encode(errors="replace"))
+            return ", and on the clipboard" if copied(text) else ""
+
+        self.save("scenario", ".py", write)
 
     def record(self, record: Record) -> bool:
         """Save a run with its branches; return whether it could be."""
 
-        def save() -> str:
-            path = free_name(_here(), self._stem, ".npz")
-            with _removed_on_failure(path):
-                record.save(path)
-            beside = ", other branches beside it" if save_branches(record, path) else ""
-            return f"run: {path}{beside}"
+        def write(path: Path) -> str:
+            record.save(path)
+            return ", other branches beside it" if save_branches(record, path) else ""
 
-        return self._try(save)
-
-    def figure(self, draw: Callable[[], Any]) -> None:
-        """Save the figure of matplotlib that `draw` returns."""
-
-        def save() -> str:
-            from mars2d.output.figures.figure import save_drawing
-
-            path = free_name(_here(), self._stem, ".png")
-            with _removed_on_failure(path):
-                return f"figure: {save_drawing(draw, path)}"
-
-        self._try(save)
+        return self.save("run", ".npz", write)
 
     def table(self, write: Callable[[], str]) -> None:
         """Save a table, the text of a CSV file that `write` returns."""
 
-        def save() -> str:
-            text, path = write().encode(), free_name(_here(), self._stem, ".csv")
-            with _removed_on_failure(path), atomic_write(path) as file:
+        def save(path: Path) -> None:
+            text = write().encode()
+            with atomic_write(path) as file:
                 file.write(text)
-            return f"numbers: {path}"
 
-        self._try(save)
+        self.save("numbers", ".csv", save)
 
     def film_or_not(self) -> None:
         """Start a film of the window, or end it."""
@@ -165,33 +161,6 @@ def free_name(folder: Path, stem: str, suffix: str) -> Path:
             return path
 
 
-def save_picture(surface: pygame.Surface, folder: Path, stem: str) -> Path:
-    """Write a picture as PNG under a free name and return its path."""
-    path = free_name(folder, stem, ".png")
-    with _removed_on_failure(path):
-        save_png(surface, path)
-    return path
-
-
-def save_python(
-    scenario: Scenario,
-    folder: Path,
-    stem: str,
-    control: Callable[[Any], Any] | None = None,
-    options: Mapping[str, Any] | None = None,
-) -> tuple[Path, bool]:
-    """Write a scenario as Python under a free name, and copy it to the clipboard if there is one.
-
-    control: the law of the team. options: the parameters that were set, for a comment. Returns the
-    path, and whether the clipboard has the text.
-    """
-    text = as_python(scenario, control, folder, options)
-    path = free_name(folder, stem, ".py")
-    with _removed_on_failure(path), atomic_write(path) as file:
-        file.write(text.encode(errors="replace"))
-    return path, copied(text)
-
-
 def start_film(folder: Path, stem: str) -> Filming:
     """Start a film under a free name: .mp4 if PyAV is installed, else .gif."""
     from mars2d.output.films.filming import Filming, film_suffix
@@ -199,11 +168,11 @@ def start_film(folder: Path, stem: str) -> Filming:
     return Filming(free_name(folder, stem, film_suffix()))
 
 
-@contextlib.contextmanager
-def _removed_on_failure(path: Path) -> Iterator[None]:
-    """Remove a file if writing it fails."""
+def saved(folder: Path, stem: str, suffix: str, write: Callable[[Path], str | None]) -> str:
+    """Write a file under a free name, which is removed if that fails; return its path in words."""
+    path = free_name(folder, stem, suffix)
     try:
-        yield
+        return f"{path}{write(path) or ''}"
     except BaseException:
         path.unlink(missing_ok=True)
         raise

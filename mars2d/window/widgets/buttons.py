@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 from math import ceil
 
 import pygame
 
-from mars2d.output.controls import CONTROLS, PAUSE, Control
 from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.slider import draw_tooltip
 
 SIDE, GAP = 36.0, 2.0
@@ -19,6 +19,9 @@ BREAK = 0.35
 """The gap between two groups, in sides."""
 ICON = 0.56
 """An icon's side, in sides of its button."""
+LABELLED, LABEL = 100.0, 13.0
+"""The width of a column from which on buttons have labels, and the height of their letters,
+points."""
 
 SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24" width="24" height="24"><path '
@@ -28,28 +31,19 @@ SVG = (
 
 
 class Buttons:
-    """A row or column of buttons in groups, each with the name of one of `controls`.
+    """A row or column of buttons in groups, each for an action.
 
-    lit: whether a button shows that what it switches is on. keys: whether their tips name the keys.
     side: of the largest buttons, points. lettered: whether they show the letters of their keys.
     """
 
     def __init__(
-        self,
-        groups: Sequence[Sequence[str]],
-        actions: Mapping[str, Callable[[], None]],
-        lit: Callable[[str], bool],
-        *,
-        keys: bool = True,
-        controls: Mapping[str, Control] = CONTROLS,
-        side: float = SIDE,
-        lettered: bool = False,
+        self, groups: Sequence[Sequence[Action]], *, side: float = SIDE, lettered: bool = False
     ) -> None:
         """Start with nothing drawn."""
-        self._groups, self._actions, self._lit, self._keys = groups, actions, lit, keys
-        self._controls, self._side, self._lettered = controls, side, lettered
+        self._groups, self._side, self._lettered = groups, side, lettered
+        self._actions = {action.name: action for group in groups for action in group}
         self.places: dict[str, pygame.Rect] = {}
-        self._upright = False
+        self._upright = self._labelled = False
 
     def at(self, pixel: tuple[int, int]) -> str | None:
         """Return the name of the button at a pixel, if there is one."""
@@ -62,8 +56,9 @@ class Buttons:
         if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
             return False
         name = self.at(event.pos)
-        if name is not None:
-            self._actions[name]()
+        act = None if name is None else self._actions[name].act
+        if act is not None:
+            act()
         return name is not None
 
     def draw(
@@ -77,17 +72,23 @@ class Buttons:
         self._arrange(area, painter.ui)
         theme = painter.theme
         for name, place in self.places.items():
-            on, hover = self._lit(name), pointer is not None and place.collidepoint(pointer)
+            action = self._actions[name]
+            on, hover = action.lit, pointer is not None and place.collidepoint(pointer)
             if on or hover:
                 fill = theme.running.pale if on else theme.key
                 edge = theme.selected if on else theme.key_edge
-                painter.panel(surface, place, fill, 0.18 * place.width, edge)
-            icon = PAUSE if name == "pause" and on else self._controls[name].icon
-            draw_icon(surface, icon, theme.running.ink if on else theme.text, place)
+                painter.panel(surface, place, fill, 0.18 * place.height, edge)
+            icon = action.lit_icon if action.lit_icon and on else action.icon
+            ink = theme.running.ink if on else theme.text
+            square = pygame.Rect(place.topleft, (place.height, place.height))
+            draw_icon(surface, icon, ink, square)
+            if self._labelled:
+                size, at = LABEL * painter.ui, (square.right + 3 * painter.ui, place.centery)
+                painter.write(surface, action.title, size, ink, midleft=at)
             if self._lettered:
                 size, color = 0.25 * place.width, theme.running.ink if on else theme.muted
-                letter = painter.fonts.render(self._controls[name].key, size, color, bold=True)
-                surface.blit(letter, letter.get_rect(bottomright=place.move(-3, -2).bottomright))
+                at, key = place.move(-3, -2).bottomright, action.labels[0]
+                painter.write(surface, key, size, color, bold=True, bottomright=at)
 
     def draw_tip(
         self, surface: pygame.Surface, painter: Painter, pointer: tuple[int, int] | None
@@ -99,8 +100,7 @@ class Buttons:
         place, gap = self.places[name], round(6 * painter.ui)
         beside = place.inflate(2 * gap, 2 * gap)
         at = {"midleft": beside.midright} if self._upright else {"midbottom": beside.midtop}
-        control = self._controls[name]
-        draw_tooltip(surface, painter, control.tip if self._keys else control.title, **at)
+        draw_tooltip(surface, painter, self._actions[name].tip, **at)
 
     def _arrange(self, area: pygame.Rect, ui: float) -> None:
         """Lay out the buttons in an area: in several columns or smaller if they would not fit."""
@@ -113,15 +113,20 @@ class Buttons:
             each = long / (rows + BREAK * len(self._groups)) - gap
             return round(max(8, min(self._side * ui, (thick - gap) / lanes - gap, each)))
 
-        lanes = max((1, 2, 3), key=lambda lanes: (side_in(lanes), -lanes))
+        self._labelled = upright and thick >= LABELLED * ui
+        every = (1,) if self._labelled else (1, 2, 3)
+        lanes = max(every, key=lambda lanes: (side_in(lanes), -lanes))
         side = side_in(lanes)
         along, first = round(0.5 * BREAK * side) + gap, (thick - lanes * (side + gap) + gap) // 2
         self.places = {}
         for group in self._groups:
-            for k, name in enumerate(group):
+            for k, action in enumerate(group):
                 x, y = first + k % lanes * (side + gap), along + k // lanes * (side + gap)
                 x, y = (x, y) if upright else (y, x)
-                self.places[name] = pygame.Rect(area.left + x, area.top + y, side, side)
+                place = pygame.Rect(area.left + x, area.top + y, side, side)
+                if self._labelled:
+                    place.update(area.left + gap, area.top + y, thick - 3 * gap, side)
+                self.places[action.name] = place
             along += ceil(len(group) / lanes) * (side + gap) + round(BREAK * side)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -28,7 +28,8 @@ class Card:
     """Something to open.
 
     title: below its picture. line: says more. command: the arguments of ``mars2d`` that open it.
-    picture: a file, or None. sign: drawn where there is no picture.
+    picture: a file, or None. sign: drawn where there is no picture. words: more that is searched.
+    others: further commands, by what the card's buttons say; the first one is of `command`.
     """
 
     title: str
@@ -36,11 +37,14 @@ class Card:
     command: tuple[str, ...]
     picture: Path | None = None
     sign: str = ""
+    words: str = ""
+    others: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def has(self, words: str) -> bool:
         """Return whether all words occur in it."""
-        text = f"{self.title} {self.line} {' '.join(self.command)}".lower()
-        return all(word in text for word in words.lower().split())
+        text = f"{self.title} {self.line} {' '.join(self.command)} {self.words}"
+        text = text.lower().replace("_", "")
+        return all(word in text for word in words.lower().replace("_", "").split())
 
 
 @dataclass(frozen=True)
@@ -57,6 +61,7 @@ class Page:
     def __init__(self) -> None:
         """Start empty, at the top."""
         self.places: list[tuple[Card, pygame.Rect]] = []
+        self.buttons: list[tuple[pygame.Rect, tuple[str, ...]]] = []  # on the surface
         self.chosen = 0
         self._scroll, self._length = 0.0, 0
         self._area = pygame.Rect(0, 0, 0, 0)
@@ -130,6 +135,7 @@ class Page:
 
     def draw(self, surface: pygame.Surface, painter: Painter) -> None:
         """Draw the visible cards, and the scroll bar."""
+        self.buttons = []
         surface.set_clip(self._area)
         surface.fill(painter.theme.page, self._area)
         for title, place in self._headings:
@@ -167,12 +173,17 @@ class Page:
     def _draw_heading(
         surface: pygame.Surface, painter: Painter, title: str, place: pygame.Rect
     ) -> None:
-        words = painter.fonts.render(title, TITLE * painter.ui, painter.theme.ink, bold=True)
-        surface.blit(words, words.get_rect(midleft=(place.left, place.centery)))
+        size, ink = TITLE * painter.ui, painter.theme.ink
+        painter.write(surface, title, size, ink, bold=True, midleft=place.midleft)
 
-    @staticmethod
     def _draw_card(
-        surface: pygame.Surface, painter: Painter, card: Card, place: pygame.Rect, *, chosen: bool
+        self,
+        surface: pygame.Surface,
+        painter: Painter,
+        card: Card,
+        place: pygame.Rect,
+        *,
+        chosen: bool,
     ) -> None:
         ui, theme, fonts = painter.ui, painter.theme, painter.fonts
         if chosen:
@@ -189,13 +200,21 @@ class Page:
             surface.blit(image, shown)
         else:
             painter.panel(surface, shown, theme.page, 5 * ui)
-            sign = fonts.render(card.sign, 0.42 * shown.height, theme.muted)
-            surface.blit(sign, sign.get_rect(center=shown.center))
+            size = 0.42 * shown.height
+            painter.write(surface, card.sign, size, theme.muted, center=shown.center)
+        corner = shown.right - round(6 * ui), shown.bottom - round(6 * ui)
+        for label, command in reversed([*card.others.items()]):
+            width = fonts.width(label, LETTERS * ui) + round(18 * ui)
+            button = pygame.Rect(0, 0, width, round(26 * ui))
+            button.bottomright = corner
+            painter.panel(surface, button, theme.plate, 6 * ui, theme.key_edge)
+            painter.write(surface, label, LETTERS * ui, theme.ink, center=button.center)
+            self.buttons.append((button, command))
+            corner = button.left - round(6 * ui), button.bottom
         room = place.width - 2 * round(10 * ui)
         title = fonts.shorten(card.title, LETTERS * ui, room)
-        words = fonts.render(title, LETTERS * ui, theme.text)
-        middle = place.left + round(10 * ui), place.bottom - round(0.5 * CAPTION * ui)
-        surface.blit(words, words.get_rect(midleft=middle))
+        middle = place.left + 10 * ui, place.bottom - 0.5 * CAPTION * ui
+        painter.write(surface, title, LETTERS * ui, theme.text, midleft=middle)
 
 
 @lru_cache(maxsize=128)

@@ -131,11 +131,11 @@ class Dock:
         return [panel.name for panel in self.panels if panel.is_open and panel.remembered]
 
     @property
-    def free(self) -> pygame.Rect:
-        """The largest side of the picture on which no panel was drawn."""
+    def free(self) -> list[pygame.Rect]:
+        """The sides of the picture on which no panel was drawn, the largest first."""
         plot, plates = self._plot, list(self.plates.values())
         if not plates:
-            return plot
+            return [plot]
         taken = plates[0].unionall(plates[1:])
         sides = (
             pygame.Rect(plot.topleft, (taken.left - plot.left, plot.height)),
@@ -143,7 +143,8 @@ class Dock:
             pygame.Rect(plot.topleft, (plot.width, taken.top - plot.top)),
             pygame.Rect(plot.left, taken.bottom, plot.width, plot.bottom - taken.bottom),
         )
-        return max(sides, key=lambda side: max(side.width, 0) * max(side.height, 0))
+        there = [side for side in sides if min(side.size) > 0]
+        return sorted(there, key=lambda side: -side.width * side.height)
 
     def open(self, names: Iterable[str]) -> None:
         """Open the panels of these names; unknown names are left out."""
@@ -395,9 +396,8 @@ class Dock:
         room = plate.width - (2 * PAD + CLOSE) * ui
         word = fonts.shorten(panel.title, 13.5 * ui, room, bold=True)
         color = theme.muted if panel.name in self._folded else theme.ink
-        image = fonts.render(word, 13.5 * ui, color, bold=True)
-        middle = plate.top + round(HEAD / 2 * ui)
-        surface.blit(image, image.get_rect(midleft=(plate.left + round(PAD * ui), middle)))
+        middle = plate.left + PAD * ui, plate.top + HEAD / 2 * ui
+        self.painter.write(surface, word, 13.5 * ui, color, bold=True, midleft=middle)
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle an event of the mouse; return whether a panel took it."""

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import takewhile
+from typing import NamedTuple
 
 import pygame
 
 from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.keys import Key
+from mars2d.window.widgets.actions import Action
 
-Groups = Iterable[tuple[str, Sequence[Key]]]
-Named = tuple[tuple[str, tuple[Key, ...]], ...]
+Groups = Iterable[tuple[str, Sequence[Action]]]
+Named = tuple[tuple[str, tuple[Action, ...]], ...]
 
 UNREADABLE = 0.2
 """The scale below which text is not drawn, pixels a point."""
@@ -33,42 +34,40 @@ MIN_WORDS, MAX_WORDS = 150.0, 380.0
 """The narrowest and the widest line of words, points."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Row:
+class _Row(NamedTuple):
     """The labels of a key and the lines of its help; without labels, a group's heading.
 
-    caps: the room for the labels, pixels. first: whether it is the top row of a column.
+    caps: the room for the labels, pixels.
     """
 
     labels: tuple[str, ...]
-    lines: tuple[str, ...]
+    lines: Sequence[str]
     caps: int = 0
-    first: bool = False
 
     @property
     def height(self) -> float:
         """Points."""
-        if not self.labels:
-            return HEADING + (0.0 if self.first else GAP)
-        return ROW + LINE * (len(self.lines) - 1)
+        return ROW + LINE * (len(self.lines) - 1) if self.labels else HEADING + GAP
 
 
-@dataclass(frozen=True, slots=True)
-class _Plan:
+class _Plan(NamedTuple):
     """Pages of columns of rows; ui: pixels a point; column: the width of all columns, pixels."""
 
     ui: float
     column: int
-    pages: tuple[tuple[tuple[_Row, ...], ...], ...]
+    pages: Sequence[Sequence[Sequence[_Row]]]
 
 
 class Help:
-    """The help of a window; page: the open page, from 0, or None if it is closed."""
+    """The help of a window; page: the open page, from 0, or None if it is closed.
+
+    pages: how many there were when it was last drawn.
+    """
 
     def __init__(self) -> None:
         """Start closed."""
         self.page: int | None = None
-        self._pages = 1  # when it was last drawn
+        self.pages = 1
 
     @property
     def is_open(self) -> bool:
@@ -78,7 +77,7 @@ class Help:
     def turn(self) -> None:
         """Open the help, turn the page, or close it after the last page."""
         page = 0 if self.page is None else self.page + 1
-        self.page = page if page < self._pages else None
+        self.page = page if page < self.pages else None
 
     def close(self) -> None:
         """Close the help."""
@@ -87,57 +86,39 @@ class Help:
     def draw(
         self, surface: pygame.Surface, layout: Layout, painter: Painter, groups: Groups
     ) -> None:
-        """Draw the open page, if there is one; groups: pairs of a heading and its keys."""
-        if self.page is not None:
-            self._pages = draw_help(surface, layout, painter, groups, self.page)
-            self.page = min(self.page, self._pages - 1)
+        """Draw the open page over the picture, if there is one.
 
-
-def draw_help(
-    surface: pygame.Surface,
-    layout: Layout,
-    painter: Painter,
-    groups: Groups,
-    page: int = 0,
-) -> int:
-    """Draw a page of help over the picture, and return the number of pages.
-
-    groups: pairs of a heading and its keys. page: a number beyond the last page means the last.
-    """
-    top = layout.header.bottom
-    area = pygame.Rect(0, top, surface.get_width(), surface.get_height() - top)
-    named = tuple((heading, tuple(group)) for heading, group in groups)
-    plan = _plan(painter.fonts, named, area.inflate(-16, -16).size, layout.ui)
-    if plan is None:
-        return 1
-    page = min(page, len(plan.pages) - 1)
-    columns = plan.pages[page]
-    ui, fonts, theme = plan.ui, painter.fonts, painter.theme
-    veil = pygame.Surface(area.size, 0, 32)
-    veil.fill(theme.veil)
-    veil.set_alpha(150 if theme.dark else 70)
-    surface.blit(veil, area)
-    column = plan.column
-    pad, between = round(PAD * ui), round(BETWEEN * ui)
-    width = max(len(part) for part in plan.pages) * (column + between) - between + 2 * pad
-    tallest = max(_height(rows) for part in plan.pages for rows in part)
-    several = len(plan.pages) > 1
-    title = f"Keys, page {page + 1} of {len(plan.pages)}" if several else "Keys"
-    word = "F1 goes on" if page + 1 < len(plan.pages) else "F1 closes this"
-    head = fonts.width(title, 21 * ui, bold=True) + fonts.width(word, 14 * ui)
-    width = max(width, head + 3 * pad)
-    panel = pygame.Rect(0, 0, width, round((TOP + tallest + PAD - 10) * ui))
-    panel.center = area.center
-    painter.panel(surface, panel, theme.plate, 14 * ui, theme.edge)
-    image = fonts.render(title, 21 * ui, theme.ink, bold=True)
-    middle = panel.top + round(34 * ui)
-    surface.blit(image, image.get_rect(midleft=(panel.left + pad, middle)))
-    image = fonts.render(word, 14 * ui, theme.muted)
-    surface.blit(image, image.get_rect(midright=(panel.right - pad, middle)))
-    for k, rows in enumerate(columns):
-        left = panel.left + pad + k * (column + between)
-        _draw_column(surface, painter, rows, left, panel.top + round(TOP * ui), plan)
-    return len(plan.pages)
+        groups: pairs of a heading and its keys.
+        """
+        if self.page is None:
+            return
+        top = layout.header.bottom
+        area = pygame.Rect(0, top, surface.get_width(), surface.get_height() - top)
+        named = tuple((heading, tuple(group)) for heading, group in groups)
+        plan = _plan(painter.fonts, named, area.inflate(-16, -16).size, layout.ui)
+        if plan is None:
+            return
+        ui, column, pages = plan
+        self.pages, self.page = len(pages), min(self.page, len(pages) - 1)
+        fonts, theme = painter.fonts, painter.theme
+        draw_veil(surface, painter, area)
+        pad, between = round(PAD * ui), round(BETWEEN * ui)
+        title = f"Keys, page {self.page + 1} of {self.pages}" if self.pages > 1 else "Keys"
+        word = "F1 goes on" if self.page + 1 < self.pages else "F1 closes this"
+        head = fonts.width(title, 21 * ui, bold=True) + fonts.width(word, 14 * ui)
+        width = max(len(columns) for columns in pages) * (column + between) - between + 2 * pad
+        tallest = max(_height(rows) for columns in pages for rows in columns)
+        high = round((TOP + tallest + PAD - 10) * ui)
+        panel = pygame.Rect(0, 0, max(width, head + 3 * pad), high)
+        panel.center = area.center
+        painter.panel(surface, panel, theme.plate, 14 * ui, theme.edge)
+        middle = panel.top + 34 * ui
+        at, end = (panel.left + pad, middle), (panel.right - pad, middle)
+        painter.write(surface, title, 21 * ui, theme.ink, bold=True, midleft=at)
+        painter.write(surface, word, 14 * ui, theme.muted, midright=end)
+        for k, rows in enumerate(pages[self.page]):
+            left = panel.left + pad + k * (column + between)
+            _draw_column(surface, painter, rows, left, panel.top + round(TOP * ui), plan)
 
 
 def _draw_column(
@@ -148,23 +129,21 @@ def _draw_column(
     top: float,
     plan: _Plan,
 ) -> None:
-    ui, fonts, theme = plan.ui, painter.fonts, painter.theme
+    ui, theme, size = plan.ui, painter.theme, SIZE * plan.ui
+    bottom = top - _raised(rows) * ui
     for row in rows:
-        bottom = top + row.height * ui
+        top, bottom = bottom, bottom + row.height * ui
         if not row.labels:
-            image = fonts.render(row.lines[0], SIZE * ui, theme.running.ink, bold=True)
-            surface.blit(image, image.get_rect(midleft=(left, round(bottom - HEADING * ui / 2))))
-            foot = round(bottom - 3 * ui)
-            surface.fill(theme.edge, (left, foot, plan.column, 1))
-        else:
-            middle, x = round(top + ROW * ui / 2), left
-            for name in row.labels:
-                x = draw_cap(surface, painter, name, x, middle, ui)
-            for k, line in enumerate(row.lines):
-                image = fonts.render(line, SIZE * ui, theme.text)
-                place = image.get_rect(midleft=(left + row.caps, middle))
-                surface.blit(image, place.move(0, round(k * LINE * ui)))
-        top = bottom
+            at, ink = (left, bottom - HEADING * ui / 2), theme.running.ink
+            painter.write(surface, row.lines[0], size, ink, bold=True, midleft=at)
+            surface.fill(theme.edge, (left, round(bottom - 3 * ui), plan.column, 1))
+            continue
+        middle, x = round(top + ROW * ui / 2), left
+        for name in row.labels:
+            x = draw_cap(surface, painter, name, x, middle, ui)
+        for k, line in enumerate(row.lines):
+            at = (left + row.caps, middle + round(k * LINE * ui))
+            painter.write(surface, line, size, theme.text, midleft=at)
 
 
 # -- layout ---------------------------------------------------------------------------------------
@@ -176,52 +155,30 @@ def _plan(fonts: Fonts, groups: Named, room: tuple[int, int], ui: float) -> _Pla
 
     room: width and height, pixels.
     """
-    least = max(min(LEGIBLE, ui), LEGIBLE_SHARE * ui)
-    counts = range(1, MAX_COLUMNS + 1)
-    plans = [_one_page(fonts, groups, room, count, ui, least) for count in counts]
-    best = max((plan for plan in plans if plan), key=lambda plan: plan.ui, default=None)
-    if best is not None:
-        return best
-    plans = [_several_pages(fonts, groups, room, count, least) for count in counts]
-    paged = min((plan for plan in plans if plan), key=lambda plan: len(plan.pages), default=None)
-    return paged or _one_page(fonts, groups, room, 1, least, UNREADABLE)
+    least, size = max(min(LEGIBLE, ui), LEGIBLE_SHARE * ui), ui
+    while size >= least:
+        for count in range(1, MAX_COLUMNS + 1):
+            column, rows = _rows(fonts, groups, room, count, size)
+            columns = _balanced(rows, count, room[1] / size - TOP - PAD + 10)
+            if columns:
+                return _Plan(size, column, (columns,))
+        size *= 0.97
+    plans, limit = [], room[1] / least - TOP - PAD + 10
+    for count in range(1, MAX_COLUMNS + 1):
+        column, rows = _rows(fonts, groups, room, count, least)
+        columns = _filled(rows, limit)
+        if columns and max(map(_height, columns)) <= limit:
+            pages = [columns[k : k + count] for k in range(0, len(columns), count)]
+            plans.append(_Plan(least, column, pages))
+    if plans or ui < UNREADABLE:
+        return min(plans, key=lambda plan: len(plan.pages), default=None)
+    return _plan(fonts, groups, room, 0.8 * ui)
 
 
-def _one_page(
-    fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float, least: float
-) -> _Plan | None:
-    """Return the largest page of `count` columns, at `ui` to `least` pixels a point, or None."""
-    while ui >= least:
-        made = _columns(fonts, groups, room, count, ui)
-        if made is not None:
-            column, rows = made
-            parts = _split(rows, count, room[1] / ui - TOP - PAD + 10)
-            if parts is not None:
-                return _Plan(ui, column, (parts,))
-        ui *= 0.97
-    return None
-
-
-def _several_pages(
+def _rows(
     fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float
-) -> _Plan | None:
-    """Return pages of `count` columns that are filled one after the other, or None."""
-    made = _columns(fonts, groups, room, count, ui)
-    limit = room[1] / ui - TOP - PAD + 10
-    if made is None:
-        return None
-    column, rows = made
-    columns = _filled(rows, limit)
-    if any(_height(rows) > limit for rows in columns):
-        return None
-    pages = tuple(columns[k : k + count] for k in range(0, len(columns), count))
-    return _Plan(ui, column, pages)
-
-
-def _columns(
-    fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float
-) -> tuple[int, list[_Row]] | None:
-    """Return the width of the columns, pixels, and all rows; None if columns are too narrow."""
+) -> tuple[int, list[_Row]]:
+    """Return the width of `count` columns, pixels, and all rows; none if columns are too narrow."""
     column = (room[0] - 2 * PAD * ui - (count - 1) * BETWEEN * ui) / count
     rows, widest = [], 0
     for heading, group in groups:
@@ -230,51 +187,52 @@ def _columns(
         caps += round(10 * ui)
         words = min(column - caps, MAX_WORDS * ui)
         if words < MIN_WORDS * ui:
-            return None
+            return 0, []
         for key in group:
             lines = fonts.wrap(key.help, SIZE * ui, words, 4)
-            rows.append(_Row(key.labels, tuple(lines), caps))
+            rows.append(_Row(key.labels, lines, caps))
             widest = max(widest, caps + max(fonts.width(line, SIZE * ui) for line in lines))
     return widest, rows
 
 
-def _split(rows: Sequence[_Row], count: int, limit: float) -> tuple[tuple[_Row, ...], ...] | None:
-    """Return the rows in at most `count` columns of similar height; None if they don't fit."""
-    low, high = 0.0, limit
-    best = _filled(rows, high)
-    if len(best) > count or any(_height(column) > high for column in best):
-        return None
-    for _ in range(12):
-        middle = (low + high) / 2
-        columns = _filled(rows, middle)
-        if len(columns) <= count and all(_height(column) <= middle for column in columns):
-            best, high = columns, middle
-        else:
-            low = middle
-    return best
+def _balanced(rows: Sequence[_Row], count: int, limit: float) -> list[list[_Row]]:
+    """Return the rows in at most `count` columns of similar height; none if they don't fit."""
+    height = _height(rows) / count
+    while height < limit:
+        columns = _filled(rows, height)
+        if len(columns) <= count and max(map(_height, columns), default=0.0) <= height:
+            return columns
+        height += ROW / 4
+    return []
 
 
-def _filled(rows: Sequence[_Row], limit: float) -> tuple[tuple[_Row, ...], ...]:
+def _filled(rows: Sequence[_Row], limit: float) -> list[list[_Row]]:
     """Return columns up to a height, points; a group is not split if a column can hold it."""
-    groups: list[list[_Row]] = []
-    for row in rows:
-        if not row.labels:
-            groups.append([])
-        groups[-1].append(row)
-    columns: list[list[_Row]] = [[]]
-    for group in groups:
-        if columns[-1] and _height([*columns[-1], *group]) > limit:
+    columns: list[list[_Row]] = []
+    for k, row in enumerate(rows):
+        rest = takewhile(lambda other: other.labels, rows[k + 1 :])
+        together = [row, *rest] if not row.labels else [row]
+        if not columns or _height([*columns[-1], *together]) > limit:
             columns.append([])
-        for k, row in enumerate(group):
-            last = [row, *group[k + 1 : k + 2]] if not row.labels else [row]  # no lone headings
-            if columns[-1] and _height([*columns[-1], *last]) > limit:
-                columns.append([])
-            columns[-1].append(replace(row, first=not columns[-1]))
-    return tuple(tuple(column) for column in columns)
+        columns[-1].append(row)
+    return columns
 
 
 def _height(rows: Sequence[_Row]) -> float:
-    return sum(row.height for row in rows)
+    return sum(row.height for row in rows) - _raised(rows)
+
+
+def _raised(rows: Sequence[_Row]) -> float:
+    """Return the gap that a heading does not need at the top of a column, points."""
+    return GAP if rows and not rows[0].labels else 0.0
+
+
+def draw_veil(surface: pygame.Surface, painter: Painter, area: pygame.Rect) -> None:
+    """Draw a veil over a part of the surface that does not take the mouse now."""
+    veil = pygame.Surface(area.size, 0, 32)
+    veil.fill(painter.theme.veil)
+    veil.set_alpha(150 if painter.theme.dark else 70)
+    surface.blit(veil, area)
 
 
 def cap_width(fonts: Fonts, text: str, ui: float) -> int:
@@ -293,6 +251,5 @@ def draw_cap(
     plate.centery = y
     painter.panel(surface, plate.move(0, round(2 * ui)), theme.key_edge, 6 * ui)
     painter.panel(surface, plate, theme.key, 6 * ui, theme.key_edge)
-    image = painter.fonts.render(text, 14 * ui, theme.text, bold=True)
-    surface.blit(image, image.get_rect(center=plate.center))
+    painter.write(surface, text, 14 * ui, theme.text, bold=True, center=plate.center)
     return x + width

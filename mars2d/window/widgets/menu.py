@@ -8,7 +8,8 @@ from typing import NamedTuple
 import pygame
 
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.keys import CONTROL, MODIFIERS, label_of
+from mars2d.window.widgets.actions import label_of
+from mars2d.window.widgets.keys import CONTROL, MODIFIERS
 
 ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
 """The heights of an entry and of a line below it, the margin, a tick box's side, points."""
@@ -220,8 +221,8 @@ class Menu:
         signs = (("▴", first > 0, "midtop"), ("▾", last + 1 < len(entries), "midbottom"))
         for sign, there, side in signs:
             if there:
-                image = painter.fonts.render(sign, 12 * ui, theme.muted)
-                surface.blit(image, image.get_rect(**{side: getattr(self.plate, side)}))
+                at = {side: getattr(self.plate, side)}
+                painter.write(surface, sign, 12 * ui, theme.muted, **at)
 
     def _arrange(self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter) -> None:
         """Place the plate and the entries that are seen, the chosen one among them."""
@@ -269,16 +270,15 @@ class Menu:
             dot = box.move(round(k * (BOX + 4) * ui), 0)
             painter.panel(surface, dot, theme.shade(color), side / 2)
         color = theme.muted if title else theme.ink
-        end = fonts.render(f"{entry.value}{entry.key}", SIZE * ui, theme.muted)
-        surface.blit(end, end.get_rect(midright=(place.right - pad, middle)))
-        room = place.right - 2 * pad - end.get_width() - left - boxes
-        text = fonts.shorten(entry.title, SIZE * ui, room + pad, bold=title)
-        words = fonts.render(text, SIZE * ui, color, bold=title)
-        surface.blit(words, words.get_rect(midleft=(left + boxes, middle)))
+        size, right = SIZE * ui, (place.right - pad, middle)
+        end = f"{entry.value}{entry.key}"
+        room = painter.write(surface, end, size, theme.muted, midright=right).left - left - boxes
+        text = fonts.shorten(entry.title, size, room, bold=title)
+        painter.write(surface, text, size, color, bold=title, midleft=(left + boxes, middle))
         if entry.more:
             more = fonts.shorten(entry.more, SMALL * ui, place.right - pad - left - boxes)
-            image = fonts.render(more, SMALL * ui, theme.muted)
-            surface.blit(image, image.get_rect(midleft=(left + boxes, middle + round(MORE * ui))))
+            below = (left + boxes, middle + MORE * ui)
+            painter.write(surface, more, SMALL * ui, theme.muted, midleft=below)
 
 
 def _height(entry: Entry, ui: float) -> int:

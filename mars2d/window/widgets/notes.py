@@ -117,9 +117,8 @@ def _drawn(note: _Note, plot: pygame.Rect, painter: Painter) -> pygame.Surface:
     bar.centery = plate.centery
     painter.panel(image, bar, _color(note.kind, theme), bar.width / 2)
     for k, line in enumerate(lines):
-        text = fonts.render(line, SIZE * ui, theme.ink)
-        middle = round((9 + LINE * (k + 0.5)) * ui)
-        image.blit(text, text.get_rect(midleft=(round(22 * ui), middle)))
+        middle = (22 * ui, (9 + LINE * (k + 0.5)) * ui)
+        painter.write(image, line, SIZE * ui, theme.ink, midleft=middle)
     return image
 
 
@@ -151,10 +150,9 @@ def draw_progress(
     plate.midbottom = (plot.centerx, plot.bottom - round(16 * ui))
     painter.panel(surface, plate, theme.plate, 10 * ui, theme.edge)
     middle = plate.top + round(23 * ui)
-    image = fonts.render(text, 15 * ui, theme.ink)
-    surface.blit(image, image.get_rect(midleft=(plate.left + pad, middle)))
-    image = fonts.render(percent, 15 * ui, theme.running.ink, bold=True)
-    surface.blit(image, image.get_rect(midright=(plate.right - pad, middle)))
+    painter.write(surface, text, 15 * ui, theme.ink, midleft=(plate.left + pad, middle))
+    end, ink = (plate.right - pad, middle), theme.running.ink
+    painter.write(surface, percent, 15 * ui, ink, bold=True, midright=end)
     line = pygame.Rect(plate.left + pad, plate.top + round(41 * ui), width, round(6 * ui))
     painter.panel(surface, line, theme.track, line.height / 2)
     before = surface.get_clip()

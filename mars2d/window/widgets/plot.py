@@ -73,8 +73,7 @@ def draw_axes(
         y = area.bottom - round((k * step - low) / (high - low) * area.height)
         surface.fill(theme.grid_axis if k == 0 else theme.grid, (area.left, y, area.width, 1))
         text = f"{k * step:.4g} {unit}".strip().replace("-", "\N{MINUS SIGN}")
-        image = fonts.render(text, 11 * ui, theme.muted)
-        surface.blit(image, image.get_rect(midright=(area.left - round(6 * ui), y)))
+        painter.write(surface, text, 11 * ui, theme.muted, midright=(area.left - 6 * ui, y))
     step = round_force((end - start) / max(1.0, min(4.0, area.width / (66 * ui))))
     for k in range(ceil(start / step - 1e-9), int(end / step + 1e-9) + 1):
         x = area.left + round((k * step - start) / (end - start) * area.width)

@@ -165,20 +165,19 @@ class SpeedSlider(Slider):
         room = rect.right - round(14 * ui) - left
         word = times(speed)
         size = next((s for s in (16, 14) if fonts.width(word, s * ui, bold=True) <= room), 12)
-        image = fonts.render(word, size * ui, theme.ink, bold=True)
         behind = reached is not None and (speed == inf or reached < BEHIND * speed)
+        at = (left, rect.centery - 9 * ui * behind)
+        painter.write(surface, word, size * ui, theme.ink, bold=True, midleft=at)
         if reached is None or not behind:
-            surface.blit(image, image.get_rect(midleft=(left, rect.centery)))
             return
-        surface.blit(image, image.get_rect(midleft=(left, rect.centery - round(9 * ui))))
         text = next(
             (t for t in (f"reaches {times(reached)}", times(reached))
              if fonts.width(t, 12.5 * ui) <= room),
             "",
         )  # fmt: skip
         color = theme.muted if speed == inf else theme.waiting.ink
-        image = fonts.render(text, 12.5 * ui, color)
-        surface.blit(image, image.get_rect(midleft=(left, rect.centery + round(11 * ui))))
+        below = (left, rect.centery + 11 * ui)
+        painter.write(surface, text, 12.5 * ui, color, midleft=below)
 
 
 class ValueSlider(Slider):

@@ -616,8 +616,8 @@ def test_areas_that_overlap_are_joined(tmp_path):
             "plan.dxf: resolution is for .png, .pgm, .jpg, .jpeg, .bmp, not .dxf",
         ),
         ({"at": 3}, "at = 3: expected a point"),
-        ({"tolerance": -1}, "tolerance = -1: expected metres"),
-        ({"tolerance": float("nan")}, "tolerance = nan: expected metres"),
+        ({"tolerance": -1}, "tolerance = -1: expected a number >= 0 and <= 10 [m]"),
+        ({"tolerance": float("nan")}, "tolerance = nan: expected a number"),
     ],
 )
 def test_options_that_can_not_be_used_are_named(plan, options, said):

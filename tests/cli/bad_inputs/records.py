@@ -125,15 +125,8 @@ def _renamed(suffix: str) -> Callable[[], bytes]:
     return lambda: saved(f"run{suffix}")
 
 
-def _replaced(name: str, old: bytes, new: bytes) -> Callable[[], bytes]:
-    return _changed(name, lambda data: data.replace(old, new))
-
-
 OTHERS: list[tuple[str, str, Content, tuple[str, ...]]] = [
     ("a record from a newer version", "run.npz", _npz(header=_header(format=9)), ("newer",)),
-    ("a table from a newer version", "run.csv", _replaced("run.csv", b'"format"": 4',
-     b'"format"": 9'),
-     ("newer",)),
     ("a record with a word for a seed", "run.npz", _npz(header=_header(seed="one")), ("seed",)),
     ("a record with a header of a list", "run.npz", _npz(header=np.frombuffer(b"[]", np.uint8)),
      ("damaged",)),

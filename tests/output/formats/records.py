@@ -81,6 +81,17 @@ def refused(path, message: str = "", **options) -> str:
     return text
 
 
+def foxglove_message(kind: str, data: bytes):
+    """Return a message of Foxglove, read by the schema that is sent along."""
+    from foxglove import messages
+    from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+
+    schema, pool = getattr(messages, kind).get_schema(), descriptor_pool.DescriptorPool()
+    for file in descriptor_pb2.FileDescriptorSet.FromString(schema.data).file:
+        pool.Add(file)
+    return message_factory.GetMessageClass(pool.FindMessageTypeByName(schema.name)).FromString(data)
+
+
 @st.composite
 def records(draw) -> Record:
     """Small records of any bits that a record may hold."""

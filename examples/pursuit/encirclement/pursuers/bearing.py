@@ -12,8 +12,9 @@ def control(robot):
         sight /= np.hypot(*sight)
         velocity = (here - before) / robot.sampling_time
         across = velocity - (velocity @ sight) * sight
-        if np.hypot(*across) < most:
-            yield across + (most**2 - across @ across) ** 0.5 * sight
+        ahead = max(most**2 - across @ across, 0) ** 0.5
+        if ahead > max(velocity @ sight, 0):  # the way to a meeting
+            yield across + ahead * sight
         else:  # as near as it can: at the angle acos(most / speed) to the evader's way
             ahead = velocity / np.hypot(*velocity)
             side = sight - (sight @ ahead) * ahead

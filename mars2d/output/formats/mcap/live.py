@@ -7,8 +7,8 @@ from typing import Any
 
 from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
-from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
 from mars2d.output.formats.mcap.log import newest_row
+from mars2d.output.formats.mcap.row import nanoseconds
 
 HOST = "127.0.0.1"
 """It serves this machine alone."""
@@ -30,7 +30,6 @@ class Live:
     def __init__(self, port: int) -> None:
         with extra("live", "--foxglove needs foxglove-sdk"):
             import foxglove as library
-            import foxglove_schemas_protobuf  # noqa: F401
         _check_free(port)
         foxglove: Any = library
         self._library = foxglove
@@ -65,6 +64,8 @@ class Live:
         """Send the row that a `World` has recorded last, if it is a new one."""
         recorder = world.recorder
         if world is not self._world:
+            from mars2d.output.formats.mcap.foxglove import Topics
+
             self._world = world
             self._topics = Topics(recorder.scenario, recorder.sensor_robots, self._channel)
             self._stale = True
@@ -81,10 +82,11 @@ class Live:
 
     def _channel(self, topic: str, kind: Any) -> Any:
         if topic not in self._channels:
-            name, data = kind.DESCRIPTOR.full_name, schema_of(kind)
-            schema = self._library.Schema(name=name, encoding="protobuf", data=data)
             self._channels[topic] = self._library.Channel(
-                topic, schema=schema, message_encoding="protobuf", context=self._context
+                topic,
+                schema=kind.get_schema(),
+                message_encoding="protobuf",
+                context=self._context,
             )
         return self._channels[topic]
 

@@ -44,8 +44,7 @@ def newest_row(world: Any, counts: tuple[int, int, int, int]) -> Row:
     sent, texts = recorder.messages() if talked else (NO_MESSAGES, ())
     return Row(
         row=k,
-        **columns,
-        readings=readings,
+        columns=columns | {f"sensor:{name}": values for name, values in readings.items()},
         contacts=recorder.contacts()[contacts:] if now[0] > contacts else NO_CONTACTS,
         messages=sent[messages:],
         contents=texts[contents:],

@@ -12,14 +12,13 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.output.formats import header as headers
+from mars2d.output.formats.columns import shapes_of
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.output.formats.mcap.row import decoded
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
 from mars2d.record.columns import Texts
 from mars2d.record.contact import CONTACT
-from mars2d.record.energy import WORK
-from mars2d.record.message import MESSAGE as MESSAGES
-from mars2d.record.message import as_of
+from mars2d.record.message import MESSAGE, as_of
 from mars2d.record.rows import Rows
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -55,7 +54,7 @@ def read(path: Path, largest: int) -> Rows:
                 _cut(rows, int(told.metadata["row"]))
             elif isinstance(told, Metadata) and told.name == END:
                 end, count = json.loads(told.metadata["end"]), int(told.metadata["rows"])
-                headers.check_sums(end, header["format"])
+                headers.check_sums(end)
         if header is None:
             raise InputError(_why_nothing(path, channels))
         return _record(rows, header, end if len(rows) == count else None)
@@ -114,55 +113,42 @@ def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | Non
 
     end: how the run ended, None where the log does not tell.
     """
+    shapes = shapes_of(*(len(header["scenario"].get(kind, ())) for kind in ("robots", "props")))
     columns: dict[str, NDArray[Any]] = {}
-    contacts, messages = [np.empty(0, CONTACT)], [np.empty(0, MESSAGES)]
+    if not rows:
+        columns = {name: np.empty((0, *shape)) for name, shape in shapes.items()}
+    contacts, messages = [np.empty(0, CONTACT)], [np.empty(0, MESSAGE)]
     contents: list[str] = []
     changes: list[Any] = []
-    robots = header["sensor_robots"]
-    names = [f"sensor:{name}" for name in robots] if rows else []
-    for name, shape in _shapes(header).items():
-        columns[name] = np.empty((len(rows), *shape))
     for k, data in enumerate(rows):
         row = decoded(data)
-        if row.row != k:
-            raise ValueError("row")
-        readings = {f"sensor:{name}": values for name, values in row.readings.items()}
         if k == 0:
-            names = [name for name in names if name in readings]
-            for name in names:
-                first = readings[name]
-                columns[name] = np.empty((len(rows), *first.shape), first.dtype)
-        for name, column in columns.items():
-            values = readings[name] if name in readings else getattr(row, name)
-            if name in readings and (values.shape, values.dtype) != (column[k].shape, column.dtype):
+            columns = {
+                name: np.empty((len(rows), *values.shape), values.dtype)
+                for name, values in row.columns.items()
+            }
+        if row.row != k or row.columns.keys() != columns.keys():
+            raise ValueError("row")
+        for name, values in row.columns.items():
+            if (values.shape, values.dtype) != (columns[name][k].shape, columns[name].dtype):
                 raise ValueError(name)
-            column[k] = np.reshape(values, column[k].shape)
+            columns[name][k] = values
         contacts.append(row.contacts)
         messages.append(row.messages)
         contents += row.contents
         changes += map(json.loads, row.changes)
-    now = columns["time"][-1] if rows else 0.0
-    for family, dtype, table in (
-        ("contact", CONTACT, np.concatenate(contacts)),
-        ("message", MESSAGES, as_of(np.concatenate(messages), now)),
-    ):
-        columns |= {f"{family}:{name}": table[name] for name in dtype.names or ()}
-    texts = Texts.of(contents)
-    columns |= {"contents": texts.data, "content_sizes": texts.sizes}
+    for name, shape in shapes.items():
+        columns[name] = columns[name].reshape(len(rows), *shape)
+    touched = np.concatenate(contacts)
+    columns |= {f"contact:{name}": touched[name] for name in CONTACT.names or ()}
+    if contents:
+        sent, texts = as_of(np.concatenate(messages), columns["time"][-1]), Texts.of(contents)
+        columns |= {f"message:{name}": sent[name] for name in MESSAGE.names or ()}
+        columns |= {"contents": texts.data, "content_sizes": texts.sizes}
+    robots = header["sensor_robots"]
     whole = header | {
         "interventions": [*header["interventions"], *changes],
-        "messages": bool(contents),
         "sensor_robots": {name: robots[name] for name in robots if f"sensor:{name}" in columns},
     }
     whole |= end or {"over_message": BROKEN_OFF, "finished": False}
     return headers.to_record(whole, columns, torn=end is None)
-
-
-def _shapes(header: dict[str, Any]) -> dict[str, tuple[int, ...]]:
-    """Return the shape of a row of each column that every log with this header holds."""
-    n, p = len(header["scenario"]["robots"]), len(header["scenario"].get("props", ()))
-    shapes: dict[str, tuple[int, ...]] = {
-        "time": (), "command_time": (), "pose": (3, n), "command": (2, n), "prop_pose": (3, p),
-        "effort": (n,), "velocity": (3, n), "prop_velocity": (3, p), "work": (len(WORK),),
-    }  # fmt: skip
-    return {name: shapes[name] for name in headers.columns_in(header)}

@@ -12,43 +12,31 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.output.formats.header import NOT_KEPT
 from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE
-from mars2d.record.rows import COLUMNS, FORMER, Rows
-
-Float = NDArray[np.float64]
-
-
-LATER = COLUMNS[len(FORMER) :]
-"""The columns that the first logs do not have."""
+from mars2d.record.rows import COLUMNS, Rows
 
 
 class Row(NamedTuple):
     """A row of a record, with the contacts and messages of the control step that began there.
 
-    pose, velocity: (3, n); command: (2, n); prop_pose, prop_velocity: (3, p); work: (6,). readings:
-    by the names of sensors. contents: the texts that no earlier row has. changes: the interventions
-    at this row, as JSON. velocity, prop_velocity, work: empty where they are unknown.
+    columns: those of `COLUMNS`, and ``sensor:NAME`` of each sensor. contents: the texts that no
+    earlier row has. changes: the interventions at this row, as JSON.
     """
 
     row: int
-    time: float
-    command_time: float
-    pose: Float
-    command: Float
-    prop_pose: Float
-    effort: Float
-    readings: Mapping[str, NDArray[Any]]
+    columns: Mapping[str, NDArray[Any]]
     contacts: NDArray[np.void]
     messages: NDArray[np.void]
     contents: Sequence[str]
     changes: Sequence[str]
-    velocity: Float = NOT_KEPT
-    prop_velocity: Float = NOT_KEPT
-    work: Float = NOT_KEPT
+
+    @property
+    def time(self) -> float:
+        """When it was, seconds."""
+        return float(self.columns["time"])
 
 
 # -- a record cut into rows -------------------------------------------------------------------
@@ -65,21 +53,16 @@ def cut(record: Rows, start: int = 0) -> Iterator[Row]:
     last = np.maximum.accumulate(np.concatenate([[-1], record.messages["content"]]))
     contents[1:] = 1 + last[messages[1:]]
     contents[-1] = len(record.contents)
+    columns = {name: getattr(record, name) for name in COLUMNS}
+    columns |= {f"sensor:{name}": values for name, values in record.sensors.items()}
     for k in range(start, len(record)):
         yield Row(
             row=k,
-            time=float(record.time[k]),
-            command_time=float(record.command_time[k]),
-            pose=record.pose[k],
-            command=record.command[k],
-            prop_pose=record.prop_pose[k],
-            effort=record.effort[k],
-            readings={name: values[k] for name, values in record.sensors.items()},
+            columns={name: values[k] for name, values in columns.items()},
             contacts=record.contacts[contacts[k] : contacts[k + 1]],
             messages=record.messages[messages[k] : messages[k + 1]],
             contents=record.contents[contents[k] : contents[k + 1]],
             changes=changes_at(record.interventions, k),
-            **{name: getattr(record, name)[k] for name in LATER if name in record.kept},
         )
 
 
@@ -106,17 +89,16 @@ def _ends(rows: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     return ends
 
 
+def nanoseconds(time: float) -> int:
+    """Return a simulated time [s] in nanoseconds, as MCAP counts."""
+    return round(float(time) * 1e9)  # rounding numbers of numpy is slow
+
+
 # -- rows as messages -------------------------------------------------------------------------
 
 KINDS = {"f": ("double", "<f8"), "i": ("sfixed32", "<i4"), "u": ("fixed32", "<u4"),
          "b": ("bool", "?")}  # fmt: skip
 """How arrays are stored, by the kinds of their numbers: as messages call it, and as numpy does."""
-
-
-def _fields(text: str) -> dict[str, str]:
-    """Return the kinds of fields by their names, in order."""
-    kinds = (line.split() for line in text.split("; "))
-    return {name: kind for kind, *names in kinds for name in names}
 
 
 def _fields_of(dtype: np.dtype[Any]) -> dict[str, str]:
@@ -125,21 +107,31 @@ def _fields_of(dtype: np.dtype[Any]) -> dict[str, str]:
 
 
 FIELDS = {
-    "Row": _fields(
-        "uint64 row; double time command_time; double[] pose command prop_pose effort; "
-        "Readings[] readings; Contacts contacts; Messages messages; string[] contents changes; "
-        "double[] velocity prop_velocity; fixed32 crc; double[] work"
-    ),
-    "Readings": _fields("string sensor; fixed32[] shape; double[] numbers; bool[] flags"),
+    "Row": {
+        "crc": "fixed32",
+        "row": "uint64",
+        **dict.fromkeys(COLUMNS, "double[]"),
+        "readings": "Readings[]",
+        "contacts": "Contacts",
+        "messages": "Messages",
+        "contents": "string[]",
+        "changes": "string[]",
+    },
+    "Readings": {
+        "sensor": "string",
+        "shape": "fixed32[]",
+        "numbers": "double[]",
+        "flags": "bool[]",
+    },
     "Contacts": _fields_of(CONTACT),
     "Messages": _fields_of(MESSAGE),
 }
-"""The fields of all messages, numbered from 1 on; [] marks arrays. New ones come last."""
+"""The fields of all messages, numbered from 1 on; [] marks arrays, which are flat."""
 
 CRC = struct.Struct("<BI")
 """How a row ends: the tag of its field `crc`, and the check sum of all bytes before it."""
 
-CRC_TAG = 15 << 3 | 5  # a fixed32
+CRC_TAG = 1 << 3 | 5  # the first field, a fixed32
 
 
 def schema() -> bytes:
@@ -162,57 +154,40 @@ def schema() -> bytes:
     return bytes(files.SerializeToString())
 
 
-def with_arrays_as_bytes(schema: bytes, name: str) -> Any:
-    """Return the class of a message of a schema, in which each array of numbers is one of bytes.
+@cache
+def _message_class() -> Any:
+    """Return the class of a row's message, in which each array of numbers is one of bytes.
 
     Both are stored alike, so numpy's arrays are written and read as they are: none of their numbers
-    is changed, nor becomes an object of Python. schema: a FileDescriptorSet whose last file has the
-    message. A field that is set is stored even if it is empty or 0.
+    is changed, nor becomes an object of Python. A field that is set is stored even if it is 0.
     """
     from google.protobuf.descriptor_pb2 import FileDescriptorSet
     from google.protobuf.descriptor_pool import DescriptorPool
     from google.protobuf.message_factory import GetMessageClass
 
-    files = FileDescriptorSet.FromString(schema).file
-    files[-1].syntax = "proto2"
-    for message in files[-1].message_type:
+    [file] = FileDescriptorSet.FromString(schema()).file
+    file.syntax = "proto2"
+    for message in file.message_type:
         for field in message.field:
             array = field.label == field.LABEL_REPEATED
             if array and field.type not in (field.TYPE_MESSAGE, field.TYPE_STRING):
                 field.type, field.label = field.TYPE_BYTES, field.LABEL_OPTIONAL
     pool = DescriptorPool()
-    for file in files:
-        pool.Add(file)
-    return GetMessageClass(pool.FindMessageTypeByName(name))
-
-
-@cache
-def _message_class() -> Any:
-    return with_arrays_as_bytes(schema(), "mars2d.Row")
+    pool.Add(file)
+    return GetMessageClass(pool.FindMessageTypeByName("mars2d.Row"))
 
 
 def encoded(row: Row) -> bytes:
     """Return a row as a message, see `schema`."""
-    message = _message_class()(
-        row=row.row,
-        time=row.time,
-        command_time=row.command_time,
-        pose=_stored(row.pose),
-        command=_stored(row.command),
-        prop_pose=_stored(row.prop_pose),
-        effort=_stored(row.effort),
-        contents=row.contents,
-        changes=row.changes,
-    )
-    if row.work.size:
-        for name in LATER:
-            setattr(message, name, _stored(getattr(row, name)))
-    for sensor, values in row.readings.items():
-        readings = message.readings.add(sensor=sensor, shape=_stored(np.array(values.shape, "<u4")))
-        if values.dtype.kind == "b":
-            readings.flags = _stored(values)
+    message = _message_class()(row=row.row, contents=row.contents, changes=row.changes)
+    for name, values in row.columns.items():
+        _, of_sensor, sensor = name.partition(":")
+        if of_sensor:
+            shape = _stored(np.array(values.shape, "<u4"))
+            kind = "flags" if values.dtype.kind == "b" else "numbers"
+            message.readings.add(sensor=sensor, shape=shape, **{kind: _stored(values)})
         else:
-            readings.numbers = _stored(values)
+            setattr(message, name, _stored(values))
     for table, rows in ((message.contacts, row.contacts), (message.messages, row.messages)):
         if len(rows):
             for name in rows.dtype.names or ():
@@ -222,7 +197,7 @@ def encoded(row: Row) -> bytes:
 
 
 def decoded(data: bytes) -> Row:
-    """Return the row in a message; its arrays are flat, but for the readings.
+    """Return the row in a message; its columns are flat, but for those of sensors.
 
     Raises various exceptions, such as ValueError, where there is none.
     """
@@ -230,26 +205,19 @@ def decoded(data: bytes) -> Row:
     if data[-CRC.size :] != CRC.pack(CRC_TAG, crc32(body)):
         raise ValueError("check sum of a row")
     message = _message_class().FromString(body)
-    double = np.dtype(float)
+    columns = {name: _restored(getattr(message, name), np.dtype(float)) for name in COLUMNS}
     return Row(
         row=message.row,
-        time=message.time,
-        command_time=message.command_time,
-        pose=_restored(message.pose, double),
-        command=_restored(message.command, double),
-        prop_pose=_restored(message.prop_pose, double),
-        effort=_restored(message.effort, double),
-        readings={each.sensor: _readings(each) for each in message.readings},
+        columns=columns | {f"sensor:{each.sensor}": _readings(each) for each in message.readings},
         contacts=_table(message, "contacts", CONTACT),
         messages=_table(message, "messages", MESSAGE),
         contents=list(message.contents),
         changes=list(message.changes),
-        **{name: _restored(getattr(message, name), double) for name in LATER},
     )
 
 
 def _stored(values: NDArray[Any]) -> bytes:
-    """Return an array's bytes as messages store them."""
+    """Return the bytes of an array, or of a number of numpy, as messages store them."""
     return values.astype(KINDS[values.dtype.kind][1], copy=False).tobytes()
 
 

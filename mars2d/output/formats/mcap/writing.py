@@ -12,8 +12,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.mcap.foxglove import Topics, nanoseconds, schema_of
-from mars2d.output.formats.mcap.row import Row, cut, encoded, schema
+from mars2d.output.formats.mcap.row import Row, cut, encoded, nanoseconds, schema
 from mars2d.record.message import as_of
 from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
@@ -37,7 +36,7 @@ LATEST = 2**64 / 1e9 - 1
 def require(path: Path) -> None:
     """Raise MissingExtraError where a library is missing that a log needs."""
     with extra("log", f"{path}: a log needs mcap"):
-        import foxglove_schemas_protobuf  # noqa: F401
+        import foxglove  # noqa: F401
         import google.protobuf  # noqa: F401
         import mcap  # noqa: F401
 
@@ -55,7 +54,7 @@ class Tape:
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         writer.start(profile="", library="mars2d")
-        self._row = self._channel(TOPIC, "mars2d.Row", schema)
+        self._row = self._channel(TOPIC, "mars2d.Row", schema())
 
     def begin(
         self,
@@ -65,6 +64,8 @@ class Tape:
         row: int = 0,
     ) -> None:
         """Write the header of the rows from `row` on; they replace such rows that were before."""
+        from mars2d.output.formats.mcap.foxglove import Topics
+
         self._writer.add_metadata(BEGIN, {"header": headers.as_text(header), "row": str(row)})
         self._topics = Topics(scenario, sensor_robots, self._foxglove)
 
@@ -81,17 +82,17 @@ class Tape:
         told = {name: header[name] for name in ("over_message", "finished", "digest")}
         self._writer.add_metadata(END, {"end": headers.as_text(told), "rows": str(len(record))})
 
-    def _channel(self, topic: str, name: str, schema: Any) -> int:
+    def _channel(self, topic: str, name: str, schema: bytes) -> int:
         if topic not in self._channels:
             if name not in self._schemas:
-                added = self._writer.register_schema(name, "protobuf", schema())
-                self._schemas[name] = added
+                self._schemas[name] = self._writer.register_schema(name, "protobuf", schema)
             number = self._writer.register_channel(topic, "protobuf", self._schemas[name])
             self._channels[topic] = number
         return self._channels[topic]
 
     def _foxglove(self, topic: str, kind: Any) -> int:
-        return self._channel(topic, kind.DESCRIPTOR.full_name, lambda: schema_of(kind))
+        schema = kind.get_schema()
+        return self._channel(topic, schema.name, schema.data)
 
 
 def write(record: Rows, path: Path) -> None:

@@ -40,6 +40,10 @@ class Camera {
     return [(px - this.x) / this.scale, (this.y - py) / this.scale];
   }
 
+  toPixels(x, y) {
+    return [this.x + this.scale * x, this.y - this.scale * y];
+  }
+
   centerOn(x, y) {
     this.x = this.width / 2 - this.scale * x;
     this.y = this.height / 2 + this.scale * y;

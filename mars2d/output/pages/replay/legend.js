@@ -3,23 +3,20 @@
 const ROW = 24; // pixels
 
 class Legend {
-  constructor(element, record) {
+  constructor(corner, record) {
     this.longest = record.longestArrow;
-    this.plates = record.legends.map((legend) => this.plate(element, legend));
+    this.plates = record.legends.map((legend) => this.plate(corner, legend));
     this.drawn = "";
   }
 
   // A plate with a line for the arrow, and one for each sign.
-  plate(element, legend) {
-    const plate = document.createElement("div"), { longest } = this;
-    element.append(plate);
+  plate(corner, legend) {
+    const plate = element("div", {}), { longest } = this;
+    corner.append(plate);
     const room = Math.max(legend.arrow ? longest : 0, ...legend.signs.map((sign) => sign.room));
     const line = (words) => {
-      const row = document.createElement("p"), canvas = document.createElement("canvas");
-      const said = document.createElement("span");
-      said.textContent = words;
-      row.append(canvas, said);
-      plate.append(row);
+      const canvas = element("canvas", {}), said = element("span", {}, words);
+      plate.append(element("p", {}, canvas, said));
       return { canvas, said };
     };
     return { ...legend, plate, room, ruler: legend.arrow && line(""), lines: legend.signs.map(({ meaning }) => line(meaning)) };

@@ -7,10 +7,9 @@ class Marks {
     Object.assign(this, { canvas, record });
     this.drawn = "";
     for (const { kind, meaning } of record.marks) {
-      const item = document.createElement("li"), tick = document.createElement("i");
+      const tick = element("i", {});
       tick.style.background = `var(--mark-${kind})`;
-      item.append(tick, `on the time bar: ${meaning}`);
-      list.append(item);
+      list.append(element("li", {}, tick, `on the time bar: ${meaning}`));
     }
   }
 

@@ -33,9 +33,8 @@ class Panel {
     list.replaceChildren();
     this.rows = [];
     const row = (name, say) => {
-      const term = document.createElement("dt"), words = document.createElement("dd");
-      term.textContent = name;
-      list.append(term, words);
+      const words = element("dd", {});
+      list.append(element("dt", {}, name), words);
       this.rows.push([words, say]);
     };
     row("pose", () => [
@@ -102,11 +101,9 @@ class Panel {
     this.element.querySelector(".dot").style.background = color;
     for (const [words, say] of this.rows) {
       const parts = say();
-      while (words.children.length > parts.length) words.lastChild.remove();
-      while (words.children.length < parts.length) words.append(document.createElement("span"));
-      parts.forEach((part, k) => {
-        if (words.children[k].textContent !== part) words.children[k].textContent = part;
-      });
+      if (parts.join("\n") === words.dataset.said) continue;
+      words.dataset.said = parts.join("\n");
+      words.replaceChildren(...parts.map((part) => element("span", {}, part)));
     }
   }
 }

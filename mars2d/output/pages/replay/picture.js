@@ -44,18 +44,12 @@ class Picture {
 
   // Put all bodies where they are at a position between two rows.
   move(position) {
-    const { places, headings } = this.columns, rows = places.rows, n = this.bodies.length;
-    const row = Math.floor(position), next = Math.min(row + 1, rows - 1);
-    let share = 0;
-    const between = (values, k) =>
-      values[k * rows + row] * (1 - share) + values[k * rows + next] * share;
-    const [low, bottom] = places.entry.low;
-    for (let i = 0; i < n; i++) {
-      share = this.leaps[i].has(row + 1) ? 0 : position - row; // what is put elsewhere stays until then
-      this.x[i] = low + places.step * between(places.values, i);
-      this.y[i] = bottom + places.step * between(places.values, n + i);
-      this.theta[i] = headings.step * between(headings.values, i);
-    }
+    const row = Math.floor(position), next = Math.min(row + 1, this.columns.places.rows - 1);
+    this.bodies.forEach((_, i) => {
+      const share = this.leaps[i].has(row + 1) ? 0 : position - row; // what is put elsewhere stays until then
+      const before = this.placeAt(row, i), after = this.placeAt(next, i);
+      [this.x[i], this.y[i], this.theta[i]] = before.map((value, k) => value * (1 - share) + after[k] * share);
+    });
     this.position = position;
     this.row = row;
   }
@@ -78,7 +72,7 @@ class Picture {
     let found = -1, nearest = Infinity;
     for (let i = 0; i < this.bodies.length; i++) {
       const [x, y, radius] = this.bound(i), { camera } = this;
-      const off = Math.hypot(camera.x + camera.scale * x - px, camera.y - camera.scale * y - py);
+      const [across, down] = camera.toPixels(x, y), off = Math.hypot(across - px, down - py);
       if (off <= Math.max(camera.scale * radius, reach) && off < nearest) [found, nearest] = [i, off];
     }
     return found;
@@ -147,7 +141,7 @@ class Picture {
     const boxOf = (i) => {
       const [x, y, radius] = this.bound(i), ring = i === look.picked ? 11 : 0;
       const far = Math.max(camera.scale * radius + ring, this.bodies[i].ring ?? 0);
-      return [camera.x + camera.scale * x, camera.y - camera.scale * y, far, far];
+      return [...camera.toPixels(x, y), far, far];
     };
     const orderOf = (each) => layer.orders[layer.order[layer.sceneAt(each, this.row)]];
     const isName = (each) => each.body !== null && orderOf(each).length === 1;
@@ -214,10 +208,7 @@ class Picture {
 
   drawGrid(context, colors) {
     const { camera } = this, { area, xs, ys } = this.gridOf();
-    const [left, right, top, bottom] = [
-      camera.x + camera.scale * area[0], camera.x + camera.scale * area[1],
-      camera.y - camera.scale * area[3], camera.y - camera.scale * area[2],
-    ];
+    const [left, top] = camera.toPixels(area[0], area[3]), [right, bottom] = camera.toPixels(area[1], area[2]);
     for (const x of xs) {
       context.fillStyle = Math.abs(x) < 1e-9 ? colors.axis : colors.grid;
       context.fillRect(Math.round(camera.x + camera.scale * x), top, 1, bottom - top);
@@ -287,51 +278,50 @@ class Picture {
     this.pathRow = this.row;
   }
 
+  // A body's path after a row, in pixels, without steps too short to be seen: no dots on top of dots.
+  *stepsAfter(start, i) {
+    let [px, py] = this.pixelsAt(start, i);
+    for (let row = start + 1; row <= this.row; row++) {
+      const [x, y] = this.pixelsAt(row, i), length = Math.hypot(x - px, y - py);
+      const leapt = this.leaps[i].has(row); // it was put there, and went no way
+      if (!leapt && length < 1.5) continue;
+      yield { row, x, y, leapt, length };
+      [px, py] = [x, y];
+    }
+  }
+
+  pixelsAt(row, i) {
+    const [x, y] = this.placeAt(row, i);
+    return this.camera.toPixels(x, y);
+  }
+
   prolong(context, i, end, look) {
-    const { places } = this.columns, { rows } = places, { camera } = this, n = this.bodies.length;
-    const scale = camera.scale * places.step;
-    const left = camera.x + camera.scale * places.entry.low[0];
-    const foot = camera.y - camera.scale * places.entry.low[1];
-    const [, width, style] = this.bodies[i].trail;
-    const { marker, dashes, solid } = wakeOf(style);
-    const xs = i * rows, ys = (n + i) * rows;
-    let px = left + scale * places.values[xs + end.row], py = foot - scale * places.values[ys + end.row];
-    const marks = [], start = end.along;
-    let drawn = false;
+    const [, width, style] = this.bodies[i].trail, { marker, dashes, solid } = wakeOf(style);
+    const start = this.pixelsAt(end.row, i), marks = end.row === 0 && end.along === 0 ? [start] : [];
+    const offset = end.along;
     context.beginPath();
-    context.moveTo(px, py);
-    if (marker && end.row === 0 && end.along === 0) marks.push([px, py]);
-    for (let row = end.row + 1; row <= this.row; row++) {
-      const x = left + scale * places.values[xs + row], y = foot - scale * places.values[ys + row];
-      if (this.leaps[i].has(row)) { // it was put there, and went no way
+    context.moveTo(...start);
+    for (const { row, x, y, leapt, length } of this.stepsAfter(end.row, i)) {
+      end.row = row;
+      if (leapt) {
         context.moveTo(x, y);
-        end.row = row;
-        [px, py] = [x, y];
         continue;
       }
-      const length = Math.hypot(x - px, y - py);
-      if (length < 1.5) continue; // no dots on top of dots; the loose end leads on to the body
       context.lineTo(x, y);
       const before = end.along;
       end.along += length;
-      if (marker && Math.floor(end.along / MARK_SPACING) > Math.floor(before / MARK_SPACING)) marks.push([x, y]);
-      end.row = row;
-      [px, py] = [x, y];
-      drawn = true;
+      if (Math.floor(end.along / MARK_SPACING) > Math.floor(before / MARK_SPACING)) marks.push([x, y]);
     }
     this.pathInk(context, i, look);
-    if (drawn && (solid || dashes)) {
-      if (dashes) {
-        context.setLineDash(dashes);
-        context.lineDashOffset = start;
-      }
+    if (solid || dashes) {
+      context.setLineDash(dashes ?? []);
+      context.lineDashOffset = offset;
       context.stroke();
       context.setLineDash([]);
     }
-    if (marks.length) {
-      const painter = new Painter(context, camera, false, this.images);
-      for (const [x, y] of marks) painter.mark(marker, x, y, this.trailColor(i, look), width);
-    }
+    if (!marker) return;
+    const painter = new Painter(context, this.camera, false, this.images);
+    for (const [x, y] of marks) painter.mark(marker, x, y, this.trailColor(i, look), width);
   }
 
   pathInk(context, i, look) {
@@ -343,29 +333,24 @@ class Picture {
 
   // From where each path was last drawn to where its body is; and the path of the picked one, broad.
   drawLooseEnds(context, look) {
-    const { camera } = this;
+    const here = (i) => this.camera.toPixels(this.x[i], this.y[i]);
     for (let i = 0; i < this.bodies.length; i++) {
       if (!wakeOf(this.bodies[i].trail[2]).solid) continue;
       this.pathInk(context, i, look);
       context.beginPath();
-      const [x, y] = this.placeAt(this.ends[i].row, i);
-      context.moveTo(camera.x + camera.scale * x, camera.y - camera.scale * y);
-      context.lineTo(camera.x + camera.scale * this.x[i], camera.y - camera.scale * this.y[i]);
+      context.moveTo(...this.pixelsAt(this.ends[i].row, i));
+      context.lineTo(...here(i));
       context.stroke();
     }
-    if (look.picked < 0) return;
     const i = look.picked;
+    if (i < 0) return;
     context.beginPath();
-    let px = Infinity, py = Infinity;
-    for (let row = 0; row <= this.row + 1; row++) {
-      const [x, y] = row > this.row ? [this.x[i], this.y[i]] : this.placeAt(row, i);
-      const at = [camera.x + camera.scale * x, camera.y - camera.scale * y];
-      const leapt = row <= this.row && this.leaps[i].has(row);
-      if (row <= this.row && !leapt && Math.hypot(at[0] - px, at[1] - py) < 1.5) continue;
-      if (leapt) context.moveTo(...at);
-      else context.lineTo(...at);
-      [px, py] = at;
+    context.moveTo(...this.pixelsAt(0, i));
+    for (const { x, y, leapt } of this.stepsAfter(0, i)) {
+      if (leapt) context.moveTo(x, y);
+      else context.lineTo(x, y);
     }
+    context.lineTo(...here(i));
     this.pathInk(context, i, look);
     context.lineWidth = 3.2;
     context.stroke();
@@ -400,7 +385,7 @@ class Picture {
     const far = camera.scale * radius + 6;
     for (const [color, width] of [[look.colors.paper, 5], [look.colors.accent, 2.5]]) {
       context.beginPath();
-      context.arc(camera.x + camera.scale * x, camera.y - camera.scale * y, far, 0, 2 * Math.PI);
+      context.arc(...camera.toPixels(x, y), far, 0, 2 * Math.PI);
       context.strokeStyle = color;
       context.lineWidth = width;
       context.stroke();

@@ -1,21 +1,40 @@
 // The page: its controls, its keys, and the loop that shows one moment after the other.
 
-const KEYS = [
-  [["Space"], "play, pause"],
-  [["←", "→"], "one step back or on"],
-  [["PgUp", "PgDn"], "ten steps back or on"],
-  [["Home", "End"], "to the start, or to the end"],
-  [["N", "Shift+N"], "next contact, previous contact"],
-  [["+", "\u2212"], "faster, or slower"],
-  [["J"], "loop"],
-  [["A"], "choose layers"],
+// Keys as the help names them, or two with one meaning each; what they do; and how.
+const ACTIONS = [
+  [["Space"], "play, pause", (page) => page.playOrPause()],
+  [["←", "→"], "one step back or on", (page) => page.clock.move(-1), (page) => page.clock.move(1)],
+  [["PgUp", "PgDn"], "ten steps back or on", (page) => page.clock.move(-10), (page) => page.clock.move(10)],
+  [["Home", "End"], "to the start, or to the end", (page) => page.goTo(0), (page) => page.goTo(page.clock.last)],
+  [["N", "Shift+N"], "next contact, previous contact", (page) => page.goToContact(false), (page) => page.goToContact(true)],
+  [["+", "\u2212"], "faster, or slower", (page) => page.faster(1), (page) => page.faster(-1)],
+  [["J"], "loop", (page) => page.setLoop(!page.clock.loop)],
+  [["A"], "choose layers", (page) => page.openLayers(!page.layersOpen)],
   [["Shift+arrows"], "move the picture"],
-  [["F"], "fit all into the view"],
-  [["L"], "follow the selection"],
-  [["D"], "dark or light"],
-  [["Esc"], "clear the selection"],
-  [["F1", "?"], "this help"],
+  [["F"], "fit all into the view", (page) => page.fit()],
+  [["L"], "follow the selection", (page) => page.look.picked >= 0 && page.setFollow(!page.follow)],
+  [["D"], "dark or light", (page) => page.setDark(!page.look.dark)],
+  [["Esc"], "clear the selection", (page) => (page.layersOpen ? page.openLayers(false) : page.pick(-1))],
+  [["F1", "?"], "this help", (page) => find("helping").showModal()],
 ];
+const LABELS = {
+  " ": "Space", ArrowLeft: "←", ArrowRight: "→", PageUp: "PgUp", PageDown: "PgDn", Escape: "Esc",
+  "=": "+", "-": "\u2212",
+}; // by what the browser calls them
+const BUTTONS = { // by their ids
+  play: "Space", first: "Home", last: "End", back: "←", ahead: "→", loop: "J", fit: "F", dark: "D",
+  follow: "L", help: "F1", show: "A",
+};
+const ARROWS = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
+
+// What the key of a label does, if anything.
+function actionOf(label) {
+  for (const [labels, , ...acts] of ACTIONS) {
+    const k = labels.indexOf(label);
+    if (k >= 0) return acts[k] ?? acts[0];
+  }
+  return null;
+}
 
 const find = (id) => document.getElementById(id);
 const NEAR = { mouse: 8, touch: 24, pen: 16 }; // pixels within which a body is met
@@ -57,40 +76,25 @@ class Replay {
     const { record } = this, { bodies } = record;
     const parts = [record.file, `seed ${record.seed}`].filter(Boolean);
     find("subtitle").append(parts.join(" · "));
-    const badge = (text) => {
-      const mark = document.createElement("b");
-      mark.textContent = text;
-      find("subtitle").append(" ", mark);
-    };
+    const badge = (text) => find("subtitle").append(" ", element("b", {}, text));
     if (!record.finished) badge("not finished");
     if (record.changed) badge("changed by hand");
-    const option = (select, value, text) => {
-      const made = document.createElement("option");
-      [made.value, made.textContent] = [value, text];
-      select.append(made);
-    };
-    option(find("bodies"), -1, "Pick a robot");
-    bodies.forEach((body, i) => option(find("bodies"), i, body.name));
-    for (const speed of SPEEDS) option(find("speed"), speed, `${speed}×`);
+    const option = (value, text) => element("option", { value }, text);
+    find("bodies").append(option(-1, "Pick a robot"), ...bodies.map(({ name }, i) => option(i, name)));
+    find("speed").append(...SPEEDS.map((speed) => option(speed, `${speed}×`)));
     find("slider").max = this.record.rows - 1;
     for (const { name, title, key } of this.layers) {
-      const button = document.createElement("button"), words = key ? `${title} (${key.toUpperCase()})` : title;
-      Object.assign(button, { id: `layer-${name}`, textContent: title, title: words });
+      const words = key ? `${title} (${key.toUpperCase()})` : title;
+      const button = element("button", { id: `layer-${name}`, title: words }, title);
       button.addEventListener("click", () => this.toggle(name));
       find("layers").append(button);
     }
     const switches = this.layers.filter(({ key }) => key);
-    const keyed = [...KEYS, ...switches.map(
+    const keyed = [...ACTIONS, ...switches.map(
       ({ title, key }) => [[key.toUpperCase()], `${title.toLowerCase()} on and off`])];
-    for (const [names, does] of keyed) {
-      const row = find("keys").insertRow(), cell = row.insertCell();
-      names.forEach((name) => {
-        const cap = document.createElement("kbd");
-        cap.textContent = name;
-        cell.append(cap, " ");
-      });
-      row.insertCell().textContent = does;
-    }
+    find("keys").append(...keyed.map(([labels, does]) => element("tr", {},
+      element("td", {}, ...labels.flatMap((label) => [element("kbd", {}, label), " "])),
+      element("td", {}, does))));
     this.tell();
   }
 
@@ -109,25 +113,15 @@ class Replay {
       ["versions", versions.join(", ")],
       ["digest", record.digest],
     ];
-    for (const [name, value] of facts) {
-      const term = document.createElement("dt"), words = document.createElement("dd");
-      [term.textContent, words.textContent] = [name, value];
-      find("facts").append(term, words);
-    }
+    find("facts").append(...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
     const millimetres = record.columns.places.step * 500;
     const lines = [
       `positions are rounded by at most ${Number(millimetres.toPrecision(2))} mm; between two rows all moves evenly`,
       ...record.notes,
     ];
     if (record.changed) lines.push("bodies or parts were moved or changed by hand as it ran");
-    const heading = document.createElement("h3"), list = document.createElement("ul");
-    heading.textContent = "What this file holds";
-    for (const line of lines) {
-      const item = document.createElement("li");
-      item.textContent = line;
-      list.append(item);
-    }
-    find("notes").append(heading, list);
+    const items = lines.map((line) => element("li", {}, line));
+    find("notes").append(element("h3", {}, "What this file holds"), element("ul", {}, ...items));
   }
 
   ending() {
@@ -145,21 +139,11 @@ class Replay {
 
   listen() {
     const { clock } = this, on = (id, act) => find(id).addEventListener("click", act);
-    on("play", () => this.playOrPause());
-    on("first", () => this.goTo(0));
-    on("last", () => this.goTo(clock.last));
-    on("back", () => this.step(-1));
-    on("ahead", () => this.step(1));
-    on("loop", () => this.setLoop(!clock.loop));
+    for (const [id, label] of Object.entries(BUTTONS)) on(id, () => actionOf(label)(this));
     on("nearer", () => this.zoom(1.4));
     on("farther", () => this.zoom(1 / 1.4));
-    on("fit", () => this.fit());
-    on("dark", () => this.setDark(!this.look.dark));
-    on("follow", () => this.setFollow(!this.follow));
     on("unpick", () => this.pick(-1));
-    on("help", () => find("helping").showModal());
     on("about", () => find("telling").showModal());
-    on("show", () => this.openLayers(!find("layers").classList.contains("open")));
     find("slider").addEventListener("input", (event) => {
       clock.playing = false;
       this.goTo(clock.positionOf(Number(event.target.value)));
@@ -265,7 +249,7 @@ class Replay {
     if (control === "BUTTON" && (event.key === " " || event.key === "Enter")) return;
     if (slides && moves && !event.shiftKey && event.key !== "PageUp" && event.key !== "PageDown") return;
     if (event.key.length === 1 && event.key !== " " && !find("letters").checked) return;
-    const act = this.action(event.key.length === 1 ? event.key.toLowerCase() : event.key, event.shiftKey);
+    const act = this.action(event.key, event.shiftKey);
     if (!act) return;
     event.preventDefault();
     act();
@@ -273,38 +257,21 @@ class Replay {
 
   // What a key does.
   action(key, shift) {
-    const { clock } = this;
-    const pan = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] }[key];
-    if (shift && pan) {
+    if (shift && key in ARROWS) {
       return () => {
-        this.picture.camera.pan(...pan);
+        this.picture.camera.pan(...ARROWS[key]);
         this.setFollow(false);
       };
     }
-    const layer = this.layers.find((each) => each.key === key);
+    const layer = this.layers.find((each) => each.key === key.toLowerCase());
     if (layer) return () => this.toggle(layer.name, layer.along);
-    return {
-      " ": () => this.playOrPause(),
-      ArrowRight: () => this.step(1),
-      ArrowLeft: () => this.step(-1),
-      PageDown: () => this.step(10),
-      PageUp: () => this.step(-10),
-      Home: () => this.goTo(0),
-      End: () => this.goTo(clock.last),
-      "+": () => this.faster(1),
-      "=": () => this.faster(1),
-      "-": () => this.faster(-1),
-      "\u2212": () => this.faster(-1),
-      j: () => this.setLoop(!clock.loop),
-      a: () => this.openLayers(!find("layers").classList.contains("open")),
-      f: () => this.fit(),
-      n: () => this.goToContact(shift),
-      l: () => this.look.picked >= 0 && this.setFollow(!this.follow),
-      d: () => this.setDark(!this.look.dark),
-      Escape: () => (find("layers").classList.contains("open") ? this.openLayers(false) : this.pick(-1)),
-      F1: () => find("helping").showModal(),
-      "?": () => find("helping").showModal(),
-    }[key];
+    const label = LABELS[key] ?? (key.length === 1 ? key.toUpperCase() : key);
+    const act = (shift && actionOf(`Shift+${label}`)) || actionOf(label);
+    return act && (() => act(this));
+  }
+
+  get layersOpen() {
+    return find("layers").classList.contains("open");
   }
 
   playOrPause() {
@@ -317,10 +284,6 @@ class Replay {
   goTo(position) {
     this.clock.playing = false;
     this.clock.go(position);
-  }
-
-  step(rows) {
-    this.clock.move(rows);
   }
 
   faster(steps) {

@@ -13,3 +13,10 @@ function laidOver(color, ground) {
   const mixed = [1, 3, 5].map((k) => Math.round(of(ground, k) + share * (of(color, k) - of(ground, k))));
   return "#" + mixed.map((value) => value.toString(16).padStart(2, "0")).join("");
 }
+
+// An element of the page with properties, and with elements or texts in it.
+function element(tag, properties, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}

@@ -1,0 +1,178 @@
+"""The editor's actions: one table for its keys, its buttons and its help."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
+
+from mars2d.bodies.props import Ball, Bar, Box, Gate, Puck
+from mars2d.window.editor.desk import Desk
+from mars2d.window.editor.outlining import (
+    DrawPolygon,
+    DrawRectangle,
+    DrawSolid,
+    DrawWall,
+    Workspace,
+)
+from mars2d.window.editor.placing import PlaceBeacon, PlaceProp, PlaceRobot, PlaceWaypoint
+from mars2d.window.editor.select import Select
+from mars2d.window.editor.tool import Tool
+from mars2d.window.widgets.actions import Action
+
+if TYPE_CHECKING:
+    from mars2d.window.editor.editor import Editor
+
+ICONS = {
+    "select": "M6 3l12 9-6 1-3 6Z",
+    "robot": "M4 12a8 8 0 1 0 16 0a8 8 0 1 0-16 0M12 12l5-5",
+    "box": "M5 5h14v14H5Z",
+    "ball": "M5 12a7 7 0 1 0 14 0a7 7 0 1 0-14 0M9.5 9.5h.1",
+    "bar": "M3 17 17 3l4 4L7 21Z",
+    "gate": "M2.5 12a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0M7.5 12H21M18 5a9 9 0 0 1 0 14",
+    "puck": "M4 10a8 4 0 1 0 16 0a8 4 0 1 0-16 0M4 10v4a8 4 0 0 0 16 0v-4",
+    "solid": "M6 20 3 9l8-5 2 6 8 1-5 9Z",
+    "wall": "M3 19l5-11 7 4 6-8M8 8h.1M15 12h.1",
+    "polygon": "M4 16l9 4 8-9-8-2-4-6Z",
+    "rectangle": "M3 7h18v10H3ZM3 12l5-5M3 17 13 7M8 17 18 7M13 17l8-8",
+    "waypoint": "M4 19h.1M9 13h.1M14 14h.1M17 10h.1M16 5a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
+    "beacon": "M9 12a3 3 0 1 0 6 0a3 3 0 1 0-6 0M12 3v3M12 18v3M3 12h3M18 12h3"
+    "M5.6 5.6l2.1 2.1M16.3 16.3l2.1 2.1M18.4 5.6l-2.1 2.1M7.7 16.3l-2.1 2.1",
+    "workspace": "M4 8V4h4M12 4h.1M16 4h4v4M20 12v.1M20 16v4h-4M12 20h-.1M8 20H4v-4M4 12v-.1",
+    "snap": "M4 8h16M4 16h16M8 4v16M16 4v16",
+}
+"""The paths of the icons, as those of `CONTROLS`."""
+
+TOOLS: tuple[tuple[str, str, Callable[[Desk], Tool], str], ...] = (
+    ("select", "V", Select, "select and move"),
+    ("robot", "R", PlaceRobot, "robot; drag to turn it"),
+    ("box", "B", partial(PlaceProp, kind=Box), "box; drag for its size"),
+    ("bar", "L", partial(PlaceProp, kind=Bar), "bar; drag from end to end"),
+    ("gate", "T", partial(PlaceProp, kind=Gate), "gate, a bar on a hinge; drag from the hinge"),
+    ("ball", "O", partial(PlaceProp, kind=Ball), "ball; drag for its size"),
+    ("puck", "U", partial(PlaceProp, kind=Puck), "puck; drag for its size"),
+    ("solid", "S", DrawSolid, "prop of any shape; Enter or its first corner closes it"),
+    ("wall", "W", DrawWall, "wall, corner by corner; Enter or right click ends it"),
+    ("polygon", "P", DrawPolygon, "polygon; click the first corner, or Enter, to close it"),
+    ("rectangle", "K", DrawRectangle, "rectangular obstacle"),
+    ("waypoint", "Y", PlaceWaypoint, "waypoints of a robot; click another robot for its own"),
+    ("beacon", "N", PlaceBeacon, "beacon"),
+    ("workspace", "M", Workspace, "workspace: drag corners, click an edge for a new one"),
+)
+"""Of each tool: its name, its key, how it is made, and its line of help."""
+
+MOUSE = (
+    Action("click", "select; with Shift one more", ("Click",)),
+    Action("drag", "move; from an empty place, select all in the rectangle", ("Drag",)),
+    Action("turn", "its handle turns; with Shift in steps of 15 degrees", ("Ring",)),
+    Action("corner", "moves a corner, or resizes a box; the dots add a corner", ("Corner",)),
+    Action("zoom", "zoom about the pointer", ("Wheel",)),
+    Action("pan", "move the picture; so does the middle button", ("Space drag",)),
+)
+
+NUDGE = "move the selection by a grid step; with Shift by a tenth"
+
+
+def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
+    """Return all that can be done in an editor, in the groups of the help."""
+    desk, dialogs, looks = editor.desk, editor.dialogs, editor.looks.actions
+    history, fit = desk.history, editor.viewpoint.fit
+
+    def button(name: str, key: str, words: str, act: Callable[[], object]) -> Action:
+        on = partial(editor.is_on, name)
+        return Action(name, words, (key,), act, title=words.capitalize(), icon=ICONS[name], on=on)
+
+    tools = (
+        button(name, key, words, partial(editor.choose, name)) for name, key, _, words in TOOLS
+    )
+    change = (
+        Action("pose", "type x y, or x y degrees, for the selection", ("=",), editor.ask_pose),
+        Action("nudge", NUDGE, ("←", "→", "↑", "↓"), repeats=True),
+        Action(
+            "delete",
+            "remove the selection, or its corner",
+            ("Del",),
+            desk.remove,
+            also=("Backspace",),
+        ),
+        Action("duplicate", "duplicate the selection", ("Ctrl D",), desk.duplicate),
+        Action("all", "select all", ("Ctrl A",), editor.select_all),
+        Action(
+            "undo",
+            "undo",
+            ("Ctrl Z",),
+            editor.undo,
+            title="Undo",
+            when=lambda: history.can_undo,
+            repeats=True,
+        ),
+        Action(
+            "redo",
+            "redo",
+            ("Ctrl Y",),
+            desk.redo,
+            title="Redo",
+            also=("Ctrl Shift Z",),
+            when=lambda: history.can_redo,
+            repeats=True,
+        ),
+    )
+    look = (
+        button("snap", "G", "snap to the grid on and off", editor.switch_grid),
+        Action("names", "names on and off", ("I",), editor.switch_names),
+        Action("fit", "fit the workspace into the window", ("F",), lambda: fit(desk.draft.sketch)),
+        Action("help", "all keys on and off", ("F1",), editor.help.turn),
+        Action("escape", "leave the tool, deselect", ("Esc",), editor.escape),
+        Action("dark", "dark or light", ("D",), looks["dark"]),
+        Action("text", "size of text and lines: for the back row", ("Z",), looks["text"]),
+    )
+    live = (
+        Action(
+            "now",
+            "go on from now with the drawing",
+            ("Enter",),
+            partial(dialogs.apply, "now"),
+            title="Go on",
+            on=lambda: True,
+        ),
+        Action(
+            "start",
+            "run the drawing from the start",
+            ("Shift Enter",),
+            partial(dialogs.apply, "start"),
+            title="From the start",
+        ),
+    )
+    file = (
+        Action(
+            "save",
+            "save as a scenario file (TOML)",
+            ("Ctrl S",),
+            dialogs.save,
+            title="Save",
+            on=lambda: history.changed,
+        ),
+        Action(
+            "leave",
+            "leave; asks first if something would be lost",
+            ("Ctrl Q",),
+            dialogs.leave,
+            also=("Ctrl W",),
+        ),
+    )
+    run = Action(
+        "run",
+        "save and run; closing the run returns here",
+        ("F5",),
+        dialogs.run,
+        title="Run",
+        also=("Ctrl R",),
+        on=lambda: not history.changed,
+    )
+    return {
+        "Tools": tuple(tools),
+        "Change": change,
+        "Look": look,
+        "File": (*live, *file) if editor.live else (*file, run),
+        "Mouse": MOUSE,
+    }
