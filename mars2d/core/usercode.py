@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dis
 import functools
 import inspect
 import io
@@ -12,6 +13,7 @@ import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
+from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
 from typing import Any
 
 from mars2d.core.errors import InputError, Late, LawError
@@ -57,6 +59,52 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
         wrapped = LawError(f"{self._name} {what}")
         wrapped.where, wrapped.robot = where, self._robot
         raise wrapped from error
+
+
+LIBRARIES = {"mars2d", "numpy", "scipy", *sys.stdlib_module_names}
+FIXED = type(None), bool, int, float, complex, str, bytes
+
+
+def keeps_nothing(law: Any) -> bool:
+    """Return whether a law is a function that can't keep anything in the variables around it.
+
+    Copies of a world share these. What can't be told counts as kept: a list, a class, a closure.
+    """
+    reached, functions = [law], set()
+    for value in reached:  # which grows
+        if isinstance(value, functools.partial):
+            reached += [value.func, *value.args, *value.keywords.values()]
+        elif isinstance(value, tuple):
+            reached += value
+        elif isinstance(value, FIXED) or _is_of_a_library(value):
+            continue
+        elif not isinstance(value, FunctionType) or value.__closure__:
+            return False
+        elif value not in functions:
+            functions.add(value)
+            steps = _steps_of(value.__code__)
+            if any(step.opname in ("STORE_GLOBAL", "IMPORT_NAME") for step in steps):
+                return False
+            names = {step.argval for step in steps if step.opname == "LOAD_GLOBAL"}
+            reached += [value.__globals__[name] for name in names if name in value.__globals__]
+            reached += [*(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values()]
+    return True
+
+
+def _is_of_a_library(value: Any) -> bool:
+    """Return whether a value is a module, class or function of MARS2D or another library."""
+    if isinstance(value, ModuleType):
+        return value.__name__.partition(".")[0] in LIBRARIES
+    if not isinstance(value, (type, FunctionType, BuiltinFunctionType)):
+        return False
+    module = sys.modules.get(value.__module__ or "")
+    return module is not None and _is_of_a_library(module)
+
+
+def _steps_of(code: CodeType) -> list[dis.Instruction]:
+    """Return the instructions of a function, and of those within it."""
+    inner = [each for each in code.co_consts if isinstance(each, CodeType)]
+    return [*dis.get_instructions(code), *(step for each in inner for step in _steps_of(each))]
 
 
 def stack_of(error: BaseException) -> traceback.StackSummary:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.physics import settings
-from mars2d.physics.motion import Motion, Start
+from mars2d.physics.motion import Motion, Start, repeated
 from mars2d.physics.translation import iterations_of
 from mars2d.scenario.scenario import Scenario
 
@@ -30,6 +30,7 @@ class Engine(Motion):
         depth = settings.PUSH_DEPTH * scenario.max_overlap  # of one iteration
         self._depth_of_push = depth * iterations_of(scenario)
 
+    @repeated
     def drive(self, twist: Float, duration: float, time: float) -> None:
         """Move all bodies for `duration` seconds under constant twists (3, n) of the robots.
 
@@ -48,10 +49,12 @@ class Engine(Motion):
 
     # -- pulls --------------------------------------------------------------------------------
 
+    @repeated
     def let_go(self) -> None:
         """End all pulls from outside."""
         self._mover.let_go()
 
+    @repeated
     def pull(self, body: int, force: tuple[float, float], torque: float) -> None:
         """Let a force (x, y) [N] and a torque [N m] act on a body from now on."""
         self._mover.pull(body, [float(force[0]), float(force[1]), float(torque)])
@@ -65,6 +68,7 @@ class Engine(Motion):
         """
         return sqrt(self._depth_of_push / acceleration)
 
+    @repeated
     def withstands(self, body: int, force: float, torque: float) -> bool:
         """Return whether a body stays where it is held under a force [N] and torque [N m].
 

@@ -7,7 +7,7 @@ from array import array
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.physics.motion import Motion, Start
+from mars2d.physics.motion import Motion, Start, repeated
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -29,6 +29,7 @@ class Kinematics(Motion):
         super().__init__(scenario, start)
         self._stops = scenario.physics == "stop"
 
+    @repeated
     def drive(self, twist: Float, duration: float, time: float) -> None:
         """Move all bodies for `duration` seconds under constant twists (3, n) of the robots.
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import weakref
 from array import array
-from collections.abc import Mapping
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from functools import wraps
+from typing import Any, NamedTuple, Self, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Act = TypeVar("Act", bound=Callable[..., Any])
 
 NOTHING = np.empty(0, dtype=CONTACT)
 NOTHING.flags.writeable = False
@@ -46,6 +48,17 @@ class Start(NamedTuple):
         return Start(state, slipping, self.twist)
 
 
+def repeated(act: Act) -> Act:
+    """Let a fork of an engine do again what this method does to the bodies."""
+
+    @wraps(act)
+    def noted(motion: Motion, *arguments: Any) -> Any:
+        motion._acts.append((noted, arguments))
+        return act(motion, *arguments)
+
+    return cast(Act, noted)
+
+
 class Motion:
     """The base of engines: robots first, then props. space: the bodies as sensors see them.
 
@@ -58,6 +71,7 @@ class Motion:
 
         start: how all bodies move at first; by default, as the scenario says.
         """
+        self._scenario = scenario
         self.n, self.count = len(scenario.robots), len(scenario.bodies)
         if start is None:
             self._twist = np.zeros((3, self.n))
@@ -67,6 +81,7 @@ class Motion:
             self._mover = mover_of(scenario, start.state, start.slipping.tolist())
             self._mover.command(array("d", self._twist.tobytes()))
         weakref.finalize(self, self._mover.free)
+        self.rest()
         self._numbers = array("d", bytes(48 * self.count))
         self._state = np.frombuffer(self._numbers).reshape(-1, 6)
         self._mover.write_states(self._numbers)
@@ -98,6 +113,7 @@ class Motion:
         state[:, 3:] = self.velocity.T
         return Start(state, np.array(self._mover.slipping(), dtype=bool), self._twist)
 
+    @repeated
     def ask(self, twist: Float) -> None:
         """Set the velocities that the robots are asked for at this instant, (3, n).
 
@@ -106,6 +122,7 @@ class Motion:
         self._twist = twist
         self._mover.ask(array("d", twist.tobytes()))
 
+    @repeated
     def take_effort(self) -> Float:
         """Return the largest share of its bounds that each drive used since the last call, (n,)."""
         effort = array("d", bytes(8 * self.n))
@@ -118,6 +135,7 @@ class Motion:
         self.look()
         return self.seen_work.copy()
 
+    @repeated
     def take_contacts(self) -> NDArray[np.void]:
         """Return the contacts since the last call by time: a row (CONTACT) per pair and normal."""
         count = self._mover.count_contacts()
@@ -126,3 +144,24 @@ class Motion:
         numbers = array("d", bytes(120 * count))
         self._mover.write_contacts(numbers)
         return np.frombuffer(numbers, dtype=WIDE).astype(CONTACT)
+
+    # -- forks ------------------------------------------------------------------------------------
+
+    def rest(self) -> None:
+        """Forget what the solvers keep, and begin again from how all bodies move and touch.
+
+        What Chipmunk keeps can't be copied: impulses, and orders and identities of shapes in its
+        tree. So it goes every few control steps, in each run: a fork repeats those since then.
+        """
+        self._rested: list[Any] = self._mover.rest()
+        self._acts: list[tuple[Callable[..., Any], tuple[Any, ...]]] = []
+
+    def fork(self) -> Self:
+        """Return an engine that goes on from this instant as this one does, to the bit."""
+        fork = type(self)(self._scenario)
+        fork._mover.remember(self._rested)
+        fork._mover.write_states(fork._numbers)
+        fork._rested, fork._twist = self._rested, self._twist
+        for act, arguments in self._acts:
+            act(fork, *arguments)
+        return fork

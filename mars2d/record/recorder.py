@@ -215,6 +215,22 @@ class Recorder:
         """The numbers of rows, contacts, messages and contents."""
         return self.rows, self._contact_count, self._message_count, len(self._contents)
 
+    def upto(self, rows: int, contacts: int, messages: int, contents: int) -> Recorder:
+        """Return a recorder in memory that has written no more than this; see `counts`."""
+        begun = Recorder(self.scenario, Column, self.versions, self.options)
+        begun.rows, begun._longest_flight = rows, self._longest_flight
+        for name, column in self._sensors.items():
+            begun._sensors[name] = Column(column.shape, column.dtype, self._capacity)
+        for mine, others in ((begun._columns, self._columns), (begun._sensors, self._sensors)):
+            for name, column in others.items():
+                mine[name].write_block(0, column.upto(rows))
+        begun.write_contacts(self._contacts.upto(contacts))
+        begun._messages.write_block(0, self._messages.upto(messages))
+        begun._message_count = messages
+        for text in self._contents[:contents]:
+            begun._contents.append(text)
+        return begun
+
     def row(self, row: int) -> tuple[dict[str, Any], dict[str, Any]]:
         """Return a row of all columns by name, and of all sensors by name."""
         return (

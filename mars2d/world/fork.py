@@ -7,19 +7,22 @@ from copy import deepcopy
 from typing import Any
 
 from mars2d.core.errors import InputError, one_line
-from mars2d.record.recorder import History, Unrecorded
+from mars2d.record.columns import Column
+from mars2d.record.recorder import History, Recorder, Unrecorded
 from mars2d.world.laws import Laws
 from mars2d.world.simulation import Simulation
 from mars2d.world.uncopied import FORKING
 
 
-def forked(simulation: Simulation, *, laws: bool) -> Simulation:
+def forked(simulation: Simulation, *, laws: bool, recorder: Recorder | None = None) -> Simulation:
     """Return a copy of a simulation at this instant; see `WorldView.fork`.
 
-    Raises InputError, which names the law, add-on or sensor that can't be copied.
+    recorder: has the rows before, and writes those that follow; None: nothing is recorded, and the
+    stop time does not end it. Raises InputError, which names the law, add-on or sensor that can't
+    be copied.
     """
     memo: dict[Any, Any] = {FORKING: True}
-    for old, new in _replaced(simulation, laws=laws):
+    for old, new in _replaced(simulation, recorder or Unrecorded(simulation.scenario), laws=laws):
         memo[id(old)] = new
     for name, part in _parts_of_users(simulation, laws=laws):
         try:
@@ -31,12 +34,14 @@ def forked(simulation: Simulation, *, laws: bool) -> Simulation:
                 f"__deepcopy__{hint}"
             ) from error
     copied = deepcopy(simulation, memo)
-    copied.endless = True
-    copied.resume(simulation.work)
+    copied.endless, copied.storage = recorder is None, None if recorder is None else Column
+    copied.resume()
     return copied
 
 
-def _replaced(simulation: Simulation, *, laws: bool) -> Iterator[tuple[object, object]]:
+def _replaced(
+    simulation: Simulation, recorder: Recorder, *, laws: bool
+) -> Iterator[tuple[object, object]]:
     """Yield the objects that are not copied, and those that take their places."""
     scenario = simulation.scenario
     parts = [sensor for robot in scenario.robots for sensor in robot.sensors]
@@ -44,14 +49,13 @@ def _replaced(simulation: Simulation, *, laws: bool) -> Iterator[tuple[object, o
     described = (scenario, simulation.declared, *scenario.robots, *drives, *parts)
     for part in (*described, *scenario.addons):  # frozen
         yield part, part
-    unrecorded = Unrecorded(scenario)
-    engine = type(simulation.engine)(scenario, simulation.motion)
-    yield simulation.recorder, unrecorded
-    yield simulation.history, History(unrecorded)
+    engine = simulation.engine.fork()
+    yield simulation.recorder, recorder
+    yield simulation.history, History(recorder)
     yield simulation.storage, None
     yield simulation.engine, engine
     yield simulation.engine.space, engine.space
-    yield simulation.operator.log, []
+    yield simulation.operator.log, [*simulation.operator.log]
     if simulation.watch is not None:
         yield simulation.watch, None
     if not laws:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import time
 from collections.abc import Sequence
 from contextlib import nullcontext
@@ -69,6 +70,7 @@ def simulate(
         noted = interrupts(kept=lambda: None if world is None else world.record)
         with noted as check, log or nullcontext(), deadline:
             world = open_world(experiment, every, Column if log is None else log.storage)
+            gc.freeze()  # or the longest step would be that in which it looks for garbage in it
             try:
                 while not world.over:
                     world.step()
@@ -92,6 +94,8 @@ def simulate(
         if world is None:
             raise
         raise Interrupted(world.record) from None
+    finally:
+        gc.unfreeze()
     return world
 
 

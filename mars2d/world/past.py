@@ -1,27 +1,29 @@
-"""The past of a run: worlds that wait in it, and the way of a world back to an earlier row."""
+"""The past of a run: the way of a world back to an earlier row."""
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from operator import attrgetter
 from time import perf_counter
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError, LawError, Mars2dError
-from mars2d.core.usercode import quiet
+from mars2d.core.errors import InputError
+from mars2d.core.usercode import keeps_nothing, quiet
 from mars2d.record.interventions import Change, Intervention
 from mars2d.scenario.changes import alike, carried, check_same
 from mars2d.scenario.experiment import Experiment
+from mars2d.world.fork import forked
 from mars2d.world.loop import open_world
+from mars2d.world.simulation import REST, Simulation
 from mars2d.world.world import World
 
-PARKED = 4
-"""The number of worlds that wait in the past, evenly apart; one more may be on its way."""
+MOST = 16
+"""The number of snapshots; where there are more, every other one goes."""
 
 SLICE = 0.05
 """The time on a way back between two calls of its progress, seconds."""
@@ -52,149 +54,104 @@ class Track:
 
 
 class Past:
-    """Makes a world again that is as it was at a row: from the start, or from one that waits.
+    """Makes a world again that is as it was at a row: from a snapshot before it, or the start.
 
-    experiment: whose laws the worlds have. waiting: the worlds that wait, in any order. driven: the
-    robots that were driven by hand. doubt: a sentence, where a law asked for another command than
-    it did before, else empty.
+    A snapshot is a fork, of which others are made. There is none where laws may remember something
+    that forks share: then the whole run is repeated, with laws read again.
+
+    experiment: whose laws the worlds have. driven: the robots that were driven by hand. doubt: a
+    sentence, where a law asked for another command than it did before, else empty.
     """
 
     def __init__(self, experiment: Experiment) -> None:
-        self._experiment = experiment
+        self.experiment = experiment
         self._start, self._options = experiment.scenario, experiment.options
-        self.waiting: list[World] = []
+        self._snapshots: dict[int, tuple[Simulation, tuple[int, int, int, int]]] = {}
+        self._every = REST  # rows from one snapshot to the next; 0: none is made
         self.driven: set[int] = set()
         self.doubt = ""
-        self._hopeless = False  # a way back has failed while nobody asked for it
-        self._cost = self._opening = 0.0  # seconds of a control step, and to open the experiment
 
     def with_laws_of(self, experiment: Experiment) -> Past:
-        """Return the past of the same run, in which no world waits, for laws read again."""
+        """Return the past of the same run, without snapshots, for laws read again."""
         past = Past(experiment)
         past._start, past._options, past.driven = self._start, self._options, self.driven
-        past._cost, past._opening = self._cost, self._opening
         return past
 
-    def forget_from(self, row: int) -> None:
-        """Drop the worlds that wait at a row or after it."""
-        self.waiting = [world for world in self.waiting if world.iteration < row]
-
-    def prepare(self, track: Track, row: int, seconds: float) -> None:
-        """Use some time to prepare for changes: at a row of the past, or else anywhere in it.
-
-        It takes no longer than that by more than a control step.
-        """
-        if self._hopeless:
+    def keep(self, world: World) -> None:
+        """Make a snapshot of a world before anything is done to it, if it is time to."""
+        row, now = world.iteration, world.simulation
+        if not self._every or row % self._every or world.over or world.operator.driven:
             return
-        if self._cost > seconds:
-            self._cost *= 0.99  # it may have been slow by chance
-            return
-        newest = track.world.iteration
         try:
-            if row < newest:
-                self._approach(track, row, seconds)
-            elif newest >= 2 * PARKED:
-                self._spread(track, seconds)
-        except Mars2dError:
-            self.waiting, self._hopeless = [], True  # whoever asks for it is told why
+            if all(keeps_nothing(law.function) for law in now.laws):
+                self._snapshots[row] = forked(now, laws=True), world.recorder.counts
+        except InputError:  # something can't be copied
+            self._every = 0
+        if len(self._snapshots) > MOST:
+            self._every *= 2
+            kept = self._snapshots.items()
+            self._snapshots = {k: snapshot for k, snapshot in kept if k % self._every == 0}
 
-    def world_at(self, track: Track, row: int, progress: Progress) -> World:
-        """Return a world that is as it was at a row, and has read its sensors there.
+    def forget_after(self, row: int) -> None:
+        """Drop the snapshots after a row."""
+        self._snapshots = {k: kept for k, kept in self._snapshots.items() if k <= row}
 
-        Raises InputError where `progress` breaks it off, and where the world is not the same.
+    def world_at(
+        self, track: Track, row: int, progress: Progress, world: World | None = None
+    ) -> World:
+        """Return a world as it was at a row, which has read its sensors; hands have let go of it.
+
+        world: to begin with, at the start. Raises InputError where `progress` breaks it off, and
+        where the world is not the same.
         """
-        self._hopeless = False
-        start = self._nearest(row)
-        begun = 0 if start is None else start.iteration
-        while not self._approach(track, row, SLICE):
-            here = self._nearest(row)
-            done = (0 if here is None else here.iteration) - begun
-            if not progress(done / max(1, row - begun)):
+        world = self._nearest(track, row) if world is None else world
+        begun = world.iteration
+        while not self._follow(track, world, row):
+            if not progress((world.iteration - begun) / (row - begun)):
                 raise InputError("going back was broken off: nothing was changed")
-        world = self._nearest(row)
-        assert world is not None
         with quiet():
-            try:
-                _redo(track, world)
-                world.observe()
-            except LawError:
-                self.waiting.remove(world)
-                raise
+            _redo(track, world)
+            world.observe()
         if world.over:
-            self.waiting.remove(world)
             raise InputError(
                 f"nothing follows this step, whatever is changed: {world.over_message}"
             )
-        if track.done is None:
-            self._check_same(track.world, world, row)
-        return world
-
-    def _check_same(self, before: World, world: World, row: int) -> None:
-        if row == before.iteration:
-            was, props = before.pose, before.prop_pose
-        else:
-            was, props = before.history.pose[row], before.history.prop_pose[row]
-        if not (np.array_equal(world.pose, was) and np.array_equal(world.prop_pose, props)):
-            self.waiting = []
+        same = track.done is not None or _same(track.world, world, row)
+        if begun and (self.doubt or not same):  # forks may share what nobody thought of
+            self._snapshots, self._every, self.doubt = {}, 0, ""
+            return self.world_at(track, row, progress)
+        if not same:
             raise InputError(
                 f"can't go back: run again, things were not the same at step {row}. Does a law, a "
                 "sensor or an add-on depend on something outside of the world?"
             )
+        world.operator.let_go()
+        return world
 
-    def _nearest(self, row: int) -> World | None:
-        """Return the last world that waits at a row or before it."""
-        before = [world for world in self.waiting if world.iteration <= row and not world.over]
-        return max(before, key=lambda world: world.iteration, default=None)
+    def _nearest(self, track: Track, row: int) -> World:
+        """Return a world at the last snapshot up to a row, or else at the start."""
+        before = [k for k in self._snapshots if k <= row]
+        if before:
+            snapshot, counts = self._snapshots[max(before)]
+            recorder = track.world.recorder.upto(*counts)
+            return cast(World, forked(snapshot, laws=True, recorder=recorder).world)
+        with quiet():
+            fresh = self.experiment.reopened()
+            check_same(self.experiment.scenario, fresh.scenario, alike)
+            return self.opened(fresh)
 
     def opened(self, experiment: Experiment) -> World:
         """Return a world at the start of this run, with the laws of an experiment read again."""
         scenario = carried(experiment.scenario, self._start)
-        begun = replace(experiment, scenario=scenario, options=self._options)
-        return open_world(begun)
+        return open_world(replace(experiment, scenario=scenario, options=self._options))
 
-    def _open(self) -> World:
-        """Let another world wait at the start, in place of another if there are many."""
-        start = perf_counter()
-        with quiet():
-            fresh = self._experiment.reopened()
-            check_same(self._experiment.scenario, fresh.scenario, alike)
-            world = self.opened(fresh)
-        self._opening = perf_counter() - start
-        waiting = sorted((w for w in self.waiting if not w.over), key=lambda w: w.iteration)
-        if len(waiting) > PARKED:
-            gaps = [b.iteration - a.iteration for a, b in pairwise(waiting)]
-            del waiting[int(np.argmin(gaps)) + 1]
-        self.waiting = [*waiting, world]
-        return world
-
-    def _approach(self, track: Track, row: int, seconds: float) -> bool:
-        """Let the nearest world go on to a row for some time; return whether it is there."""
-        world = self._nearest(row) or self._open()
-        return self._follow(track, world, row, perf_counter() + seconds)
-
-    def _spread(self, track: Track, seconds: float) -> None:
-        """Let worlds go on to where they divide the past evenly, the last one first."""
-        if len(self.waiting) < PARKED:
-            if self._opening > seconds:
-                self._opening *= 0.99  # it may have been slow by chance
-            else:
-                self._open()
-            return
-        deadline = perf_counter() + seconds
-        newest = track.world.iteration
-        places = [(k + 1) * newest // (PARKED + 1) for k in range(PARKED)]
-        self.waiting.sort(key=lambda world: world.iteration)
-        for world, place in reversed([*zip(self.waiting, places, strict=False)]):
-            if not self._follow(track, world, place, deadline):
-                return
-
-    def _follow(self, track: Track, world: World, row: int, deadline: float) -> bool:
-        """Repeat a run in a world up to a row; return whether it got there in time."""
+    def _follow(self, track: Track, world: World, row: int) -> bool:
+        """Repeat a run in a world up to a row, for some time; return whether it is there."""
         commands = track.world.history.command
-        now = perf_counter()
+        due = perf_counter() + SLICE
         with quiet():
             while world.iteration < row:
-                if now > deadline:
+                if perf_counter() > due:
                     return False
                 if world.over:
                     raise InputError(f"run again, it ended before: {world.over_message}")
@@ -203,8 +160,7 @@ class Past:
                 asked = world.simulation.follow(commands[k])
                 if k >= track.since and not self.doubt:
                     self._compare(asked, commands[k], k)
-                start, now = now, perf_counter()
-                self._cost = max(now - start, 0.9 * self._cost)
+                self.keep(world)
         return True
 
     def _compare(self, asked: Float, given: Float, row: int) -> None:
@@ -217,6 +173,14 @@ class Past:
                 "something outside of the world, such as random numbers that are not robot.rng. "
                 "All moved as before, but what the law remembers may be different"
             )
+
+
+def _same(before: World, world: World, row: int) -> bool:
+    """Return whether all bodies of a world are where they were at a row."""
+    poses = before.pose, before.prop_pose
+    if row < before.iteration:
+        poses = before.history.pose[row], before.history.prop_pose[row]
+    return all(map(np.array_equal, (world.pose, world.prop_pose), poses))
 
 
 def _redo(track: Track, world: World) -> None:

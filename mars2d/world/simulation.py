@@ -36,6 +36,9 @@ Float = NDArray[np.float64]
 Control = Callable[[Any], Any]
 T = TypeVar("T")
 
+REST = 32
+"""After so many control steps the engine rests, see `Motion.rest`: a fork repeats fewer of them."""
+
 
 class Simulation(State):
     """A live simulation: its state, and everything that steps and changes it.
@@ -347,6 +350,8 @@ class Simulation(State):
         self.take_poses()
         self.effort = locked(self.engine.take_effort())
         self.iteration += 1
+        if self.iteration % REST == 0:
+            self.engine.rest()
 
     # -- changes while it runs -------------------------------------------------------------------
 
@@ -365,9 +370,9 @@ class Simulation(State):
             self.restart_engine(start, energy)
         self.surroundings.renew()
 
-    def resume(self, worked: Float) -> None:
+    def resume(self) -> None:
         """Go on with an engine that was put here, also from within a step of the one before."""
-        super().resume(worked)
+        super().resume()
         self.surroundings.renew()
         self._stepping = False
 

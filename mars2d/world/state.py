@@ -137,9 +137,8 @@ class State(Uncopied):
         self._take_engine()
         self._worked[WORK.index("hands")] += self.energy.total - energy
 
-    def resume(self, worked: Float) -> None:
-        """Go on with an engine that was put here; worked: the work before it (6,), J."""
-        self._worked = worked
+    def resume(self) -> None:
+        """Go on with an engine that was put here, and goes on as the one before it."""
         for array in (self.command, self.effort, self.contacts):  # copies can be written
             locked(array)
         self._take_engine()

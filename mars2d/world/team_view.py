@@ -193,9 +193,8 @@ class WorldView(Uncopied):
         and calls no watcher; whatever is done there changes nothing here. All
         that remembers is copied: laws that are objects, the robots' memories, add-ons, sensors,
         random streams. Functions are shared, with the variables around them. laws: False leaves the
-        laws out, so robots stand still but for what `step` commands. The engine starts again from
-        how everything moves: without contact the motion is the same to rounding, in contact nearly
-        the same. A law may call this, for a plan.
+        laws out, so robots stand still but for what `step` commands. Under the same commands all
+        moves as here, to the bit. A law may call this, for a plan.
 
         Raises InputError, which names the law, add-on or sensor that can't be copied, such as a
         generator that runs.

@@ -31,7 +31,6 @@ NEVER = sys.maxsize
 
 OF_A_RUN = (
     "world", "experiment", "_past", "branches", "row", "_lines", "_errors", "_count",
-    "_gone_back",
 )  # fmt: skip
 """The attributes of a timeline that start again with a run."""
 
@@ -40,14 +39,13 @@ class Timeline:
     """A run in a window: rows up to the newest can be looked at, and gone on from.
 
     A row is looked at as it was recorded. To change something there, a world is made that is as it
-    was: from the start, or from a world that waits in the past, under the commands that were given
-    then. Laws are asked again on the way, so that they remember what they did. The rows after it
-    become another branch, to which one can go back.
+    was: a fork of the last snapshot before it, or else one from the start, goes on under the
+    commands that were given then. Laws are asked again on the way, so that they remember what they
+    did. The rows after it become another branch, to which one can go back.
 
-    The laws are those of the experiment, whose file is run again for each world: so no two worlds
-    share what a law keeps in its module. What laws print is not repeated, but other effects
-    outside of the world, such as writing a file, are. So no world is made before somebody has gone
-    back for the first time.
+    For a world from the start the experiment's file is run again, so no two worlds share what a law
+    keeps in its module. What laws print is not repeated, but other effects outside of the world,
+    such as writing a file, are.
 
     experiment: its laws, as its file was last read, and its scenario.
     watchers: called at each control step. log: writes each row of the present branch to a file.
@@ -64,7 +62,6 @@ class Timeline:
     _lines: dict[World, _Line]
     _errors: dict[World, LawError]
     _count: int
-    _gone_back: bool
 
     def __init__(
         self,
@@ -103,7 +100,6 @@ class Timeline:
         self._errors = {}
         self._count = 0  # of branches that there have been
         self._seen: tuple[World, int, Record] | None = None
-        self._gone_back = False
         self._write()
 
     # -- the present row -------------------------------------------------------------------------
@@ -202,6 +198,8 @@ class Timeline:
             self._past.driven.update(self.world.operator.driven)
             with self._noting():
                 self.world.step()
+            if self._track.since < NEVER:  # its laws are those of the experiment
+                self._past.keep(self.world)
             self.row = self.newest
             self._write()
             self._observe()
@@ -222,7 +220,6 @@ class Timeline:
     def go(self, row: int) -> None:
         """Look at a row, or the nearest one that there is."""
         self.row = min(max(row, 0), self.newest)
-        self._gone_back |= self.row < self.newest
 
     def _observe(self) -> None:
         """Read the sensors for the present instant."""
@@ -246,59 +243,28 @@ class Timeline:
         """Whether a world has to be made again before something can be changed at this row."""
         return self.row < self.newest or self.world.over
 
-    def idle(self, seconds: float) -> None:
-        """Use spare time to prepare for changes in the past, once somebody has gone back.
+    def change(self, act: Callable[[World], None], progress: Progress = lambda _: True) -> None:
+        """Do something to the world at the present row; in the past, to one that is as it was.
 
-        A world gets to the row that is looked at, or worlds wait evenly apart. It takes no longer
-        than that by more than a control step does; a file is opened at the newest row only if there
-        is time for it.
-        """
-        own = self.experiment.alone  # else worlds would share what laws remember
-        if own and self._gone_back:
-            self._past.prepare(self._track, self.row, seconds)
-
-    def branch(self, progress: Progress = lambda _: True) -> World:
-        """Return a world at the present row that may be changed and gone on with.
-
-        The rows after it become a branch. The operator lets go of all bodies. progress: called with
-        the share of the way back that is done; if it returns False, nothing changes. Raises
-        InputError in that case, and if the world does not become the same again.
+        That goes on, and the rows after it become a branch. progress: called with the share of the
+        way back that is done; if it returns False, nothing changes. Nor does it where an InputError
+        is raised, by `act` or because the world does not become the same again.
         """
         self.remark = ""
+        world = self.world
         if self.needs_way_back:
-            self._adopt(self._past.world_at(self._track, self.row, progress))
-            self.remark = self._past.doubt
-        return self.world
-
-    def change(self, act: Callable[[World], None], progress: Progress = lambda _: True) -> None:
-        """Do something to the world at the present row, of a branch where that is in the past.
-
-        Where `act` raises InputError, nothing changes.
-        """
-        before, branches = self.world, [*self.branches]
-        lines, errors = dict(self._lines), dict(self._errors)
-        world = self.branch(progress)
-        log = [*world.operator.log]
-        try:
-            if options_of(world) != self.experiment.options:  # they were set later than this row
-                self._change_to(self.experiment, world)
-            act(world)
-        except InputError:
-            if world is not before:
-                self.world, self.branches = before, branches
-                self._write(self.row)
-                self._lines, self._errors = lines, errors
-                untouched = world.operator.log == log and not world.operator.driven
-                if untouched:  # it may be asked for again
-                    world.watch = None
-                    self._past.waiting.append(world)
-            raise
+            world = self._past.world_at(self._track, self.row, progress)
+        if options_of(world) != self.experiment.options:  # they were set later than this row
+            self._change_to(self.experiment, world)
+        act(world)
+        if world is not self.world:
+            self._adopt(world)
 
     def undo(self, progress: Progress = lambda _: True) -> Intervention:
         """Go on from before the last thing that was done by hand; return that.
 
         The run with it becomes a branch. Raises InputError if there is nothing to undo, and as
-        `branch` does.
+        `change` does.
         """
         log = self.world.operator.log
         if not log:
@@ -307,19 +273,20 @@ class Timeline:
         while done and of_one_hand(log[done - 1], log[done]):
             done -= 1
         row = log[done].row
-        self._past.forget_from(row)
-        self.remark = ""
-        experiment, past = self.experiment, self._past
-        held = options_of(self.world, done)
-        if held != experiment.options:
-            experiment = experiment.with_options(held)
-            past = past.with_laws_of(experiment)
+        self._past.forget_after(row)
+        experiment, past = self._with_options(options_of(self.world, done))
         world = past.world_at(replace(self._track, done=done), row, progress)
         self.row = row
         self.experiment, self._past = experiment, past
         self._adopt(world)
-        self.remark = self._past.doubt
         return log[done]
+
+    def _with_options(self, options: dict[str, Any]) -> tuple[Experiment, Past]:
+        """Return the experiment and the past, or those with other options."""
+        if options == self.experiment.options:
+            return self.experiment, self._past
+        experiment = self.experiment.with_options(options)
+        return experiment, self._past.with_laws_of(experiment)
 
     def check(self, experiment: Experiment) -> None:
         """Raise InputError for an experiment that `take` can't go on with."""
@@ -371,17 +338,16 @@ class Timeline:
         start is needed (see `changes.check_same`), and where a law fails on the way.
         """
         self.check(experiment)
-        past = self._past.with_laws_of(experiment)
         ended = self.over and self.world.finished
         goes_on = not self.needs_way_back and experiment.decides_as(self.experiment)
         if goes_on:  # with its laws as they are
-            past.waiting = self._past.waiting
             self._change_to(experiment, self.world)
-            self.experiment, self._past = experiment, past
+            self.experiment = self._past.experiment = experiment
             return "in effect from now on; R runs it from the start"
+        past = self._past.with_laws_of(experiment)
         if not ended:
-            past.waiting.append(past.opened(experiment))
-            world = past.world_at(Track(self.world, NEVER), self.row, progress)
+            track = Track(self.world, NEVER)
+            world = past.world_at(track, self.row, progress, past.opened(experiment))
             self._change_to(experiment, world)
         self.experiment, self._past = experiment, past
         self._lines = {w: replace(line, since=NEVER) for w, line in self._lines.items()}
@@ -415,8 +381,8 @@ class Timeline:
         self._count += 1
         self._lines[world] = line.off(self._count, row)
         self.world = world
-        self._past.forget_from(row)
-        world.operator.let_go()
+        self.remark = self._past.doubt
+        self._past.forget_after(row)
         world.watch = watch_by(self._watchers)
         self._write(row)
 
@@ -435,14 +401,11 @@ class Timeline:
         if other not in self.branches:
             self._show_run(other)
             return
-        experiment, held = self.experiment, options_of(other)
-        if held != experiment.options:
-            self.experiment = experiment.with_options(held)
-            self._past = self._past.with_laws_of(self.experiment)
+        self.experiment, self._past = self._with_options(options_of(other))
         self.branches.remove(other)
         self.branches.append(self.world)
         common = self._lines[self.world].common(self._lines[other])
-        self._past.forget_from(common)
+        self._past.forget_after(common)
         self.world = other
         self._write(common)
         self.go(self.row)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from math import pi
 
 import numpy as np
 import pytest
@@ -10,12 +11,16 @@ import pytest
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.addons import Communication
 from mars2d.addons.base import Addon
+from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError
+from mars2d.core.plane import rectangle
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.world.loop import open_world
 from tests.cases import each_case
+from tests.physics import test_crowd_fuzz as fuzz
+from tests.physics.test_same_bits import assert_same, crowd, restless
 
 GENERATORS = {
     "capture_the_flag", "corner_game", "crowd", "dead_reckoning", "encirclement",
@@ -26,10 +31,16 @@ GENERATORS = {
 }  # fmt: skip
 """Examples with laws that are generators."""
 
-TOUCHING = {"many_push_one": 1e-4, "material_pairs": 1e-3, "push_box": 1e-4, "wall_slide": 1e-3}
-"""How far bodies in contact may be off after the steps, metres, as the solver starts again."""
-
 STEPS = 25
+
+IN_TOUCH = {
+    1: {"gap": 0.0, "faults": True, "things": True},
+    2: {"gap": 1e-6, "things": True, "command_delay": 0.03},
+    3: {"gap": 0.0, "physics": "stop"},
+    4: {"gap": 0.0, "max_overlap": 0.02, "faults": True},
+    5: {"gap": 0.0, "physics": "ideal", "things": True},
+}
+"""Crowds, by their seeds."""
 
 
 def stepped(world, steps=STEPS):
@@ -47,10 +58,59 @@ def test_a_fork_goes_the_way_of_its_world(name):
     stepped(fork)
     assert world.record.digest == before  # whatever the fork does
     stepped(world)
-    assert fork.iteration == world.iteration
-    off = np.abs(np.hstack([world.pose - fork.pose, world.prop_pose - fork.prop_pose])).max()
-    assert off <= TOUCHING.get(name, 1e-9)
-    np.testing.assert_allclose(fork.energy.total, world.energy.total, atol=1e-6)
+    assert_same(fork, world)
+
+
+def crowded(mix, ties):
+    return fuzz.crowd(1, mix, 10.0, 0.05, ties=ties)
+
+
+def pushing(sampling_time):
+    """Four robots push two boxes to a wall."""
+    return Scenario(
+        robots=[Robot(pose=(-0.295, 0.1 * i - 0.2, 0.1 * i), diameter=0.09) for i in range(4)],
+        props=[Box(length=0.5, width=0.5), Box(length=0.3, width=0.4, pose=(0.6, 0.1, 0.3))],
+        sampling_time=sampling_time, workspace=rectangle(-3, 1.5, -2, 2), on_exit="wall",
+    )  # fmt: skip
+
+
+def cornered(sampling_time):
+    """A row of discs drives into a corner."""
+    return Scenario(
+        robots=[Robot(pose=(0.31 * i - 1, 0.05 * i - 1.5, pi + 0.2 * i)) for i in range(8)],
+        sampling_time=sampling_time, workspace=rectangle(-2, 2, -2, 2), on_exit="wall",
+    )  # fmt: skip
+
+
+def spinning(sampling_time):
+    """Discs in a row rub against each other."""
+    return Scenario(
+        robots=[Robot(pose=(0.301 * i, 0.02 * i, 2 * i)) for i in range(5)],
+        sampling_time=sampling_time, on_exit="ignore",
+    )  # fmt: skip
+
+
+TOUCHING = [
+    *((scene, T) for scene in (pushing, cornered, spinning) for T in (0.005, 0.1, 0.5)),
+    *((lambda T, k=k: crowd(k, 8 * k, sampling_time=T, **IN_TOUCH[k]), 0.1) for k in IN_TOUCH),
+    *((lambda ties, mix=mix: crowded(mix, ties), ties) for mix in fuzz.MIXES for ties in (0, 1)),
+]
+
+
+@each_case(("scene", "argument"), TOUCHING)
+def test_in_contact_it_does_so_to_the_bit(scene, argument):
+    scenario = scene(argument)
+    world = World(scenario, restless(1, scenario), 1)
+    touches = 0
+    for _ in range(2):  # a rest is among the steps before the fork, or among those after it
+        fork = stepped(world).fork()
+        for _ in range(15):
+            world.step()
+            fork.step()
+            assert_same(fork, world)
+            touches += len(world.contacts)
+        world = fork.fork()
+    assert touches
 
 
 @each_case("name", ["sumo", "wall_follower"])
@@ -111,8 +171,7 @@ def test_all_that_remembers_is_copied():
     assert len(world.addons.stopwatch.seen) == STEPS
     assert [robot.memory.count for robot in world.robots] == [STEPS, STEPS]
     assert world.scenario.robots[0].controller.count == STEPS
-    stepped(world)
-    np.testing.assert_allclose(fork.pose, world.pose, rtol=0, atol=1e-12)
+    assert_same(fork, stepped(world))
     assert fork.addons.stopwatch.seen == world.addons.stopwatch.seen
     for mine, theirs in zip(fork.robots, world.robots, strict=True):
         assert mine.memory.count == theirs.memory.count == 2 * STEPS
@@ -123,7 +182,7 @@ def test_all_that_remembers_is_copied():
 def test_a_fork_forks_and_resets():
     world = stepped(World(remembering(), seed=4))
     twice = world.fork().fork()
-    np.testing.assert_allclose(stepped(twice).pose, stepped(world).pose, rtol=0, atol=1e-12)
+    assert_same(stepped(twice), stepped(world))
     twice.reset()
     assert twice.iteration == 0
 

@@ -1,16 +1,21 @@
 """The timeline: going back and on is the same to the bit, whatever laws remember."""
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
 
 import mars2d
 from mars2d import LawError, Robot, Scenario
-from mars2d.addons import Map
+from mars2d.addons import Communication, Map
+from mars2d.addons.base import Addon
+from mars2d.bodies.props import Box
 from mars2d.cli import outputs
 from mars2d.core.errors import InputError
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
+from mars2d.world.past import MOST
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 from tests.cases import each_case
@@ -23,14 +28,15 @@ def finish(timeline):
         timeline.advance()
 
 
+def branch(timeline, progress=lambda _: True):
+    """Go on from the present row, and do nothing there; return the world."""
+    timeline.change(lambda _: None, progress)
+    return timeline.world
+
+
 def run_to(timeline, row):
     while timeline.newest < row:
         timeline.advance()
-
-
-def idle(timeline, times=400):
-    for _ in range(times):
-        timeline.idle(0.02)
 
 
 @pytest.fixture
@@ -74,8 +80,7 @@ def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     last = timeline.newest
     for row in (last // 2, last // 3, 2 * last // 3, 0, last - 1):
         timeline.go(row)
-        timeline.idle(0.05)
-        world = timeline.branch()
+        world = branch(timeline)
         assert timeline.remark == ""
         assert world.iteration == row
         assert np.array_equal(world.pose, expected.pose[row])
@@ -160,29 +165,45 @@ def test_memory_of_every_kind_is_rebuilt(memory):
     finish(timeline)
     for row in (100, 199, 0):
         timeline.go(row)
-        timeline.branch()
+        branch(timeline)
         assert timeline.remark == ""
         finish(timeline)
         assert timeline.record.digest == expected.digest
 
 
-@pytest.mark.slow
-def test_worlds_that_wait_change_nothing(memory):
-    expected = simulated(memory)
-    timeline = Timeline(open_experiment(memory, seed=3))
-    run_to(timeline, 120)
-    timeline.go(60)
-    idle(timeline)
-    timeline.go(120)
-    idle(timeline, 4000)
-    rows = sorted(world.iteration for world in timeline._past.waiting)
-    assert set(rows) >= {24, 48, 72, 96}
+class Noting(Addon):
+    """Notes at which steps it is called, in a list that all copies share."""
+
+    steps: ClassVar[list[int]] = []
+
+    def on_step(self, world):
+        self.steps.append(world.iteration)
+
+
+def straight(robot):
+    robot.memory.k = getattr(robot.memory, "k", 0) + 1
+    return 0.2, 0.01 * robot.memory.k + robot.rng.normal()
+
+
+def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
+    robots = [Robot(controller=straight).at(0, y) for y in (0.0, 0.4)]
+    boxes = [Box(length=0.4, width=0.4, pose=(0.45, 0.1, 0))]
+    talk = Communication(loss=0.3, delay=0.2)
+    team = Scenario(robots=robots, props=boxes, addons=[Noting(), talk], stop_time=100)
+    expected = simulate(Experiment(team, seed=3)).record
+    timeline = Timeline(Experiment(team, seed=3))
+    run_to(timeline, 90)
+    timeline.world.operator.place(0, (3, 3, 0))
+    finish(timeline)
+    for row in (90, 70):  # before and after the robot was put elsewhere
+        timeline.go(row)
+        Noting.steps.clear()
+        branch(timeline)
+        assert Noting.steps == [*range(64, row + 1)]
+        assert timeline.remark == ""
     finish(timeline)
     assert timeline.record.digest == expected.digest
-    timeline.go(80)
-    timeline.branch()
-    finish(timeline)
-    assert timeline.record.digest == expected.digest
+    assert len(timeline._past._snapshots) <= MOST
 
 
 # -- hands -----------------------------------------------------------------------------------------
@@ -217,7 +238,7 @@ def test_what_hands_did_is_done_again(memory, row):
     before = timeline.world.record
     timeline.go(row)
     shown = timeline.frame.pose
-    timeline.branch()
+    branch(timeline)
     assert timeline.remark == ""
     assert np.array_equal(timeline.world.pose, shown)
     assert np.array_equal(timeline.world.history.pose, before.pose[:row])
@@ -294,12 +315,11 @@ def test_a_branch_of_a_branch_and_back(memory):
     timeline.other_branch()
     assert timeline.world is first
     timeline.go(100)
-    idle(timeline, 100)
     timeline.other_branch()
     assert timeline.world is second
     assert timeline.row == 100
     timeline.go(130)
-    timeline.branch()
+    branch(timeline)
     assert np.array_equal(timeline.world.pose, second.history.pose[130])
     assert timeline.remark == ""
 
@@ -314,7 +334,7 @@ def law(robot):
 scenario = Scenario(robots=[Robot(controller=law)], stop_time=50, sampling_time=0.1)
 """)
     timeline = Timeline(open_experiment(path))
-    assert timeline.branch() is timeline.world  # at row 0, the newest
+    assert branch(timeline) is timeline.world  # at row 0, the newest
     finish(timeline)
     assert timeline.frame.over_message == "there"
     last = timeline.newest
@@ -367,14 +387,13 @@ def test_a_file_that_is_broken_in_between_is_told_of_and_nothing_is_lost(written
     path.write_text("scenario = Scen(")
     world = timeline.world
     timeline.go(4)
-    idle(timeline, 5)
     with pytest.raises(InputError, match=r"walk\.py, line 1"):
-        timeline.branch()
+        branch(timeline)
     with pytest.raises(InputError, match=r"walk\.py, line 1"):
         timeline.restart()
     assert (timeline.world, timeline.row, timeline.newest) == (world, 4, 8)
     path.write_text(FAILING)
-    assert timeline.branch().iteration == 4
+    assert branch(timeline).iteration == 4
 
 
 @each_case(
@@ -390,12 +409,12 @@ count = np.__dict__.setdefault("_counter_of_a_test", itertools.count())
 scenario = Scenario(robots=[Robot(name="red", controller=lambda robot: (0.1, {source}))])
 """)
     timeline = Timeline(open_experiment(path))
-    run_to(timeline, 30)
+    run_to(timeline, 50)
     poses = timeline.world.history.pose.copy()
-    timeline.go(20)
-    timeline.branch()
+    timeline.go(40)
+    branch(timeline)
     assert "the law of red gave another command at step 0" in timeline.remark
-    assert np.array_equal(timeline.world.history.pose, poses[:20])
+    assert np.array_equal(timeline.world.history.pose, poses[:40])
     assert len(timeline.branches) == 1
 
 
@@ -410,11 +429,7 @@ def test_an_experiment_that_is_not_from_a_file(capsys):
     timeline = Timeline(experiment)
     finish(timeline)
     timeline.go(11)
-    idle(timeline, 20)
-    assert (
-        timeline._past.waiting == []
-    )  # it would share what the law remembers, if that lies elsewhere
-    timeline.branch()
+    branch(timeline)
     assert timeline.remark == ""
     finish(timeline)
     assert timeline.record.digest == expected.digest
@@ -439,7 +454,7 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=1)
     timeline = Timeline(open_experiment(path))
     run_to(timeline, 5)
     timeline.go(3)
-    timeline.branch()
+    branch(timeline)
     out, err = capsys.readouterr()
     assert out.splitlines() == ["read", *(f"at {k}.0" for k in range(5))]
     assert err.split() == 5 * ["warned"]
@@ -459,11 +474,11 @@ def test_a_way_back_can_be_broken_off(memory, monkeypatch):
 
     with monkeypatch.context() as patch, pytest.raises(InputError, match="nothing was changed"):
         patch.setattr("mars2d.world.past.SLICE", 0.001)
-        timeline.branch(progress)
+        branch(timeline, progress)
     assert len(told) == 2
     assert 0 <= told[0] <= told[1] < 1
     assert (timeline.newest, timeline.branches) == (190, [])
-    timeline.branch()
+    branch(timeline)
     assert timeline.newest == 180
 
 
@@ -495,7 +510,7 @@ def test_laws_read_again_are_in_effect_from_the_present_row(written):
     assert (command[:20] == (0.2, 0.0)).all()
     assert (command[20:] == (0.1, 0.5)).all()
     timeline.go(25)
-    timeline.branch()
+    branch(timeline)
     assert timeline.remark == ""
     run_to(timeline, 30)
     assert np.array_equal(timeline.world.history.command[:, :, 0], command)
@@ -516,7 +531,7 @@ def test_in_the_past_they_make_a_branch(written):
     timeline.advance()
     assert timeline.world.history.command[-1].ravel().tolist() == [0.2, 0.0]  # of its own law
     timeline.go(5)
-    timeline.branch()
+    branch(timeline)
     assert timeline.remark == ""  # no wonder that the new law asks for something else
     timeline.advance()
     assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
@@ -557,7 +572,7 @@ def test_walls_that_were_read_again_stand_from_now_on_and_drawn_ones_stay(writte
     run_to(timeline, 15)
     timeline.go(7)
     assert timeline.scenario.obstacles[0][0] == (4.0, -1.0)
-    timeline.branch()
+    branch(timeline)
     assert timeline.world.scenario.obstacles[0][0] == (4.0, -1.0)
     assert len(timeline.world.scenario.obstacles) == 2
 
@@ -638,5 +653,5 @@ def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
     assert (timeline.world, timeline.branches, timeline.row) == (changed, [before], 80)
     run_to(timeline, 90)
     timeline.go(50)
-    assert timeline.branch() is not changed
+    assert branch(timeline) is not changed
     assert len(timeline.branches) == 2

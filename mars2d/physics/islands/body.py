@@ -131,6 +131,24 @@ class Body(DrivenBody):
         self.account_now()
         self.by_holder = 0.0
 
+    def memory(self) -> tuple[Any, ...]:
+        """Return all that it goes on from in a control step, if no solver knows it."""
+        return (
+            self.x, self.y, self.angle, self.vx, self.vy, self.spin,
+            self.slips, self.since, self.effort, self.energy, self.by_holder, self.by_push,
+            self.by_friction, self.by_joint, self.by_hand,
+            self.forward, self.left, self.turning, self.load, self.slack, self.com_x, self.com_y,
+        )  # fmt: skip
+
+    def remember(self, memory: tuple[Any, ...]) -> None:
+        """Go on from the memory of a body like this one."""
+        (
+            self.x, self.y, self.angle, self.vx, self.vy, self.spin,
+            self.slips, self.since, self.effort, self.energy, self.by_holder, self.by_push,
+            self.by_friction, self.by_joint, self.by_hand,
+            self.forward, self.left, self.turning, self.load, self.slack, self.com_x, self.com_y,
+        ) = memory  # fmt: skip
+
     @cython.cfunc
     def look(self) -> cython.void:
         """Work out how fast its velocity may change."""

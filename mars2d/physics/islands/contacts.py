@@ -262,6 +262,27 @@ def begin_touches_again(body: Body) -> cython.void:
 
 
 @cython.cfunc
+def lasting_touches(body: Body) -> list[Any]:
+    """Return whom a body touches since contacts were taken, and the last contact with each."""
+    lasting: list[Any] = []
+    touch: Touch
+    for touch in body.contacts:
+        lasting.append((touch.b, touch.last))  # noqa: PERF401 - as in `Mover.slipping`
+    return lasting
+
+
+@cython.cfunc
+def touch_on(body: Body, lasting: list[Any]) -> cython.void:
+    """Let a body touch the same as one whose `lasting_touches` these are."""
+    touch: Touch
+    body.contacts = []
+    for b, last in lasting:
+        touch = Touch(body.number, b, last)
+        touch.goes_on = touch.was_on = True
+        body.contacts.append(touch)
+
+
+@cython.cfunc
 def take_touches(bodies: list[Body]) -> list[Any]:
     """Return the contacts since the last call by time, a, b and normal, and forget the ended."""
     taken: list[Any] = []

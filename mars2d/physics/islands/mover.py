@@ -12,7 +12,9 @@ from mars2d.physics.islands.contacts import (
     begin_touches_again,
     end_touches,
     keep_touches,
+    lasting_touches,
     take_touches,
+    touch_on,
 )
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.island import Accuracy, Island
@@ -469,8 +471,29 @@ class Mover:
             return False
         return length(force / body.rest_grip, torque / body.rest_twist_grip) <= 1.0
 
+    def rest(self) -> list[Any]:
+        """Forget all but how bodies move and touch, and return that, for `remember`."""
+        self.free()
+        self.islands = []
+        self.neighbours.begin()
+        memories: list[Any] = []
+        body: Body
+        for body in self.bodies:
+            memories.append((body.memory(), lasting_touches(body)))  # noqa: PERF401 - as below
+        return memories
+
+    def remember(self, memories: list[Any]) -> None:
+        """Go on as another mover of the same bodies does since it has rested."""
+        k: cython.int
+        body: Body
+        for k in range(len(self.bodies)):
+            body = self.bodies[k]
+            memory, touches = memories[k]
+            body.remember(memory)
+            touch_on(body, touches)
+
     def free(self) -> None:
-        """Free the engine's objects; nothing is moved after that."""
+        """Free the engine's objects, and the impulses that the solvers keep."""
         solver: Solver
         for solver in self.solvers:
             solver.free()

@@ -45,14 +45,23 @@ class Neighbours:
         self.bodies, self.walls, self.passing = bodies, walls, passing
         self.pairs, self.first = [], []
         self.largest = max([body.radius for body in bodies])
-        self.skin, self.size = -1.0, 1.0
+        self.size = 1.0
         self.wide = 3 + int((4.0 * len(bodies)) ** 0.5)
-        for body in bodies:
-            body.wall_gap = -1.0 if walls else 1e300
-        if len(bodies) <= FEW:
+        self.begin()
+
+    @cython.cfunc
+    def begin(self) -> cython.void:
+        """List nothing yet, but all pairs if there are few."""
+        i: cython.int
+        a: Body
+        b: Body
+        self.pairs, self.skin = [], -1.0
+        for a in self.bodies:
+            a.wall_gap, a.wall_skin = -1.0 if self.walls else 1e300, -1.0
+        if len(self.bodies) <= FEW:
             self.skin = 1e300
-            for i, a in enumerate(bodies):
-                for b in bodies[i + 1 :]:
+            for i, a in enumerate(self.bodies):
+                for b in self.bodies[i + 1 :]:
                     self.add(a, b)
 
     @cython.cfunc

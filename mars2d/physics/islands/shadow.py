@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import builtins
 from array import array
-from typing import TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 T = TypeVar("T")
 
@@ -19,6 +19,9 @@ bint: TypeAlias = bool
 void: TypeAlias = None
 Doubles: TypeAlias = "array[float]"
 """Numbers in a row, shared with numpy."""
+
+
+NULL: Any = None
 
 
 def cclass(kind: type[T]) -> type[T]:

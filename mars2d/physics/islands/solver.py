@@ -686,3 +686,4 @@ def free_things_of(body: Body) -> cython.void:
     if body.is_robot:
         chipmunk.free_body(body.control)
     chipmunk.free_body(body.handle)
+    body.pivot = body.side = body.gear = cython.NULL

@@ -30,12 +30,9 @@ from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import label_of
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.notes import Notes
-from mars2d.world.timeline import Timeline
 
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
-RESERVE = 0.004
-"""The time of a picture that is not used to prepare for going back, seconds."""
 THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
 """The layers that the user's code may draw."""
 
@@ -143,9 +140,6 @@ class PlayerWindow(ABC):
                 self._rest.stir()
             if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
                 self._show_picture(pygame.display.get_surface() or screen)
-            rest = 1 / PICTURES_A_SECOND - (time.perf_counter() - now) - RESERVE
-            if rest > 0 and isinstance(self.player.source, Timeline):
-                self.player.source.idle(rest)
             if self.player.speed < inf or not self.player.playing:
                 clock.tick(PICTURES_A_SECOND)
 
