@@ -11,24 +11,24 @@ ROOT = Path(__file__).parents[2]
 CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 
 LINES = {
-    "addons": 4_107,
+    "addons": 4_109,
     "bodies": 1_848,
-    "cli": 2_569,
-    "core": 2_938,
+    "cli": 2_547,
+    "core": 2_977,
     "geometry": 1_549,
-    "output": 13_825,
-    "physics": 8_305,
-    "record": 1_585,
-    "reports": 1_019,
+    "output": 13_313,
+    "physics": 8_424,
+    "record": 1_601,
+    "reports": 1_006,
     "rl": 776,
     "scenario": 5_341,
     "sensors": 2_031,
-    "study": 3_211,
+    "study": 3_164,
     "testing": 998,
-    "tournaments": 3_434,
-    "window": 15_150,
-    "world": 3_795,
-    "tests": 52_964,
+    "tournaments": 3_320,
+    "window": 15_203,
+    "world": 3_733,
+    "tests": 53_343,
 }
 """Lines at most, by room of the package, and of all tests."""
 
