@@ -8,7 +8,6 @@ import json
 import os
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -72,10 +71,9 @@ class Folder:
         self.before = tuple(p for p in found if p.replay or not (replays and p.steps))
 
     def keep(self, played: Played) -> None:
-        """Write a match that is done, with its options as text: its hash identifies it."""
-        options = {name: repr(value) for name, value in played.match.options.items()}
-        row = asdict(replace(played, match=replace(played.match, options=options, code={})))
-        row = {"print": self._prints[played.match.number], **row}
+        """Write a match that is done; its hash identifies it."""
+        number = played.match.number
+        row = {"print": self._prints[number], **vars(played), "match": number}
         self._write({"sum": _sum(row), **row})
 
     def __enter__(self) -> Folder:
