@@ -8,9 +8,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
-AFTER = 0.5
-"""The time before a bar is shown, seconds; what is short needs none."""
-
 
 class Update(Protocol):
     """Shows how many are done, and what else there is to say."""
@@ -33,7 +30,7 @@ def progress(total: int, unit: str, done: int = 0, *, show: bool = True) -> Iter
         warnings.simplefilter("ignore")
         from tqdm.auto import tqdm
     look: dict[str, Any] = {"unit": unit, "leave": False, "dynamic_ncols": True}
-    with tqdm(total=total, initial=done, delay=AFTER, **look) as bar:
+    with tqdm(total=total, initial=done, **look) as bar:
 
         def update(done: int, said: str = "") -> None:
             if said:
