@@ -347,8 +347,10 @@ def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | Non
             part, point = (*ax.get_xlim(), *ax.get_ylim()), words / points_per_metre(ax)
             shapes = placed_names(Scene(shapes), now, point, part, arrows).shapes
         elif layer.name == "workspace":  # its edge is a layer of its own
-            areas = [shape for shape in shapes if isinstance(shape, Polygon)]
-            shapes = [replace(area, stroke=None) for area in areas]
+            shapes = [
+                replace(shape, stroke=None) if isinstance(shape, Polygon) else shape
+                for shape in shapes
+            ]
         elif layer.name == "trails":
             shapes = _told_apart(now, look)
         elif layer.name == "sensors":
