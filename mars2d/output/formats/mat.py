@@ -36,7 +36,8 @@ def write(record: Rows, path: Path) -> None:
             group, field = "Sensors", sensors[field]
         else:
             group = f"{family.capitalize()}s"
-        out.setdefault(group, {})[field] = _for_matlab(name, column)
+        values = column if column.dtype == np.bool_ else column.astype(np.float64)
+        out.setdefault(group, {})[field] = values + (values >= 0) if name in INDICES else values
     header = headers.of_record(record) | {"contents": list(record.contents)}
     out |= {"Digest": record.digest, "Header": headers.as_text(header)}
     with atomic_write(path) as file:
@@ -45,17 +46,12 @@ def write(record: Rows, path: Path) -> None:
         savemat(into, {NAME: out}, do_compression=True, long_field_names=True, oned_as="column")
 
 
-def _for_matlab(name: str, column: NDArray[Any]) -> NDArray[Any]:
-    values = column if column.dtype == np.bool_ else column.astype(np.float64)
-    return values + (values >= 0) if name in INDICES else values
-
-
 def _looks(record: Rows) -> dict[str, Any]:
     """Return the fields of Table 1 of the paper except the history, and the names of all bodies."""
     scenario, robots = record.scenario, record.scenario.robots
     drives = [robot.drive for robot in robots]
     animation, workspace = scenario.animation, scenario.workspace
-    nothing = float("nan")
+    nothing, fields = float("nan"), plain_names(record.sensors)
     return {
         "Robots": float(len(robots)),
         "Initial_pose": scenario.initial_pose,
@@ -93,14 +89,10 @@ def _looks(record: Rows) -> dict[str, Any]:
         },
         "Seed": np.int64(record.seed),
         "Sensors": {},
-        "Sensor_robots": _carriers(record),
+        "Sensor_robots": {  # counted from 1
+            fields[name]: np.array(robots) + 1.0 for name, robots in record.sensor_robots.items()
+        },
     }
-
-
-def _carriers(record: Rows) -> dict[str, Any]:
-    """Return for each sensor the robots that carry it, counted from 1."""
-    fields = plain_names(record.sensors)
-    return {fields[name]: np.array(record.sensor_robots[name]) + 1.0 for name in fields}
 
 
 def _cell(texts: Iterable[str]) -> NDArray[Any]:

@@ -5,7 +5,7 @@ Imported when a log is written: it needs foxglove-sdk.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from math import atan2, cos, hypot, sin
 from typing import Any, NamedTuple
 
@@ -39,7 +39,7 @@ ARROW = 0.02, 0.08, 0.06
 class _Scan(NamedTuple):
     """A sensor on a robot whose readings are laser scans, and the message that is sent for each."""
 
-    channel: Any
+    topic: str
     key: str
     place: int  # of its robot among those that carry it
     period: int  # control steps
@@ -56,73 +56,52 @@ class Topics:
     control step that begins then, along the mean force on the second body, 1 m long for 100 N.
     """
 
-    def __init__(
-        self,
-        scenario: Scenario,
-        sensor_robots: Mapping[str, tuple[int, ...]],
-        channel: Callable[[str, Any], Any],
-    ) -> None:
-        """Open the channels for a scenario.
-
-        sensor_robots: the robots that carry each sensor that is recorded. channel: returns the
-        channel for a topic and a class of messages.
-        """
+    def __init__(self, scenario: Scenario, sensor_robots: Mapping[str, tuple[int, ...]]) -> None:
+        """Take a scenario, and the robots that carry each sensor that is recorded."""
         self._dt = scenario.sampling_time
         self._names = [str(body.name) for body in scenario.bodies]
         self._world = "world"
         while self._world in self._names:
             self._world += "_"
-        self._scene_channel = channel("/scene", messages.SceneUpdate)
-        self._poses_channel = channel("/poses", messages.PosesInFrame)
-        self._tf_channel = channel("/tf", messages.FrameTransforms)
-        self._contacts_channel, self._touched = channel("/contacts", messages.SceneUpdate), False
-        self._scans = list(self._scanned(scenario, sensor_robots, channel))
+        self._scans = [
+            scan
+            for key, robots in sensor_robots.items()
+            for place, robot in enumerate(robots)
+            if (scan := self._scan(scenario, key, place, robot)) is not None
+        ]
+        self._touched = False
         self._drawn: Scenario | None = None
 
-    def _scanned(
-        self,
-        scenario: Scenario,
-        sensor_robots: Mapping[str, tuple[int, ...]],
-        channel: Callable[[str, Any], Any],
-    ) -> Iterator[_Scan]:
-        """Yield the sensors whose readings are laser scans."""
-        for key, robots in sensor_robots.items():
-            for place, robot in enumerate(robots):
-                sensor = scenario.robots[robot].sensor(key)
-                fan = None if sensor is None else sensor.fan
-                if sensor is None or fan is None or fan.cone:
-                    continue
-                name, (start, end) = self._names[robot], fan.angles[[0, -1]].tolist()
-                said = {
-                    "frame_id": name,
-                    "pose": _pose(*sensor.placed(np.zeros(3)).tolist()),
-                    "start_angle": start,
-                    "end_angle": end,
-                }
-                topic = channel(f"/{name}/{key}", messages.LaserScan)
-                period, age = sensor.period(self._dt), sensor.age(self._dt)
-                yield _Scan(topic, key, place, period, age, said)
+    def _scan(self, scenario: Scenario, key: str, place: int, robot: int) -> _Scan | None:
+        """Return what is known of a sensor whose readings are laser scans; None of others."""
+        sensor, name = scenario.robots[robot].sensor(key), self._names[robot]
+        if sensor is None or sensor.fan is None or sensor.fan.cone:
+            return None
+        start, end = sensor.fan.angles[[0, -1]].tolist()
+        pose = _pose(*sensor.placed(np.zeros(3)).tolist())
+        said = {"frame_id": name, "pose": pose, "start_angle": start, "end_angle": end}
+        period, age = sensor.period(self._dt), sensor.age(self._dt)
+        return _Scan(f"/{name}/{key}", key, place, period, age, said)
 
     def draw_again(self) -> None:
         """Send the scene with the next row once more."""
         self._drawn = None
 
-    def messages(self, row: Row, scenario: Scenario) -> Iterator[tuple[Any, bytes]]:
-        """Yield the channel and the bytes of each message of a row.
+    def messages(self, row: Row, scenario: Scenario) -> Iterator[tuple[str, Any]]:
+        """Yield the topic of each message of a row, and the message.
 
         scenario: as it is at that row.
         """
         now = _timestamp(row.time)
         if scenario is not self._drawn:
             self._drawn = scenario
-            yield self._scene_channel, self._scene(scenario, now)
+            yield "/scene", self._scene(scenario, now)
         numbers = np.hstack([row.columns[name].reshape(3, -1) for name in ("pose", "prop_pose")])
         places = [
             (messages.Vector3(x=x, y=y, z=0.0), _turn(theta)) for x, y, theta in numbers.T.tolist()
         ]
         poses = [messages.Pose(position=at, orientation=turn) for at, turn in places]
-        told = messages.PosesInFrame(timestamp=now, frame_id=self._world, poses=poses)
-        yield self._poses_channel, told.encode()
+        yield "/poses", messages.PosesInFrame(timestamp=now, frame_id=self._world, poses=poses)
         links = [
             messages.FrameTransform(
                 timestamp=now,
@@ -133,18 +112,18 @@ class Topics:
             )
             for name, (at, turn) in zip(self._names, places, strict=True)
         ]
-        yield self._tf_channel, messages.FrameTransforms(transforms=links).encode()
+        yield "/tf", messages.FrameTransforms(transforms=links)
         if len(row.contacts) or self._touched:
             self._touched = len(row.contacts) > 0
-            yield self._contacts_channel, self._contacts(row.contacts, now)
-        for channel, key, place, period, age, said in self._scans:
+            yield "/contacts", self._contacts(row.contacts, now)
+        for topic, key, place, period, age, said in self._scans:
             measured = row.row - age
             if measured >= 0 and measured % period == 0:
                 ranges = row.columns[f"sensor:{key}"][place].tolist()
                 then = _timestamp(measured * self._dt)
-                yield channel, messages.LaserScan(timestamp=then, ranges=ranges, **said).encode()
+                yield topic, messages.LaserScan(timestamp=then, ranges=ranges, **said)
 
-    def _contacts(self, contacts: NDArray[np.void], now: Any) -> bytes:
+    def _contacts(self, contacts: NDArray[np.void], now: Any) -> Any:
         """Return arrows for contacts, which replace those of earlier messages."""
         shaft, length, head = ARROW
         arrows = [
@@ -163,9 +142,9 @@ class Topics:
         entity = messages.SceneEntity(
             id="contacts", frame_id=self._world, timestamp=now, arrows=arrows
         )
-        return bytes(messages.SceneUpdate(entities=[entity]).encode())
+        return messages.SceneUpdate(entities=[entity])
 
-    def _scene(self, scenario: Scenario, now: Any) -> bytes:
+    def _scene(self, scenario: Scenario, now: Any) -> Any:
         """Return all that is drawn; it replaces the entities of earlier messages."""
         ground = Scene([*workspace(scenario).shapes, *obstacles(scenario).shapes])
         scenes = [("ground", self._world, ground, GROUND_HEIGHT)]
@@ -184,7 +163,7 @@ class Topics:
             )
             for name, within, scene, floor in scenes
         ]
-        return bytes(messages.SceneUpdate(entities=entities).encode())
+        return messages.SceneUpdate(entities=entities)
 
 
 # -- shapes as parts of an entity -------------------------------------------------------------

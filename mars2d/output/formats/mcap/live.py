@@ -67,7 +67,7 @@ class Live:
             from mars2d.output.formats.mcap.foxglove import Topics
 
             self._world = world
-            self._topics = Topics(recorder.scenario, recorder.sensor_robots, self._channel)
+            self._topics = Topics(recorder.scenario, recorder.sensor_robots)
             self._stale = True
             self._counts = 0, 0, 0, 0
         if recorder.rows == self._counts[0]:
@@ -77,18 +77,15 @@ class Live:
         if self._stale:
             self._stale = False
             self._topics.draw_again()
-        for channel, data in self._topics.messages(row, world.scenario):
-            channel.log(data, log_time=nanoseconds(row.time))
-
-    def _channel(self, topic: str, kind: Any) -> Any:
-        if topic not in self._channels:
-            self._channels[topic] = self._library.Channel(
-                topic,
-                schema=kind.get_schema(),
-                message_encoding="protobuf",
-                context=self._context,
-            )
-        return self._channels[topic]
+        for topic, message in self._topics.messages(row, world.scenario):
+            if topic not in self._channels:
+                self._channels[topic] = self._library.Channel(
+                    topic,
+                    schema=message.get_schema(),
+                    message_encoding="protobuf",
+                    context=self._context,
+                )
+            self._channels[topic].log(message.encode(), log_time=nanoseconds(row.time))
 
     def close(self) -> None:
         """Send the last row, and end the server."""

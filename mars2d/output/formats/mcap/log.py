@@ -121,7 +121,7 @@ class Log:
             recorder.scenario, versions=recorder.versions, options=recorder.options
         ).record(world.seed, "not over", False, world.filename, Scene())
         header = headers.of_record(empty) | {"sensor_robots": recorder.sensor_robots}
-        self._tape.begin(header, recorder.scenario, recorder.sensor_robots, start)
+        self._tape.begin(header, recorder.scenario, start)
 
     def close(self, record: Rows | None = None) -> None:
         """Write how the run ended, and pack the file. Raises DiskError where that fails.

@@ -54,27 +54,23 @@ class Tape:
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         writer.start(profile="", library="mars2d")
-        self._row = self._channel(TOPIC, "mars2d.Row", schema())
+        self._open(TOPIC, "mars2d.Row", schema())
 
-    def begin(
-        self,
-        header: Mapping[str, Any],
-        scenario: Scenario,
-        sensor_robots: Mapping[str, tuple[int, ...]],
-        row: int = 0,
-    ) -> None:
+    def begin(self, header: Mapping[str, Any], scenario: Scenario, row: int = 0) -> None:
         """Write the header of the rows from `row` on; they replace such rows that were before."""
         from mars2d.output.formats.mcap.foxglove import Topics
 
         self._writer.add_metadata(BEGIN, {"header": headers.as_text(header), "row": str(row)})
-        self._topics = Topics(scenario, sensor_robots, self._foxglove)
+        self._topics = Topics(scenario, header["sensor_robots"])
 
     def add(self, row: Row, scenario: Scenario) -> None:
         """Write a row. scenario: as it is at that row."""
         ns, number = nanoseconds(row.time), row.row & 0xFFFFFFFF
-        for channel, data in self._topics.messages(row, scenario):
-            self._writer.add_message(channel, ns, data, ns, number)
-        self._writer.add_message(self._row, ns, encoded(row), ns, number)
+        for topic, message in self._topics.messages(row, scenario):
+            if topic not in self._channels:
+                self._open(topic, message.get_schema().name, message.get_schema().data)
+            self._writer.add_message(self._channels[topic], ns, message.encode(), ns, number)
+        self._writer.add_message(self._channels[TOPIC], ns, encoded(row), ns, number)
 
     def end(self, record: Rows) -> None:
         """Write how the run ended."""
@@ -82,17 +78,11 @@ class Tape:
         told = {name: header[name] for name in ("over_message", "finished", "digest")}
         self._writer.add_metadata(END, {"end": headers.as_text(told), "rows": str(len(record))})
 
-    def _channel(self, topic: str, name: str, schema: bytes) -> int:
-        if topic not in self._channels:
-            if name not in self._schemas:
-                self._schemas[name] = self._writer.register_schema(name, "protobuf", schema)
-            number = self._writer.register_channel(topic, "protobuf", self._schemas[name])
-            self._channels[topic] = number
-        return self._channels[topic]
-
-    def _foxglove(self, topic: str, kind: Any) -> int:
-        schema = kind.get_schema()
-        return self._channel(topic, schema.name, schema.data)
+    def _open(self, topic: str, name: str, schema: bytes) -> None:
+        if name not in self._schemas:
+            self._schemas[name] = self._writer.register_schema(name, "protobuf", schema)
+        number = self._writer.register_channel(topic, "protobuf", self._schemas[name])
+        self._channels[topic] = number
 
 
 def write(record: Rows, path: Path) -> None:
@@ -115,7 +105,7 @@ def write_whole(record: Rows, path: Path, held: BinaryIO | None = None) -> None:
     with atomic_write(path, held) as file:
         writer: Any = Writer(file, chunk_size=CHUNK_SIZE)
         tape = Tape(writer)
-        tape.begin(header, record.scenario, record.sensor_robots)
+        tape.begin(header, record.scenario)
         for row in cut(record):
             tape.add(row, record.scenario_at(row.row))
         tape.end(record)

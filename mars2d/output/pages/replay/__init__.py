@@ -37,22 +37,6 @@ __all__ = [
     "save_html",
 ]
 
-SCRIPTS = (
-    "data",
-    "shades",
-    "camera",
-    "painter",
-    "drawings",
-    "names",
-    "picture",
-    "clock",
-    "panel",
-    "legend",
-    "marks",
-    "replay",
-)
-"""The parts of the script, each of which may use those before it."""
-
 
 def save_html(record: Rows, path: str | Path) -> Path:
     """Write a replay of a record as one HTML file; return its path.
@@ -112,7 +96,8 @@ def player(title: str, data: str, first: str = "") -> str:
 @cache
 def page_script() -> str:
     """Return the script of the page."""
-    parts = "\n".join(_read(f"{name}.js") for name in SCRIPTS)
+    names = sorted(each.name for each in files(__package__).iterdir())
+    parts = "\n".join(_read(name) for name in names if name.endswith(".js"))
     return f'(() => {{\n"use strict";\n{parts}}})();'
 
 
