@@ -97,23 +97,18 @@ class Estimate(Addon):
         raise InputError(f"Estimate: {who} sensor Odometry, whose estimate could be drawn")
 
     def on_sensed(self, world: WorldLike) -> None:
-        """Take the new reading."""
-        self._follow(world)
+        """Take the latest reading, once, unless it is lost or not yet there; keep ellipses."""
+        reading = getattr(world.robots[self._index].sense, self._sensor.key)
+        if reading is not self._last and np.isfinite(reading).all():
+            self._last = reading
+            if self._path:
+                before, drift = self._path[-1], self._sensor.drift
+                self.covariance = covariance_after_arc(
+                    self.covariance, before, reading, self._semiaxis, drift
+                )
+            self._path.append(np.array(reading))
         if len(self._kept) < floor(world.time / self.every + ROUNDING):
             self._kept.append(self._ellipse())
-
-    def _follow(self, world: WorldLike) -> None:
-        """Take the latest reading, once."""
-        reading = getattr(world.robots[self._index].sense, self._sensor.key)
-        if reading is self._last or not np.isfinite(reading).all():  # lost, or not yet there
-            return
-        self._last = reading
-        if self._path:
-            before, drift = self._path[-1], self._sensor.drift
-            self.covariance = covariance_after_arc(
-                self.covariance, before, reading, self._semiaxis, drift
-            )
-        self._path.append(np.array(reading))
 
     def _ellipse(self) -> Float:
         """Return the corners of the ellipse now, in the world's frame."""

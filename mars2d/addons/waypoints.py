@@ -118,16 +118,13 @@ class Waypoints(Addon):
                 f"Waypoints.routes has {counted(len(self.routes), 'route')}, but there "
                 f"{'is' if len(robots) == 1 else 'are'} {counted(len(robots), 'robot')}"
             )
-        if world.scenario.workspace is not None and world.scenario.on_exit != "ignore":
-            self._check_inside(np.array(world.scenario.workspace))
         self._reached = self.reached
-
-    def _check_inside(self, workspace: NDArray[np.float64]) -> None:
+        workspace = world.scenario.workspace
+        if workspace is None or world.scenario.on_exit == "ignore":
+            return
         for i, route in enumerate(self.routes):
             x, y = np.array(route, dtype=float).reshape(-1, 2).T
-            outside = outside_polygon(x, y, workspace)
-            if outside.any():
-                k = int(outside.argmax())
+            for k in np.flatnonzero(outside_polygon(x, y, np.array(workspace))).tolist():
                 raise wrong(f"Waypoints.routes[{i}][{k}]", route[k], "a point of the workspace")
 
     def on_step(self, world: WorldLike) -> None:

@@ -68,9 +68,6 @@ def test_robots_gather_where_it_is_dense():
         ),
         ({"function": 3}, "Density.function = 3: expected a function of two arguments"),
         ({"function": lambda x: x}, r"Density.function = .*: .* exactly two arguments, x \[m\]"),
-        ({"image": "p.jpg", "bounds": (0, 1, 0, 1)}, "Density.image = 'p.jpg': .*.png"),
-        ({"image": "p.png"}, "Density.bounds is missing"),
-        ({"image": "p.png", "bounds": (1, 0, 0, 1)}, "Density.bounds = .*xmin < xmax"),
         ({"function": max, "bounds": (0, 1, 0, 1)}, "Density.bounds is given without an image"),
         ({"function": max, "color": "rde"}, "Density.color = 'rde': .*did you mean 'red'"),
     ],
@@ -124,12 +121,3 @@ def test_it_lies_on_the_floor_darker_where_it_is_denser():
     assert shape.pixels.shape == (200, 200, 4)
     assert shape.pixels[100, 50].tolist() == [255, 0, 0, 128]
     assert shape.pixels[100, 150].tolist() == [255, 0, 0, 32]
-
-
-def test_a_replay_shows_an_image_whose_file_is_gone(picture, tmp_path):
-    mars2d.run(Scenario(addons=[picture], stop_time=0.2)).save(tmp_path / "r.npz")
-    (tmp_path / "p.png").unlink()
-    loaded = mars2d.load(tmp_path / "r.npz").scenario
-    assert isinstance(floor(loaded).shapes[0], Pixels)
-    places = np.array([[0.3, 1.7], [1.9, 0.2]])
-    assert np.array_equal(loaded.addons[0].of(places), picture.of(places))

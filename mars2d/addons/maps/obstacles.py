@@ -115,19 +115,14 @@ def _merged(lines: list[shapely.LineString], tolerance: float) -> list[shapely.L
     """Return lines that meet end to end as one, each edge once, with fewer corners."""
     import shapely
 
-    if not lines:
-        return []
     points, line = shapely.get_coordinates(lines, return_index=True)
     places = np.round(points / GRID) @ (1, 1j)
     ends = np.column_stack([places[:-1], places[1:]])[line[1:] == line[:-1]]
     edges = np.unique(np.sort(ends), axis=0)
     edges = edges[edges[:, 0] != edges[:, 1]]
-    if not len(edges):
-        return []
     parts = shapely.linestrings(np.stack([edges.real, edges.imag], axis=-1) * GRID)
-    merged = shapely.line_merge(shapely.multilinestrings(parts))
-    found = shapely.get_parts(merged)
-    simple = [shapely.LineString(simple_line(np.array(line.coords), tolerance)) for line in found]
+    merged = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(parts)))
+    simple = [shapely.LineString(simple_line(np.array(line.coords), tolerance)) for line in merged]
     rounded = shapely.get_parts(shapely.set_precision(simple, GRID, mode="pointwise"))
     clean = shapely.remove_repeated_points(rounded, GRID / 2)
     return [part for part in clean.tolist() if part.length > GRID]

@@ -55,14 +55,9 @@ def read(
     at: Sequence[float] | None = None,
     tolerance: float = TOLERANCE,
 ) -> Drawing:
-    """Read a map from a file: DXF, SVG, YAML of ROS, an image, GeoJSON, WKT.
+    """Read a map from a file, with the options of `Map.from_file`.
 
-    layers: names or patterns such as ``*WALL*``, a list or one text with commas; None: all that
-    are shown. unit: that of the file, ``mm``, ``cm``, ``m``, ``in``, ``ft`` or a number of metres,
-    in place of what the file says. resolution: metres per pixel, for images. at: (x, y)
-    [m] of the lower left corner of the map; None: where the file has it. tolerance: how far
-    corners and curves may be off in the obstacles [m]. Raises InputError, which names the file,
-    what is wrong with it, and what was expected.
+    Raises InputError, which names the file, what is wrong with it, and what was expected.
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:

@@ -58,11 +58,8 @@ def joined(polygons: Sequence[shapely.Geometry]) -> list[shapely.Polygon]:
     """Return polygons that cover the same and do not overlap, corners rounded to GRID."""
     import shapely
 
-    if not polygons:
-        return []
     whole = shapely.set_precision(shapely.union_all(polygons), GRID)
-    parts = shapely.get_parts(whole).tolist()
-    return [part for part in parts if part.geom_type == "Polygon"]
+    return [part for part in shapely.get_parts(whole).tolist() if part.geom_type == "Polygon"]
 
 
 def simple_line(points: Float, tolerance: float) -> Float:
