@@ -6,7 +6,7 @@ import mars2d
 from mars2d.addons import Map
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
-from mars2d.scenario.controllers import ByHand, FollowWaypoints, Wander
+from mars2d.scenario.controllers import FollowWaypoints, Wander
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -73,11 +73,6 @@ def test_a_law_comes_from_a_file_and_is_saved_by_its_name(open_editor, tmp_path)
     hands.press("ctrl+s")
     hands.until(lambda s: not s["changed"])
     assert 'controller = "walk.py:walk"' in (tmp_path / "given.toml").read_text()
-
-
-def test_a_law_is_taken_away_again(open_editor):
-    robot = Robot(diameter=0.6, controller=ByHand())
-    hands = chosen(open_editor, Scenario(robots=[robot]))
     hands.row("Law")
     hands.entry("none: it stands still")
     hands.until(lambda s: s["laws"] == [None] and s["idle"] == {"0": "a law"})
@@ -254,6 +249,27 @@ def test_a_value_that_is_refused_is_said_and_changes_nothing(open_editor):
     assert "Robot.mass = 'heavy': expected a number" in hands.state["error"]
     hands.press("Escape")
     hands.until(lambda s: s["prompt"] is None and s["members"][0][0] == 1.0)
+
+
+def test_without_a_mouse_everything_is_placed_selected_and_changed(open_editor):
+    hands = open_editor()
+    hands.press("r", "equal")
+    hands.type("1 2 90")
+    hands.press("Return", "u", "equal")
+    hands.type("-1 2")
+    hands.press("Return", "Tab")
+    hands.until(lambda s: s["selection"] == [["robot", 0, 0]] and s["tool"] == "select")
+    hands.press("F2")
+    hands.until(lambda s: s["chosen"] == "Law" and "Mass" in s["menu"])
+    hands.press("Return")
+    hands.until(lambda s: s["chosen"] == "driven by hand")
+    hands.press("Return")
+    hands.until(lambda s: s["laws"] == ["ByHand()"])
+    hands.press("F2", "m", "a", "s", "Return")
+    hands.fill("2")
+    hands.until(lambda s: s["members"][0][0] == 2 and s["menu"] == {})
+    hands.press("Tab")
+    hands.until(lambda s: s["selection"] == [["prop", 0, 0]])
 
 
 def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):

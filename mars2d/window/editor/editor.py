@@ -40,7 +40,7 @@ from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
-from mars2d.window.widgets.menu import Menu
+from mars2d.window.widgets.menu import Entry, Menu
 from mars2d.window.widgets.slider import draw_tooltip
 from mars2d.window.widgets.text_field import TextField
 
@@ -263,6 +263,23 @@ class Editor:
         """Select all items."""
         self.choose("select")
         self.desk.select(self.desk.draft.items())
+
+    def select_next(self) -> None:
+        """Select the item after the selected one, after the last the first."""
+        items = self.desk.draft.items()
+        place = items.index(self.desk.only) + 1 if self.desk.only in items else 0
+        self.choose("select")
+        self.desk.select(items[place % len(items) :][:1] if items else ())
+
+    def list_properties(self) -> None:
+        """Open a menu of all that the panel changes, for who has no mouse."""
+        corner = self.panel.area.topleft
+        entries = [
+            Entry(row.title.capitalize(), partial(row.act, corner), value=row.value)
+            for row in self.properties.rows()
+            if row.act is not None
+        ]
+        self.menu.open("properties", lambda: entries, corner)
 
     def _complete(self) -> None:
         """Finish the outline that is being drawn."""
