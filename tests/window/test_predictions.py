@@ -41,7 +41,7 @@ class Desk:
         self.timeline, self.clock = Timeline(open_experiment(path)), Clock()
         layout = Layout.of((1280, 720), text=text, controls=True)
         self.panel = Predictions(painter(layout, theme), self.timeline, self.clock)
-        self.panel.is_open = True
+        self.panel.wanted = True
         self.size = size
 
     def run(self, rows):

@@ -34,21 +34,12 @@ class Lesson(Panel):
     def __init__(self, painter: Painter, path: Path | None) -> None:
         """Read a file; one without a docstring of several parts has no lesson."""
         self.painter, self.parts = painter, parts_of(path)
-        self._wanted, self._first = False, 0
+        self._first = 0
 
     @property
     def offered(self) -> bool:
         """Whether there is a lesson."""
         return len(self.parts) > 1
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it is wanted, and there is one."""
-        return self._wanted and self.offered
-
-    @is_open.setter
-    def is_open(self, wanted: bool) -> None:
-        self._wanted = wanted
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
         """Return the least and the wanted height at a width, points."""
