@@ -170,11 +170,11 @@ def test_the_mouse_over_a_panel_is_the_panels_and_a_drag_until_it_ends():
 
 def test_a_panel_without_anything_to_show_is_remembered_all_the_same(tmp_path):
     (tmp_path / "short.py").write_text('"""Short."""\n')
-    (tmp_path / "long.py").write_text('"""Long.\n\nQuestion: how far? Measured: the way.\n"""\n')
+    (tmp_path / "long.py").write_text('"""Long.\n\nQuestion: how far? Measured: a way.\n"""\n')
     for name, shown in (("short", False), ("long", True)):
         lesson = Lesson(Painter(), tmp_path / f"{name}.py")
         dock = Dock(Painter(), [lesson])
         dock.open(["lesson"])
         assert lesson.is_open == shown
         assert dock.opened == ["lesson"]
-    assert lesson.parts == [("", "Long."), ("Question", "How far?"), ("Measured", "The way.")]
+    assert lesson.parts == [("", "Long."), ("Question", "How far?"), ("Measured", "A way.")]

@@ -19,7 +19,7 @@ HEADINGS = re.compile(
 """The words with which parts of a docstring begin."""
 LINE, SIZE = 18.0, 13.0
 """The heights of a line and of its letters, points."""
-LEAST_LINES, MOST_LINES = 8, 100
+LEAST_LINES, MOST_LINES = 4, 100
 """The lines that are seen at least, and the most of a part."""
 
 
@@ -83,5 +83,5 @@ def parts_of(path: Path | None) -> list[tuple[str, str]]:
     text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
     first, *rest = HEADINGS.split(" ".join(text.split()))
     named = zip(rest[::2], rest[1::2], strict=True)
-    parts = [("", first), *named]
-    return [(heading, part[:1].upper() + part[1:].strip()) for heading, part in parts]
+    parts = [(heading, text.strip()) for heading, text in (("", first), *named)]
+    return [(heading, text[:1].upper() + text[1:]) for heading, text in parts]
