@@ -210,16 +210,16 @@ def test_history_goes_back_and_forth_and_merges_nudges():
     for _ in range(3):
         drafts.append(drafts[-1].moved([Item("robot", 0)], Motion(by=(0.1, 0.0))))
         history.put(drafts[-1])
-    assert [history.undo() for _ in range(4)] == [True, True, True, False]
+    assert [history.go(-1) for _ in range(4)] == [True, True, True, False]
     assert not history.changed
-    assert [history.redo() for _ in range(4)] == [True, True, True, False]
+    assert [history.go(1) for _ in range(4)] == [True, True, True, False]
     assert history.draft is drafts[-1]
     history.mark_saved(history.draft)
     assert not history.changed
     for _ in range(3):
         moved = history.draft.moved([Item("robot", 0)], Motion(by=(0.0, 0.1)))
         history.put(moved, tag="nudge")
-    assert history.undo()
+    assert history.go(-1)
     assert history.draft is drafts[-1]
     history.put(history.draft.moved([], Motion()))  # nothing has changed
     assert history.can_redo

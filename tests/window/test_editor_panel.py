@@ -256,6 +256,27 @@ def test_a_value_that_is_refused_is_said_and_changes_nothing(open_editor):
     hands.until(lambda s: s["prompt"] is None and s["members"][0][0] == 1.0)
 
 
+def test_without_a_mouse_everything_is_placed_selected_and_changed(open_editor):
+    hands = open_editor()
+    hands.press("r", "equal")
+    hands.type("1 2 90")
+    hands.press("Return", "u", "equal")
+    hands.type("-1 2")
+    hands.press("Return", "Tab")
+    hands.until(lambda s: s["selection"] == [["robot", 0, 0]] and s["tool"] == "select")
+    hands.press("F2")
+    hands.until(lambda s: s["chosen"] == "Law" and "Mass" in s["menu"])
+    hands.press("Return")
+    hands.until(lambda s: s["chosen"] == "driven by hand")
+    hands.press("Return")
+    hands.until(lambda s: s["laws"] == ["ByHand()"])
+    hands.press("F2", "m", "a", "s", "Return")
+    hands.fill("2")
+    hands.until(lambda s: s["members"][0][0] == 2 and s["menu"] == {})
+    hands.press("Tab")
+    hands.until(lambda s: s["selection"] == [["prop", 0, 0]])
+
+
 def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):
     hands = chosen(open_editor, team((0, 0)))
     for close in (lambda: hands.press("Escape"), lambda: hands.click(-3, -3)):

@@ -1,4 +1,4 @@
-"""What surrounds the drawing: the header with its buttons, the footer, prompts, plates of text."""
+"""What surrounds the drawing: the header with its buttons, and prompts."""
 
 from __future__ import annotations
 
@@ -66,34 +66,6 @@ class Header:
         if room > 0:
             beside = (place.right + 12 * ui, bar.centery + 2 * ui)
             painter.write(surface, note, 14 * ui, theme.muted, midleft=beside)
-
-
-def draw_footer(
-    surface: pygame.Surface,
-    bar: pygame.Rect,
-    painter: Painter,
-    text: str,
-    kind: str,
-    right: str,
-) -> None:
-    """Draw the footer; kind: of the text, "hint", "note" or "error". right: text at the right."""
-    theme, ui, fonts = painter.theme, painter.ui, painter.fonts
-    pad = round(20 * ui)
-    tone = {"error": theme.error, "note": theme.running}.get(kind)
-    surface.fill(theme.bar if tone is None else tone.pale, bar)
-    surface.fill(theme.edge, (bar.left, bar.top, bar.width, 1))
-    end = (bar.right - pad, bar.centery)
-    room = (
-        painter.write(surface, right, 14 * ui, theme.text, midright=end).left - bar.left - 2 * pad
-    )
-    size, ink, bold = (14 * ui, theme.muted, False) if tone is None else (16 * ui, tone.ink, True)
-    if tone is not None and fonts.width(text, size, bold=True) > room:
-        size = 13 * ui  # two lines of it
-    lines = fonts.wrap(text, size, room, 1 if tone is None else 2, bold=bold)
-    y = bar.centery - 0.65 * size * (len(lines) - 1)
-    for line in lines:
-        painter.write(surface, line, size, ink, bold=bold, midleft=(bar.left + pad, y))
-        y += 1.3 * size
 
 
 class Answer(NamedTuple):

@@ -58,20 +58,12 @@ class History:
         """Whether there is anything to redo."""
         return self._place + 1 < len(self._drafts)
 
-    def undo(self) -> bool:
-        """Undo a change; return whether there was one."""
-        return self._go(self._place - 1)
-
-    def redo(self) -> bool:
-        """Redo a change; return whether there was one."""
-        return self._go(self._place + 1)
-
-    def _go(self, place: int) -> bool:
-        self._tag = ""
-        if not 0 <= place < len(self._drafts):
-            return False
-        self._place = place
-        return True
+    def go(self, by: int) -> bool:
+        """Undo or redo changes; return whether there were that many."""
+        self._tag, place = "", self._place + by
+        there = 0 <= place < len(self._drafts)
+        self._place = place if there else self._place
+        return there
 
     def mark_saved(self, saved: Draft) -> None:
         """Count the present draft as saved; saved: it, with the title that it has got."""
@@ -141,7 +133,7 @@ class Desk:
     def undo(self) -> None:
         """Undo the last change."""
         before = self.draft
-        if not self.drop() and not self.history.undo():
+        if not self.drop() and not self.history.go(-1):
             self.say("there is nothing to undo")
         self._show(before)
 
@@ -149,7 +141,7 @@ class Desk:
         """Redo the last change that was undone."""
         before = self.draft
         self.drop()
-        if not self.history.redo():
+        if not self.history.go(1):
             self.say("there is nothing to redo")
         self._show(before)
 

@@ -120,7 +120,7 @@ class Dialogs:
             return None
         self._desk.drop()
         while (scenario := self._judge.of(history.draft).scenario) is None:
-            if not history.undo():
+            if not history.go(-1):
                 return None
         return self._document.rescue(scenario)
 

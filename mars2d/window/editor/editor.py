@@ -16,16 +16,12 @@ from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
 from mars2d.output.layers.table import Layers
+from mars2d.output.raster.bars import Banner, draw_footer, footer_height
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
-from mars2d.window.editor.chrome import (
-    Answer,
-    Header,
-    Prompt,
-    draw_footer,
-)
+from mars2d.window.editor.chrome import Answer, Header, Prompt
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
@@ -35,7 +31,7 @@ from mars2d.window.editor.panel import Panel
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Select
-from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_idle, draw_selected
+from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_remarks, draw_selected
 from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
@@ -44,7 +40,7 @@ from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
-from mars2d.window.widgets.menu import Menu
+from mars2d.window.widgets.menu import Entry, Menu
 from mars2d.window.widgets.slider import draw_tooltip
 from mars2d.window.widgets.text_field import TextField
 
@@ -109,7 +105,7 @@ class Editor:
         )
         self._stage, self._sketch = Stage(painter), Sketch()
         self._pointer = (-1, -1)
-        self._dragging = self._panning = self._space = False
+        self._dragging = self._panning = False
         self._held: set[int] = set()
         self._names = len(draft.robots) + len(draft.props) <= MAX_NAMED
         self._plain = False  # whether only the add-ons that can be edited are drawn
@@ -136,17 +132,21 @@ class Editor:
 
     def handle(self, event: pygame.Event) -> None:
         """Handle an event of pygame."""
+        try:
+            self._take(event)
+        except InputError as error:  # a value that does not go with the others
+            self.desk.say(str(error), warns=True)
+
+    def _take(self, event: pygame.Event) -> None:
         prompt = self.dialogs.prompt
         if prompt is not None:
             self.dialogs.handle(prompt, event)
-        if (prompt is not None and event.type in ASKED) or self._choose_in_menu(event):
+        if (prompt is not None and event.type in ASKED) or self.menu.handle(event):
             pass
         elif event.type == pygame.KEYDOWN:
             self._press_key(event)
         elif event.type == pygame.KEYUP:
             self._held.discard(event.key)
-            if event.key == pygame.K_SPACE:
-                self._space = False
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
             self._let_go()
@@ -161,18 +161,7 @@ class Editor:
         elif event.type == pygame.MOUSEBUTTONUP:
             self._release(event)
 
-    def _choose_in_menu(self, event: pygame.Event) -> bool:
-        """Give an event to the open menu; return whether it took it."""
-        try:
-            return self.menu.handle(event)
-        except InputError as error:  # a value that does not go with the others
-            self.desk.say(str(error), warns=True)
-            return True
-
     def _press_key(self, event: pygame.Event) -> None:
-        if event.key == pygame.K_SPACE:
-            self._space = True
-            return
         if self._dragging and event.key == pygame.K_ESCAPE:
             self._let_go()
             return
@@ -201,15 +190,10 @@ class Editor:
             self.help.close()
             return
         self._pointer = event.pos
-        try:
-            if self.panel.area.collidepoint(event.pos):
-                self.desk.say("")
-                self.panel.click(event.pos)
-                return
-        except InputError as error:  # a value that does not go with the others
-            self.desk.say(str(error), warns=True)
-            return
-        if event.button == pygame.BUTTON_LEFT:
+        if self.panel.area.collidepoint(event.pos):
+            self.desk.say("")
+            self.panel.click(event.pos)
+        elif event.button == pygame.BUTTON_LEFT:
             self._press_left(event.pos)
         elif event.button == pygame.BUTTON_MIDDLE:
             self._panning = True
@@ -222,7 +206,7 @@ class Editor:
             self.desk.say("")
             button.act()
         elif self.layout.plot.collidepoint(pixel):
-            if self._space:
+            if pygame.K_SPACE in self._held:
                 self._panning = True
                 return
             self.desk.say("")
@@ -249,7 +233,7 @@ class Editor:
         """Cancel the drag."""
         if self._dragging:
             self.tool.cancel()
-        self._dragging = self._panning = self._space = False
+        self._dragging = self._panning = False
 
     def _world(self, pixel: tuple[int, int]) -> Point:
         ((x, y),) = self.desk.camera.to_world([pixel]).tolist()
@@ -279,6 +263,23 @@ class Editor:
         """Select all items."""
         self.choose("select")
         self.desk.select(self.desk.draft.items())
+
+    def select_next(self) -> None:
+        """Select the item after the selected one, after the last the first."""
+        items = self.desk.draft.items()
+        place = items.index(self.desk.only) + 1 if self.desk.only in items else 0
+        self.choose("select")
+        self.desk.select(items[place % len(items) :][:1] if items else ())
+
+    def list_properties(self) -> None:
+        """Open a menu of all that the panel changes, for who has no mouse."""
+        corner = self.panel.area.topleft
+        entries = [
+            Entry(row.title.capitalize(), partial(row.act, corner), value=row.value)
+            for row in self.properties.rows()
+            if row.act is not None
+        ]
+        self.menu.open("properties", lambda: entries, corner)
 
     def _complete(self) -> None:
         """Finish the outline that is being drawn."""
@@ -399,7 +400,7 @@ class Editor:
         plot, camera = self.layout.plot, self.desk.camera
         frame = self._sketch.frame(draft, bare=self._plain)
         if self._names:
-            draw_idle(draft, self.properties.idle(draft), scene)
+            draw_remarks(draft, self.properties.idle(draft), scene)
         layers, hurried = LAYERS.switched(names=self._names), self.viewpoint.hurried
         draw = partial(self._stage.draw, marks=scene.shapes, hurried=hurried)
         try:
@@ -418,20 +419,24 @@ class Editor:
             draw_tooltip(surface, self.painter, remark, topleft=(x + gap, y + gap))
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
-        desk, bar = self.desk, self.layout.footer
-        text, kind = self.tool.hint, "hint"
-        if desk.notice:
-            text, kind = desk.notice, "error" if desk.warns else "note"
-        elif self.judge.verdict.faults and desk.draft.robots:
-            text, kind = self.judge.verdict.text, "error"
-        elif self.judge.verdict.faults and self.tool_name == "select":
-            text = self.judge.verdict.text
-            text = text[:1].upper() + text[1:]
-        right = "Esc leaves   F1 all keys" if self.live else "F1 all keys"
-        if self.layout.plot.collidepoint(self._pointer):
+        """Draw what to do, or over the foot of the drawing a message of any length."""
+        desk, verdict, layout = self.desk, self.judge.verdict, self.layout
+        text = self.tool.hint
+        banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
+        if banner is None and verdict.faults and desk.draft.robots:
+            banner = Banner(verdict.text, error=True)
+        elif verdict.faults and self.tool_name == "select":
+            text = verdict.text[:1].upper() + verdict.text[1:]
+        hints = [*[("Esc", "leaves")] * self.live, ("F1", "all keys")]
+        if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
-            right = minus(f"x {x:g} m   y {y:g} m")
-        draw_footer(surface, bar, self.painter, text, kind, right)
+            hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
+        size, looks = surface.get_size(), self.looks
+        height = round(
+            footer_height(banner, size, self.painter, looks.text, looks.scale) * layout.ui
+        )
+        bar = pygame.Rect(0, layout.footer.bottom - height, size[0], height)
+        draw_footer(surface, replace(layout, footer=bar), self.painter, banner, text, hints)
 
     def _note(self) -> str:
         if self.live:

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from functools import partial
 
 from mars2d.bodies.props.solid import Solid
-from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, rectangle
 from mars2d.core.scene import INK, Scene, faded
 from mars2d.geometry.shapes import Polygon
@@ -53,10 +52,7 @@ class Chain(Tool):
         corners, self.corners = self.corners, []
         if len(corners) < self.least:
             return bool(corners)
-        try:
-            self.desk.put_new(self.made(tuple(corners)))
-        except InputError as error:  # what is drawn crosses itself
-            self.desk.say(str(error), warns=True)
+        self.desk.put_new(self.made(tuple(corners)))
         return True
 
     def made(self, corners: Outline) -> Draft:

@@ -69,12 +69,16 @@ def draw_culprits(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
             _outline(draft, item, scene, RED, 3.0, faded(RED, 0.3))
 
 
-def draw_idle(draft: Draft, idle: Mapping[int, str], scene: Scene) -> None:
-    """Write what is missing below each robot that nothing moves."""
-    for i, want in idle.items():
-        (x, y), radius = draft.robots[i].rigid.bound
-        words = "no law" if want == "a law" else f"lacks {want}"
-        scene.text((x, y - radius), words, color=IDLE, size=IDLE_SIZE, anchor="below", halo=PAPER)
+def draw_remarks(draft: Draft, idle: Mapping[int, str], scene: Scene) -> None:
+    """Write below each robot what it lacks to be moved, and whether it starts at random."""
+    for i, robot in enumerate(draft.robots):
+        words = ["at random"] if draft.starts_at_random(Item("robot", i)) else []
+        if i in idle:
+            words.append("no law" if idle[i] == "a law" else f"lacks {idle[i]}")
+        (x, y), radius = robot.rigid.bound
+        text, below = ", ".join(words), (x, y - radius)
+        if text:
+            scene.text(below, text, color=IDLE, size=IDLE_SIZE, anchor="below", halo=PAPER)
 
 
 def _outline(

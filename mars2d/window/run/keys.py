@@ -10,8 +10,7 @@ import pygame
 
 from mars2d.output.controls import CONTROLS, PAUSE
 from mars2d.output.layers.table import LAYERS
-from mars2d.window.widgets.actions import Action, action_of
-from mars2d.window.widgets.keys import CONTROL, MODIFIERS
+from mars2d.window.widgets.actions import CONTROL, MODIFIERS, Action, action_of
 
 MAX_NUMBER = 1_000_000
 """The largest number that can be typed before a command."""

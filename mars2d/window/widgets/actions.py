@@ -9,8 +9,12 @@ from functools import partial
 import pygame
 
 from mars2d.output.controls import CONTROLS, PAUSE
-from mars2d.window.widgets.keys import CONTROL
 
+CONTROL = pygame.KMOD_CTRL | pygame.KMOD_META
+MODIFIERS = frozenset(
+    f"{side} {key}" for side in ("left", "right") for key in ("shift", "ctrl", "alt", "meta", "gui")
+) | {"caps lock", "numlock", "scroll lock", "alt gr", "menu", "print screen", ""}
+"""Keys that only modify other keys."""
 LABELS = {
     "escape": "Esc", "delete": "Del", "return": "Enter",  "left": "←", "right": "→", "up": "↑",
     "down": "↓", "page up": "PgUp", "page down": "PgDn", "-": "\N{MINUS SIGN}",

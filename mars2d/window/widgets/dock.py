@@ -186,17 +186,20 @@ class Dock:
         It stays where it is when a panel opens that does not frame, such as for what is selected.
         fit: returns the camera that shows all of an arena that is `tall` metres high.
         """
-        self._plot, self._place = layout.plot, None
-        shown = [panel for panel in self.panels if panel.is_open]
+        self._plot, shown = layout.plot, self._shown
         names = [panel.name for panel in shown]
         new = [name for name in names if name not in self._recent]
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
-        self._choose(layout, frame, fit, tall, shown)
+        self._place = place = self._best(layout, frame, fit, tall) if shown else None
         framed = layout, *(panel.name for panel in shown if panel.frames)
         if framed != self._framed:
-            place = self._place if self._framed is None or len(framed) > 1 else None
-            self._framed, self._room = framed, self._plot if place is None else place.room
+            moves = place is not None and (self._framed is None or len(framed) > 1)
+            self._framed, self._room = framed, place.room if place and moves else self._plot
         return self._room
+
+    @property
+    def _shown(self) -> list[Panel]:
+        return [panel for panel in self.panels if panel.is_open]
 
     @property
     def beside(self) -> bool:
@@ -207,17 +210,11 @@ class Dock:
         """Let the arena move aside for all open panels, when they are arranged next."""
         self._framed = None
 
-    def _choose(
-        self,
-        layout: Layout,
-        frame: Frame,
-        fit: Callable[[Layout], Camera],
-        tall: float,
-        shown: Sequence[Panel],
-    ) -> None:
-        """Choose the place of panels."""
-        if not shown:
-            return
+    def _best(
+        self, layout: Layout, frame: Frame, fit: Callable[[Layout], Camera], tall: float
+    ) -> Place | None:
+        """Return the place at which arena and panels are largest, if there is one."""
+        shown = self._shown
 
         def scale(plot: pygame.Rect) -> float:
             return fit(replace(layout, plot=plot)).scale
@@ -232,49 +229,40 @@ class Dock:
             fits = len(self._unfolded(shown, place.lanes, frame)) == len(shown)
             return fits, arena * room**0.5
 
-        arena = round(tall * whole + 56 * self.painter.ui)
-        places = list(self._places(len(shown), frame, arena))
+        places = list(self._places(frame, round(tall * whole + 56 * self.painter.ui)))
         beside = [place for place in places if scale(place.room) >= BESIDE * whole]
-        if beside:
-            self._place = max(beside, key=worth)
-        elif places:
-            self._place = places[0]._replace(room=self._plot)
+        covering = [place._replace(room=self._plot) for place in places[:1]]
+        return max(beside, key=worth) if beside else next(iter(covering), None)
 
-    def _places(self, panels: int, frame: Frame, arena: int) -> Iterator[Place]:
-        """Yield the places for some panels: columns at the right, and a strip below.
+    def _places(self, frame: Frame, arena: int) -> Iterator[Place]:
+        """Yield the places for the open panels: columns at the right, and a strip below.
 
         arena: how high it is where there are no panels, pixels.
         """
         ui, plot, gap = self.painter.ui, self._plot, round(MARGIN * self.painter.ui)
-        width = round(min(WIDTH * ui, MAX_SHARE * plot.width))
+        shown, width = self._shown, round(min(WIDTH * ui, MAX_SHARE * plot.width))
         if width < MIN_WIDTH * ui:
             return
-        for count in range(1, panels + 1):
-            left = plot.right - count * (width + gap) - gap
-            if left <= plot.left:
+
+        def lanes(area: pygame.Rect, count: int) -> list[pygame.Rect]:
+            wide, high = (area.width - gap) // count - gap, area.height - 2 * gap
+            lefts = (area.left + gap + k * (wide + gap) for k in range(count))
+            return [pygame.Rect(left, area.top + gap, wide, high) for left in lefts]
+
+        for count in range(1, len(shown) + 1):
+            beside = count * (width + gap) + gap
+            if beside >= plot.width:
                 break
-            lanes = [
-                pygame.Rect(
-                    left + gap + k * (width + gap), plot.top + gap, width, plot.height - 2 * gap
-                )
-                for k in range(count)
-            ]
-            yield Place(pygame.Rect(plot.topleft, (left - plot.left, plot.height)), lanes)
-        count = max(1, min(panels, (plot.width - gap) // round(WIDTH * ui + gap)))
-        width = (plot.width - gap) // count - gap
-        lane = pygame.Rect(0, 0, width, plot.height)
-        free = plot.height - arena  # below the arena
-        shown = [panel for panel in self.panels if panel.is_open]
-        least, most = (
-            round(max(self._heights(panel, frame, lane)[k] for panel in shown)) for k in (0, 1)
-        )
-        height = min(max(least, free - 2 * gap), most, round(MAX_SHARE * plot.height))
-        top = plot.bottom - height - 2 * gap
-        lanes = [
-            pygame.Rect(plot.left + gap + k * (width + gap), top + gap, width, height)
-            for k in range(count)
-        ]
-        yield Place(pygame.Rect(plot.topleft, (plot.width, top - plot.top)), lanes)
+            room = pygame.Rect(plot.topleft, (plot.width - beside, plot.height))
+            area = pygame.Rect(room.topright, (beside, plot.height))
+            yield Place(room, lanes(area, count))
+        count = max(1, min(len(shown), (plot.width - gap) // round(WIDTH * ui + gap)))
+        lane = lanes(plot, count)[0]
+        least, most = (max(self._heights(panel, frame, lane)[k] for panel in shown) for k in (0, 1))
+        free = plot.height - arena - 2 * gap  # below the arena
+        below = round(min(max(least, free), most, MAX_SHARE * plot.height)) + 2 * gap
+        room = pygame.Rect(plot.topleft, (plot.width, plot.height - below))
+        yield Place(room, lanes(pygame.Rect(room.bottomleft, (plot.width, below)), count))
 
     def _heights(self, panel: Panel, frame: Frame, lane: pygame.Rect) -> tuple[float, float]:
         """Return the least and the wanted height of a whole panel in a lane, pixels."""
@@ -316,7 +304,7 @@ class Dock:
         """Yield the open panels with their plates."""
         if self._place is None:
             return
-        shown = [panel for panel in self.panels if panel.is_open]
+        shown = self._shown
         unfolded = self._unfolded(shown, self._place.lanes, frame)
         self._folded = {panel.name for panel in shown} - unfolded
         shared = self._shared(shown, self._place.lanes, frame, unfolded)

@@ -8,8 +8,7 @@ from typing import NamedTuple
 import pygame
 
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.actions import label_of
-from mars2d.window.widgets.keys import CONTROL, MODIFIERS
+from mars2d.window.widgets.actions import CONTROL, MODIFIERS, label_of
 
 ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
 """The heights of an entry and of a line below it, the margin, a tick box's side, points."""

@@ -7,8 +7,8 @@ import re
 import pygame
 
 from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.actions import CONTROL
 from mars2d.window.widgets.clipboard import copied, pasted
-from mars2d.window.widgets.keys import CONTROL
 
 
 class TextField:
