@@ -406,19 +406,6 @@ class Scopes(Panel):
         names = [str(scenario.bodies[body].name) for body in signal.bodies]
         return [f"{name} {k}" if each > 1 else name for name in names for k in range(each)]
 
-    @property
-    def areas(self) -> dict[str, pygame.Rect]:
-        """Where the curves of each signal were drawn, by its name."""
-        corner = self._place.topleft
-        return {plot.signal.name: plot.area.move(corner) for plot in self._plots}
-
-    @property
-    def places(self) -> dict[str, pygame.Rect]:
-        """The places of all buttons, those that remove a plot by the name of its signal."""
-        corner = self._place.topleft
-        removes = {plot.signal.name: plot.remove.move(corner) for plot in self._plots}
-        return self._buttons.places | removes
-
     # -- the mouse ----------------------------------------------------------------------------
 
     def handle(self, event: pygame.Event) -> bool:
