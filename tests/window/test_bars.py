@@ -92,12 +92,11 @@ def test_a_banner_has_all_it_can_say(size, text, code, words):
 # -- help -----------------------------------------------------------------------------------------
 
 
-def helped(size, text=1.0, groups=None, page=0):
+def helped(size, text=1.0, page=0):
     layout, surface = Layout.of(size, text=text, controls=True), Written(size)
-    groups = keys.GROUPS.items() if groups is None else groups
     shown = Help()
     shown.page = page
-    shown.draw(surface, layout, painter(layout, LIGHT), groups)
+    shown.draw(surface, layout, painter(layout, LIGHT), keys.GROUPS.items())
     return layout, surface, shown.pages
 
 

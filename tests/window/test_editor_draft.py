@@ -19,8 +19,7 @@ from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor
-from mars2d.window.editor.chrome import Answer, Prompt
-from mars2d.window.editor.desk import Desk, History
+from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
 from mars2d.window.editor.handles import spanned
@@ -29,9 +28,7 @@ from mars2d.window.editor.verdict import judge
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import action_of
-from mars2d.window.widgets.text_field import TextField
 from tests.cases import each_case
-from tests.window.strokes import pressed
 
 pytestmark = pytest.mark.usefixtures("keyboard")
 
@@ -74,6 +71,7 @@ def test_with_a_robot_go_its_route_and_its_joints():
     scenario = draft.scenario()
     assert draft.routes == ((),)
     assert scenario.joints == ()
+    assert draft.added("robot", Robot()).renamed(Item("robot", 1), "second").joints == ()
     assert not any(isinstance(addon, Waypoints) for addon in scenario.addons)
     first = Draft.of(furnished()).without([Item("robot", 0)])
     assert first.routes == (((-3, 3), (-2, 3)),)  # robot 1 is robot 0 now, and so is its route
@@ -90,11 +88,6 @@ def tied(*joints):
     """Return the draft of two boxes, one at (0, 0), the other at (2, 0), and of a robot."""
     boxes = [Box(pose=(0, 0, 0)), Box(pose=(2, 0, pi / 2))]
     return Draft.of(Scenario(robots=[Robot(pose=(-3, 3, 0))], props=boxes, joints=joints))
-
-
-def test_a_rope_goes_with_its_body_and_does_not_come_back_with_the_name():
-    draft = tied(Rope(a="box0", b="box1")).without([Item("prop", 0)]).added("prop", Box())
-    assert (draft.props[1].name, draft.joints) == ("box0", ())
 
 
 def test_copies_are_tied_as_their_models_are():
@@ -203,28 +196,6 @@ def test_outlines_that_are_none(outline, words):
 # -- history, sketch, targets, prompts -------------------------------------------------------------
 
 
-def test_history_goes_back_and_forth_and_merges_nudges():
-    start = Draft.of(furnished())
-    history = History(start)
-    drafts = [start]
-    for _ in range(3):
-        drafts.append(drafts[-1].moved([Item("robot", 0)], Motion(by=(0.1, 0.0))))
-        history.put(drafts[-1])
-    assert [history.go(-1) for _ in range(4)] == [True, True, True, False]
-    assert not history.changed
-    assert [history.go(1) for _ in range(4)] == [True, True, True, False]
-    assert history.draft is drafts[-1]
-    history.mark_saved(history.draft)
-    assert not history.changed
-    for _ in range(3):
-        moved = history.draft.moved([Item("robot", 0)], Motion(by=(0.0, 0.1)))
-        history.put(moved, tag="nudge")
-    assert history.go(-1)
-    assert history.draft is drafts[-1]
-    history.put(history.draft.moved([], Motion()))  # nothing has changed
-    assert history.can_redo
-
-
 def seen_by(camera):
     viewpoint = Viewpoint(furnished(), Layout.of((1280, 720)))
     viewpoint.camera = camera
@@ -264,25 +235,6 @@ def test_a_box_spans_two_corners_whichever_way(end):
     box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
     assert (box.length, box.width) == (1, 2)
     assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
-
-
-def test_a_prompt_shows_what_is_wrong_and_stays():
-    taken = []
-
-    def take(text):
-        taken.append(text)
-        Document(None).named(text)
-
-    answer = Answer("Enter", "save", take)
-    prompt = Prompt("Save as", answer, field=TextField("a", opened_by_key=True))
-    prompt.handle(pygame.Event(pygame.TEXTINPUT, text="="))  # of the key that opened it
-    for event in (*pressed("b"), *pressed("backspace"), *pressed("backspace"), *pressed("return")):
-        prompt.handle(event)
-    assert prompt.open
-    assert prompt.error == "expected a name, such as room.toml"
-    for event in (*pressed("q"), *pressed("enter")):
-        prompt.handle(event)
-    assert (prompt.open, taken) == (False, ["", "q"])
 
 
 def test_a_document_proposes_a_name_that_is_free_and_never_a_py(tmp_path, monkeypatch):

@@ -6,7 +6,7 @@ import mars2d
 from mars2d.addons import Map
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
-from mars2d.scenario.controllers import ByHand, FollowWaypoints, Wander
+from mars2d.scenario.controllers import FollowWaypoints, Wander
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -73,11 +73,6 @@ def test_a_law_comes_from_a_file_and_is_saved_by_its_name(open_editor, tmp_path)
     hands.press("ctrl+s")
     hands.until(lambda s: not s["changed"])
     assert 'controller = "walk.py:walk"' in (tmp_path / "given.toml").read_text()
-
-
-def test_a_law_is_taken_away_again(open_editor):
-    robot = Robot(diameter=0.6, controller=ByHand())
-    hands = chosen(open_editor, Scenario(robots=[robot]))
     hands.row("Law")
     hands.entry("none: it stands still")
     hands.until(lambda s: s["laws"] == [None] and s["idle"] == {"0": "a law"})

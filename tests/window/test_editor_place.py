@@ -2,14 +2,12 @@
 
 import pytest
 
-from mars2d.output.raster.layout import Layout
 from mars2d.scenario.changes import carried
 from mars2d.scenario.controllers import ByHand, FollowWaypoints, Wander
 from mars2d.scenario.experiment import Experiment, Source
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.window import Window
-from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 
@@ -20,19 +18,6 @@ def window_of(scenario, path=None):
 
 def middle(viewpoint):
     return viewpoint.camera.to_world([viewpoint.layout.plot.center])[0].tolist()
-
-
-def test_a_viewpoint_takes_the_place_and_the_scale_of_another_in_a_window_of_another_size():
-    scenario = Scenario()
-    one = Viewpoint(scenario, Layout.of((1280, 720)))
-    other = Viewpoint(scenario, Layout.of((800, 600), controls=True))
-    one.zoom(5, (300, 300))
-    other.look_as(one)
-    assert other.camera.scale == one.camera.scale
-    assert middle(other) == pytest.approx(middle(one))
-    one.fit()
-    other.look_as(one)
-    assert other.camera == Viewpoint(scenario, other.layout).camera
 
 
 def test_the_editor_opens_where_the_window_looked_and_the_window_where_the_editor_did():

@@ -10,7 +10,6 @@ from mars2d.scenario.examples import examples, games
 from mars2d.window.home import Home
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.memory import Memory
-from tests.cases import each_case
 
 SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
 
@@ -61,16 +60,6 @@ def test_each_card_opens_by_a_click_and_its_command_is_one(memory):
         home, surface = shown(memory)
         click(home, surface, card.command)
         assert home.choice == card.command
-
-
-@each_case("size, text", [(SIZES[0], max(TEXT_SIZES)), (SIZES[-2], 1.0), (SIZES[-1], 1.7)])
-def test_no_card_covers_another_at_any_size(memory, size, text):
-    home, _ = shown(memory, size, text)
-    places = [place for _, place in home.page.places]
-    assert len(places) == len(all_cards(home))
-    assert all(len(place.collidelistall(places)) == 1 for place in places)
-    assert min(place.left for place in places) > 0
-    assert max(place.right for place in places) < size[0]
 
 
 def test_what_is_typed_is_searched_for(memory):

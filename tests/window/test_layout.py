@@ -33,8 +33,12 @@ LEAST = 0.4
 """The least share of the picture for the arena."""
 
 
-def overlapping(places):
-    return [(a, b) for (a, one), (b, two) in combinations(places, 2) if one.colliderect(two)]
+def unfit(places, picture):
+    """Yield what lies on something else, or beyond the picture."""
+    for (a, one), (b, two) in combinations(places, 2):
+        if one.colliderect(two):
+            yield a, b
+    yield from (name for name, place in places if not picture.contains(place))
 
 
 def editor_of(text):
@@ -43,51 +47,30 @@ def editor_of(text):
     return Editor(SCENARIO, looks)
 
 
-def drawn(editor, size):
-    """Draw an editor; return its words outside the arena, which has words of its own."""
-    surface = Written(size)
-    editor.draw(surface)
-    plot = editor.layout.plot
-    surface.words = [(word, at) for word, at in surface.words if not plot.contains(at)]
-    return surface
-
-
 def faults_of_editor(size, text):
     """Yield what is wrong with the editor's layout."""
-    editor = editor_of(text)
+    editor, picture = editor_of(text), pygame.Rect(0, 0, *size)
     for selection in ([], [Item("robot", 0)], [Item("prop", 0)]):
         editor.desk.select(selection)
-        surface = drawn(editor, size)
-        yield from surface.crowded()
-        yield from surface.cut()
-    plot, picture = editor.layout.plot, pygame.Rect(0, 0, *size)
+        surface = Written(size)
+        editor.draw(surface)
+        plot = editor.layout.plot  # the arena has words of its own
+        surface.words = [(word, at) for word, at in surface.words if not plot.contains(at)]
+        yield from (*surface.crowded(), *surface.cut())
     if plot.width * plot.height < LEAST * size[0] * size[1]:
         yield f"the arena has {plot.width * plot.height / size[0] / size[1]:.2f} of the picture"
     buttons = [*editor._toolbar.places.items(), *editor._header._places]
-    yield from overlapping(buttons)
-    yield from (name for name, place in buttons if not picture.contains(place))
-    yield from (name for name, place in buttons if place.colliderect(plot))
-    for title in {*editor.panel.places} & {"Mass", "Colour", "More"}:
-        editor.panel.click(editor.panel.places[title].center)
-        surface = Written(size)
-        editor.draw(surface)
-        menu, prompt = editor.menu, editor.dialogs.prompt
-        if menu.is_open:
-            yield from (
-                (title, word)
-                for word, at in surface.words
-                if menu.plate.colliderect(at) and not picture.contains(at)
-            )
-            yield from overlapping(menu.places.items())
-            if not picture.contains(menu.plate) or not menu.places:
-                yield title
-        if prompt is not None:
-            yield from overlapping(prompt.places.items())
-            yield from (
-                name for name, place in prompt.places.items() if not picture.contains(place)
-            )
-        menu.close()
-        editor.dialogs.prompt = None
+    yield from unfit([*buttons, ("the arena", plot)], picture)
+    for title in ("Mass", "Colour", "More"):
+        if title in editor.panel.places:
+            editor.panel.click(editor.panel.places[title].center)
+            editor.draw(surface)
+            prompt, entries = editor.dialogs.prompt, editor.menu.places
+            yield from unfit([*(prompt.places if prompt else entries).items()], picture)
+            if not (prompt or entries):
+                yield f"{title} opens nothing"
+            editor.menu.close()
+            editor.dialogs.prompt = None
 
 
 def faults_of_home(size, text):
@@ -99,9 +82,9 @@ def faults_of_home(size, text):
     shown.draw(surface)
     shown.page.draw(page, shown.painter)
     bars = surface.words[len(page.words) :]  # the cards scroll below them
-    yield from overlapping([*bars, *shown._buttons.places.items()])
-    yield from (word for word, at in bars if not surface.get_rect().contains(at))
-    yield from overlapping([(card.title, place) for card, place in shown.page.places])
+    yield from unfit([*bars, *shown._buttons.places.items()], surface.get_rect())
+    long = surface.get_rect().inflate(0, 99_999)  # the page scrolls
+    yield from unfit([(card.title, place) for card, place in shown.page.places], long)
     if shown.page._area.height < LEAST * size[1]:
         yield "the cards have too little room"
 
@@ -115,7 +98,7 @@ def test_all_has_room_at_every_size_of_the_window_and_of_the_text(size, monkeypa
         faults += [("editor", text, fault) for fault in faults_of_editor(size, text)]
         faults += [("home", text, fault) for fault in faults_of_home(size, text)]
         editor = editor_of(text)
-        drawn(editor, size)
+        editor.draw(Written(size))
         sides.append(editor._toolbar.places["robot"].width)
     assert faults == []
     assert min(sides) >= 0.8 * sides[0], "larger text takes room from the buttons, but not much"

@@ -105,7 +105,7 @@ class Draft:
         return self._sketch(_all(DRAWN, self.base.addons))
 
     def _sketch(self, addons: Sequence[Addon]) -> Scenario:
-        sound = [outline for outline in self.outlines if flaw(outline) is None]
+        sound = [outline for outline in self.outlines if not flaw(outline)]
         animation = self.base.animation.replace(show_initial_pose=False)
         drawn = copy.copy(self.base)
         drawn.__dict__.update(
@@ -413,13 +413,13 @@ def _chart(own: Map | None, outlines: tuple[Outline, ...], walls: tuple[Outline,
 
 
 @lru_cache(maxsize=4096)
-def flaw(outline: Outline, name: str = "it") -> str | None:
-    """Return the fault of an obstacle's outline, in words; None if it is valid."""
+def flaw(outline: Outline, name: str = "it", least: int = 2, *, closed: bool = True) -> str:
+    """Return the fault of an outline, in words; "" if it is valid. The rest: see `checks`."""
     try:
-        checks.outline(name, outline)
+        checks.outline(name, outline, least, closed=closed)
     except InputError as error:
         return str(error)
-    return None
+    return ""
 
 
 def seen_from(body: Rigid | None, point: Point) -> Point:

@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 
 from mars2d.bodies.rigid import Rigid
-from mars2d.core import checks
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.scenario import starts
@@ -92,20 +91,12 @@ class Judge:
 
 def _flaws(draft: Draft) -> Iterator[Fault]:
     """Find invalid outlines."""
-    for i, outline in enumerate(draft.outlines):
-        wrong = flaw(outline, f"obstacle {i}")
-        if wrong is not None:
-            yield Fault(wrong, (Item("outline", i),))
-    for i, wall in enumerate(draft.walls):
-        try:
-            checks.polylines("walls", [wall])
-        except InputError as error:
-            yield Fault(str(error).replace("walls[0]", f"wall {i}"), (Item("wall", i),))
-    if draft.workspace is not None:
-        try:
-            checks.outline("the workspace", draft.workspace, least=3)
-        except InputError as error:
-            yield Fault(str(error), (Item("workspace"),))
+    for item in (*draft.items(), Item("workspace")):
+        corners, least = draft.corners(item), 3 if item.kind == "workspace" else 2
+        if corners is not None:
+            wrong = flaw(corners, draft.name(item), least, closed=item.kind != "wall")
+            if wrong:
+                yield Fault(wrong, (item,))
 
 
 def _misplaced(draft: Draft) -> Iterator[Fault]:
