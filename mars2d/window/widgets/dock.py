@@ -191,6 +191,8 @@ class Dock:
         new = [name for name in names if name not in self._recent]
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
         self._place = place = self._best(layout, frame, fit, tall) if shown else None
+        if self.plates.keys() != set(names):  # what covers the picture, before it is drawn
+            self.plates = {panel.name: place for panel, place in self._placed(frame)}
         framed = layout, *(panel.name for panel in shown if panel.frames)
         if framed != self._framed:
             moves = place is not None and (self._framed is None or len(framed) > 1)
