@@ -60,15 +60,14 @@ def show_experiment(
         source = Timeline(experiment, watchers, log)
         memory = Memory()
         window = Window(source, speed, memory.size, preferences or memory.preferences())
+        window.dock.open(memory.panels)
         window.asks = asks
         if viewpoint is not None:
             window.viewpoint.look_as(viewpoint)
         drivers = list(humans) or _to_be_driven(experiment)
         if drivers or play:
-            window.dock.open({*memory.panels} - {"lesson"})
             window.play(memory, game_of(experiment), drivers[:MOST_PEOPLE])
         else:
-            window.dock.open(memory.panels)
             window.say_who_stands_still()
         try:
             window.run()

@@ -100,6 +100,9 @@ def of_run(window):
     seen = window.grab.shown(frame)
     bar, slider = window._controls.time_bar, window._controls.slider
     banner = window._ending.banner()
+    scopes, plots = window.scopes, window.scopes._plots
+    corner = scopes._place.topleft
+    on_scopes = scopes._buttons.places | {e.signal.name: e.remove.move(corner) for e in plots}
     return {
         "time": round(frame.time, 3),
         "row": source.row,
@@ -140,8 +143,8 @@ def of_run(window):
         "chosen": window.toolbar.menu.chosen,
         "closes": {name: place.center for name, place in window.dock.closes.items()},
         "scopes": {trace.name: [*trace.bodies] for trace in window.scopes.traces},
-        "areas": {name: [*area] for name, area in window.scopes.areas.items()},
-        "on_scopes": {name: place.center for name, place in window.scopes.places.items()},
+        "areas": {each.signal.name: [*each.area.move(corner)] for each in plots},
+        "on_scopes": {name: place.center for name, place in on_scopes.items()},
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
         "sliders": sliders_of(window.parameters) if window.parameters.is_open else {},

@@ -9,6 +9,7 @@ import pygame
 from mars2d import Robot, Scenario, World
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
+from mars2d.window.panels.lesson import Lesson
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock, Panel
 from tests.cases import each_case
@@ -73,7 +74,7 @@ class Seen:
 def some(count):
     panels = [Plain(f"panel{k}") for k in range(count)]
     for panel in panels:
-        panel.is_open = True
+        panel.wanted = True
     return panels
 
 
@@ -103,7 +104,7 @@ def test_where_there_is_little_room_the_one_opened_last_is_seen_whole():
     panels = [Plain(f"panel{k}", least=180.0) for k in range(3)]
     seen = Seen(panels, (640, 480))
     for panel in panels:
-        panel.is_open = True
+        panel.wanted = True
         seen.draw()
         whole = [name for name, plate in seen.dock.plates.items() if plate.height > 100]
         assert whole == [panel.name], "of the others only the titles"
@@ -118,15 +119,15 @@ def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fi
     panels[1].frames = False
     seen = Seen(panels, (1024, 768))
     for framed in (False, True):
-        panels[0].is_open = framed
+        panels[0].wanted = framed
         alone = seen.draw().arena
-        panels[1].is_open = True
+        panels[1].wanted = True
         assert seen.draw().arena == alone
         seen.draw(alone.center)
         assert not seen.dock.plates["inspector"].collidepoint(alone.center)
-        panels[1].is_open = False
+        panels[1].wanted = False
         assert seen.draw().arena == alone
-    panels[0].is_open, panels[1].is_open = False, True
+    panels[0].wanted, panels[1].wanted = False, True
     seen.draw()
     seen.dock.reframe()
     assert not seen.draw().dock.plates["inspector"].colliderect(seen.arena)
@@ -165,3 +166,15 @@ def test_the_mouse_over_a_panel_is_the_panels_and_a_drag_until_it_ends():
     assert not send(pygame.MOUSEMOTION, outside)
     assert panel.events[2:] == [pygame.MOUSEMOTION, pygame.MOUSEBUTTONUP]
     assert not seen.dock.handle(pygame.Event(pygame.KEYDOWN, key=pygame.K_a))
+
+
+def test_a_panel_without_anything_to_show_is_remembered_all_the_same(tmp_path):
+    (tmp_path / "short.py").write_text('"""Short."""\n')
+    (tmp_path / "long.py").write_text('"""Long.\n\nQuestion: how far? Measured: a way.\n"""\n')
+    for name, shown in (("short", False), ("long", True)):
+        lesson = Lesson(Painter(), tmp_path / f"{name}.py")
+        dock = Dock(Painter(), [lesson])
+        dock.open(["lesson"])
+        assert lesson.is_open == shown
+        assert dock.opened == ["lesson"]
+    assert lesson.parts == [("", "Long."), ("Question", "How far?"), ("Measured", "A way.")]

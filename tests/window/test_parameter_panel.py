@@ -55,7 +55,7 @@ class Desk:
         self.panel = ParameterPanel(
             Painter(), self.player, self.selection, self.take, lambda: self.now
         )
-        self.panel.is_open = True
+        self.panel.wanted = True
         self.frame = World(Scenario(robots=[Robot()])).frame
         self.draw()
 

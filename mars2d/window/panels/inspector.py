@@ -93,7 +93,7 @@ class Inspector(Panel):
         self._first = 0  # how many sections behind the state are turned away by the wheel
 
     @property
-    def is_open(self) -> bool:  # type: ignore[override]
+    def is_open(self) -> bool:
         """Whether a body is shown."""
         return self.selection.body is not None
 

@@ -19,7 +19,7 @@ HEADINGS = re.compile(
 """The words with which parts of a docstring begin."""
 LINE, SIZE = 18.0, 13.0
 """The heights of a line and of its letters, points."""
-LEAST_LINES, MOST_LINES = 8, 100
+LEAST_LINES, MOST_LINES = 4, 100
 """The lines that are seen at least, and the most of a part."""
 
 
@@ -34,21 +34,12 @@ class Lesson(Panel):
     def __init__(self, painter: Painter, path: Path | None) -> None:
         """Read a file; one without a docstring of several parts has no lesson."""
         self.painter, self.parts = painter, parts_of(path)
-        self._wanted, self._first = False, 0
+        self._first = 0
 
     @property
     def offered(self) -> bool:
         """Whether there is a lesson."""
         return len(self.parts) > 1
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it is wanted, and there is one."""
-        return self._wanted and self.offered
-
-    @is_open.setter
-    def is_open(self, wanted: bool) -> None:
-        self._wanted = wanted
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
         """Return the least and the wanted height at a width, points."""
@@ -92,5 +83,5 @@ def parts_of(path: Path | None) -> list[tuple[str, str]]:
     text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
     first, *rest = HEADINGS.split(" ".join(text.split()))
     named = zip(rest[::2], rest[1::2], strict=True)
-    parts = [("", first), *named]
-    return [(heading, part[:1].upper() + part[1:].strip()) for heading, part in parts]
+    parts = [(heading, text.strip()) for heading, text in (("", first), *named)]
+    return [(heading, text[:1].upper() + text[1:]) for heading, text in parts]

@@ -67,19 +67,10 @@ class Predictions(Panel):
     ) -> None:
         """Start with nothing read."""
         self.painter, self.reading = painter, Reading(0.0, False, (), None)
-        self._timeline, self._clock, self._wanted = timeline, clock, False
+        self._timeline, self._clock = timeline, clock
         self._read: tuple[World, int] | None = None
         self._next, self._cost = -math.inf, 0.0
         self._first = 0  # the prediction at the top, if there is no room for all
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it is wanted, and the experiment has checks."""
-        return self._wanted and self.offered
-
-    @is_open.setter
-    def is_open(self, wanted: bool) -> None:
-        self._wanted = wanted
 
     @property
     def offered(self) -> bool:
@@ -89,7 +80,7 @@ class Predictions(Panel):
     def look(self, *, playing: bool) -> bool:
         """Read the run again if it has gone on; return whether there is something new to see."""
         timeline, now = self._timeline, self._clock()
-        if timeline is None or not self.is_open or not self.offered:
+        if timeline is None or not self.is_open:
             return False
         world = timeline.world
         of = world, world.iteration

@@ -124,7 +124,7 @@ class Scopes(Panel):
 
     def open(self) -> None:
         """Open it; where nothing is plotted, the robots' speeds are."""
-        self.is_open = True
+        super().open()
         if not self.traces:
             robots = len(self._player.source.recorded.scenario.robots)
             self.traces.append(Trace("speed", tuple(range(robots))))
@@ -147,7 +147,7 @@ class Scopes(Panel):
                 self.traces.remove(trace)
         else:
             trace.bodies = (*trace.bodies, *(b for b in bodies if b not in trace.bodies))
-        self.is_open = bool(self.traces)
+        self.wanted = bool(self.traces)
         self._image = None
 
     def renew(self, functions: Sequence[Callable[[Any], Any]]) -> None:
@@ -165,7 +165,7 @@ class Scopes(Panel):
             if trace.bodies and not bodies:
                 self.traces.remove(trace)
             trace.bodies = bodies
-        self.is_open = self.is_open and bool(self.traces)
+        self.wanted = self.is_open and bool(self.traces)
 
     def _trace(self, what: What) -> Trace | None:
         return next((trace for trace in self.traces if trace.what == what), None)
@@ -406,19 +406,6 @@ class Scopes(Panel):
         names = [str(scenario.bodies[body].name) for body in signal.bodies]
         return [f"{name} {k}" if each > 1 else name for name in names for k in range(each)]
 
-    @property
-    def areas(self) -> dict[str, pygame.Rect]:
-        """Where the curves of each signal were drawn, by its name."""
-        corner = self._place.topleft
-        return {plot.signal.name: plot.area.move(corner) for plot in self._plots}
-
-    @property
-    def places(self) -> dict[str, pygame.Rect]:
-        """The places of all buttons, those that remove a plot by the name of its signal."""
-        corner = self._place.topleft
-        removes = {plot.signal.name: plot.remove.move(corner) for plot in self._plots}
-        return self._buttons.places | removes
-
     # -- the mouse ----------------------------------------------------------------------------
 
     def handle(self, event: pygame.Event) -> bool:
@@ -442,7 +429,7 @@ class Scopes(Panel):
         for plot in self._plots:
             if plot.remove.collidepoint(at):
                 self.traces.remove(plot.trace)
-                self.is_open, self._image, self._plots = bool(self.traces), None, []
+                self.wanted, self._image, self._plots = bool(self.traces), None, []
                 return False
             if plot.area.collidepoint(at):
                 self._held = plot

@@ -40,7 +40,7 @@ class ScorePanel(Panel):
     def __init__(self, painter: Painter, play: Play) -> None:
         """Start open."""
         self.painter, self.play = painter, play
-        self.is_open = True
+        self.wanted = True
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the height of how it stands, and that with how it has ended."""

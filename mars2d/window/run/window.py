@@ -423,7 +423,7 @@ class Window(PlayerWindow):
         self.player.restart()
         self._meet()
         if self.game is not None and self._score is not None:
-            self._score.is_open = True
+            self._score.wanted = True
             self.game.begin()
 
     def _offer_panel(self, panel: Predictions | Lesson, lacks: str) -> None:

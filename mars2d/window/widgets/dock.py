@@ -45,9 +45,9 @@ class Panel:
     name: one word, by which the panel is opened and remembered. title: written at its top, and all
     that is seen of it where there is no room. headed: whether the dock writes the title; else the
     panel draws a head of its own, and leaves the corner at the upper right to the close button.
-    frames: whether the arena moves aside when it opens or changes its size. is_open: whether it is
-    wanted. remembered: whether the next window opens it again. pointer:
-    where the mouse is, if it is over the panel; the dock sets it before each drawing.
+    frames: whether the arena moves aside when it opens or changes its size. wanted: whether it is
+    to be open. remembered: whether the next window opens it again. pointer: where the mouse is, if
+    it is over the panel; the dock sets it before each drawing.
     """
 
     name = ""
@@ -55,16 +55,26 @@ class Panel:
     headed = True
     frames = True
     remembered = True
-    is_open = False
+    wanted = False
     pointer: Pixel | None = None
+
+    @property
+    def offered(self) -> bool:
+        """Whether there is anything to show."""
+        return True
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is wanted, and there is something to show."""
+        return self.wanted and self.offered
 
     def open(self) -> None:
         """Open it."""
-        self.is_open = True
+        self.wanted = True
 
     def close(self) -> None:
         """Close it."""
-        self.is_open = False
+        self.wanted = False
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the least and the wanted height of the content at a width, points.
@@ -128,7 +138,7 @@ class Dock:
     @property
     def opened(self) -> list[str]:
         """The names of the open panels that are remembered."""
-        return [panel.name for panel in self.panels if panel.is_open and panel.remembered]
+        return [panel.name for panel in self.panels if panel.wanted and panel.remembered]
 
     @property
     def free(self) -> list[pygame.Rect]:
@@ -181,6 +191,8 @@ class Dock:
         new = [name for name in names if name not in self._recent]
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
         self._place = place = self._best(layout, frame, fit, tall) if shown else None
+        if self.plates.keys() != set(names):  # what covers the picture, before it is drawn
+            self.plates = {panel.name: place for panel, place in self._placed(frame)}
         framed = layout, *(panel.name for panel in shown if panel.frames)
         if framed != self._framed:
             moves = place is not None and (self._framed is None or len(framed) > 1)
