@@ -382,7 +382,9 @@ class Simulation(State):
 
     def resume(self) -> None:
         """Go on with an engine that was put here, also from within a step of the one before."""
-        super().resume()
+        for array in (self.command, self.effort, self.contacts):  # copies can be written
+            locked(array)
+        self._take_engine()
         self.surroundings.renew()
         self._stepping = False
 

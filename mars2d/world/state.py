@@ -125,12 +125,6 @@ class State(Uncopied):
         self.engine = ENGINES[scenario.physics](scenario)
         self._take_engine()
 
-    def resume(self) -> None:
-        """Go on with an engine that was put here, and goes on as the one before it."""
-        for array in (self.command, self.effort, self.contacts):  # copies can be written
-            locked(array)
-        self._take_engine()
-
     def _take_engine(self) -> None:
         self.take_poses()
         self._velocity_at = -1, self.pose
