@@ -41,8 +41,8 @@ def repeated(act: Act) -> Act:
 class Motion:
     """The base of engines: robots first, then props. space: the bodies as sensors see them.
 
-    seen_velocity, seen_work: as `velocity` and `work`, at the last `look`, in memory that the next
-    one writes again.
+    seen_velocity, seen_work: as `velocity`, and the work on all bodies since the start (6,), J, see
+    `mars2d.record.energy.WORK`; at the last `look`, in memory that the next one writes again.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -90,12 +90,6 @@ class Motion:
         effort = array("d", bytes(8 * self.n))
         self._mover.take_effort(effort)
         return np.frombuffer(effort)
-
-    @property
-    def work(self) -> Float:
-        """The work on all bodies since the start (6,), joules; see `mars2d.record.energy.WORK`."""
-        self.look()
-        return self.seen_work.copy()
 
     @repeated
     def take_contacts(self) -> NDArray[np.void]:
