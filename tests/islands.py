@@ -39,7 +39,7 @@ def plainly() -> Iterator[None]:
 def mover_of(scenario: Scenario) -> Mover:
     """Return what moves the bodies of a scenario, in Python."""
     with plainly():
-        mover: Mover = translation.mover_of(scenario, None, ())
+        mover: Mover = translation.mover_of(scenario)
     return mover
 
 

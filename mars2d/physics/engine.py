@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.physics import settings
-from mars2d.physics.motion import Motion, Start, repeated
+from mars2d.physics.motion import Motion, repeated
 from mars2d.physics.translation import iterations_of
 from mars2d.scenario.scenario import Scenario
 
@@ -24,9 +24,9 @@ Float = NDArray[np.float64]
 class Engine(Motion):
     """The motion of one world's bodies where ``Scenario.physics`` is "contact"."""
 
-    def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
+    def __init__(self, scenario: Scenario) -> None:
         """Build all that moves or is touched; see `Motion`."""
-        super().__init__(scenario, start)
+        super().__init__(scenario)
         depth = settings.PUSH_DEPTH * scenario.max_overlap  # of one iteration
         self._depth_of_push = depth * iterations_of(scenario)
 
@@ -37,7 +37,6 @@ class Engine(Motion):
         time: at the start, seconds, for the contacts. Raises FloatingPointError where a number is
         not finite, or nearly so: the motion is lost then.
         """
-        self._twist = twist
         try:
             self._mover.drive(array("d", twist.tobytes()), duration, time)
         except (ArithmeticError, ValueError) as error:

@@ -7,7 +7,7 @@ from array import array
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.physics.motion import Motion, Start, repeated
+from mars2d.physics.motion import Motion, repeated
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -21,12 +21,9 @@ class Kinematics(Motion):
     "ideal", both go through. Contacts are noted either way, without impulses. Joints do not act.
     """
 
-    def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
+    def __init__(self, scenario: Scenario) -> None:
         """Take all that moves or is touched; see `Motion`."""
-        if start is not None:
-            still = np.zeros_like(start.slipping), np.zeros_like(start.twist)
-            start = Start(start.state, *still)
-        super().__init__(scenario, start)
+        super().__init__(scenario)
         self._stops = scenario.physics == "stop"
 
     @repeated

@@ -6,7 +6,7 @@ import weakref
 from array import array
 from collections.abc import Callable, Mapping
 from functools import wraps
-from typing import Any, NamedTuple, Self, TypeVar, cast
+from typing import Any, Self, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,6 @@ from mars2d.record.contact import CONTACT
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 Act = TypeVar("Act", bound=Callable[..., Any])
 
 NOTHING = np.empty(0, dtype=CONTACT)
@@ -26,26 +25,6 @@ NOTHING.flags.writeable = False
 
 WIDE = np.dtype([(name, ("f8", CONTACT[name].shape)) for name in CONTACT.names or ()])
 """The fields of CONTACT, all of them as floating-point numbers."""
-
-
-class Start(NamedTuple):
-    """How bodies move at an instant: their states (N, 6), which of them slip (N,), twists (3, n).
-
-    A state is x, y [m], theta [rad], and their rates; a twist is the velocity that a drive is asked
-    for.
-    """
-
-    state: Float
-    slipping: Mask
-    twist: Float
-
-    def moved(self, poses: Mapping[int, tuple[float, float, float]]) -> Start:
-        """Return a copy with some bodies at rest at other poses."""
-        state, slipping = self.state.copy(), self.slipping.copy()
-        for body, pose in poses.items():
-            state[body] = (*pose, 0.0, 0.0, 0.0)
-            slipping[body] = False
-        return Start(state, slipping, self.twist)
 
 
 def repeated(act: Act) -> Act:
@@ -62,24 +41,15 @@ def repeated(act: Act) -> Act:
 class Motion:
     """The base of engines: robots first, then props. space: the bodies as sensors see them.
 
-    seen_velocity, seen_work: as `velocity` and `work`, at the last `look`, in memory that the next
-    one writes again.
+    seen_velocity, seen_work: as `velocity`, and the work on all bodies since the start (6,), J, see
+    `mars2d.record.energy.WORK`; at the last `look`, in memory that the next one writes again.
     """
 
-    def __init__(self, scenario: Scenario, start: Start | None = None) -> None:
-        """Build robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls.
-
-        start: how all bodies move at first; by default, as the scenario says.
-        """
+    def __init__(self, scenario: Scenario) -> None:
+        """Build robots, props, obstacles and, where `on_exit` is "wall", the workspace's walls."""
         self._scenario = scenario
         self.n, self.count = len(scenario.robots), len(scenario.bodies)
-        if start is None:
-            self._twist = np.zeros((3, self.n))
-            self._mover = mover_of(scenario, None, ())
-        else:
-            self._twist = start.twist
-            self._mover = mover_of(scenario, start.state, start.slipping.tolist())
-            self._mover.command(array("d", self._twist.tobytes()))
+        self._mover = mover_of(scenario)
         weakref.finalize(self, self._mover.free)
         self.rest()
         self._numbers = array("d", bytes(48 * self.count))
@@ -106,20 +76,12 @@ class Motion:
         self._mover.write_velocities(self._rates)
         self._mover.write_work(self._worked)
 
-    @property
-    def motion(self) -> Start:
-        """How all bodies move now: a motion that starts with it goes on from here."""
-        state = self._state.copy()
-        state[:, 3:] = self.velocity.T
-        return Start(state, np.array(self._mover.slipping(), dtype=bool), self._twist)
-
     @repeated
     def ask(self, twist: Float) -> None:
         """Set the velocities that the robots are asked for at this instant, (3, n).
 
         Those that stand still since they were stopped go on to do so.
         """
-        self._twist = twist
         self._mover.ask(array("d", twist.tobytes()))
 
     @repeated
@@ -128,12 +90,6 @@ class Motion:
         effort = array("d", bytes(8 * self.n))
         self._mover.take_effort(effort)
         return np.frombuffer(effort)
-
-    @property
-    def work(self) -> Float:
-        """The work on all bodies since the start (6,), joules; see `mars2d.record.energy.WORK`."""
-        self.look()
-        return self.seen_work.copy()
 
     @repeated
     def take_contacts(self) -> NDArray[np.void]:
@@ -158,10 +114,25 @@ class Motion:
 
     def fork(self) -> Self:
         """Return an engine that goes on from this instant as this one does, to the bit."""
-        fork = type(self)(self._scenario)
-        fork._mover.remember(self._rested)
-        fork._mover.write_states(fork._numbers)
-        fork._rested, fork._twist = self._rested, self._twist
+        fork = self._resumed(self._scenario, self._rested)
         for act, arguments in self._acts:
             act(fork, *arguments)
         return fork
+
+    def changed(self, scenario: Scenario, moved: Mapping[int, tuple[float, float, float]]) -> Self:
+        """Return an engine of another scenario that goes on from here; this one ends.
+
+        moved: poses of bodies that stand still elsewhere, by index. Contacts begin again. What that
+        changes in the bodies' energies is the work of hands.
+        """
+        memories: list[Any] = [(memory, []) for memory, _ in self._mover.rest()]
+        for body, pose in moved.items():
+            memories[body] = (*pose, 0.0, 0.0, 0.0, False, *memories[body][0][7:]), []
+        return self._resumed(scenario, memories)
+
+    def _resumed(self, scenario: Scenario, memories: list[Any]) -> Self:
+        resumed = type(self)(scenario)
+        resumed._mover.remember(memories)
+        resumed._mover.write_states(resumed._numbers)
+        resumed._rested = memories
+        return resumed

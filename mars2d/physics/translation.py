@@ -33,21 +33,14 @@ from mars2d.scenario.scenario import Obstacle, Scenario
 Float = NDArray[np.float64]
 
 
-def mover_of(scenario: Scenario, states: Float | None, slips: Sequence[bool]) -> Any:
-    """Return the motion of the bodies of a scenario.
-
-    states: (N, 6) where and how all bodies move at first; None: as the scenario says. slips: which
-    of them slip then.
-    """
+def mover_of(scenario: Scenario) -> Any:
+    """Return the motion of the bodies of a scenario."""
     module = islands()
     parts: tuple[Robot | Prop, ...] = (*scenario.robots, *scenario.props)
     bodies = [
         _body(module, i, rigid, part, scenario.physics == "contact")
         for i, (rigid, part) in enumerate(zip(scenario.bodies, parts, strict=True))
     ]
-    if states is not None:
-        for body, state, one in zip(bodies, states.tolist(), slips, strict=True):
-            body.move(state, bool(one))
     accuracy = _accuracy(scenario)
     return module.Mover(
         module.Accuracy(accuracy),
@@ -89,7 +82,7 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bo
             "no_load_speed": 1e300 if drive.no_load_speed is None else drive.no_load_speed,
             "grips": [1e300 if g is None else g * inertia.mass * GRAVITY for g in drive.grips],
         })  # fmt: skip
-    body.move([float(number) for number in (*rigid.pose, *rigid.velocity)], False)
+    body.move([float(number) for number in (*rigid.pose, *rigid.velocity)])
     return body
 
 

@@ -141,7 +141,7 @@ class Operator:
         if fault:
             name = world.scenario.bodies[index].name
             raise InputError(f"{name} can't be put there: it would {fault}")
-        world.rebuild(world.motion.moved({index: place.pose}))
+        world.move({index: place.pose})
         self.log.append(place)
 
     def change(
@@ -161,14 +161,19 @@ class Operator:
         if control is not None:
             checks.function("control", control, "the world")
         world.observe()
-        start = world.motion.moved(moved)
         stays = not moved and scenario.surfaces == world.scenario.surfaces
         moves_on = stays and moves_alike(world.scenario, scenario)
-        changed = scenario if stays else with_poses(scenario, start.state[:, :3].T)
+        if stays:
+            changed = scenario
+        else:
+            poses = np.hstack([world.pose, world.prop_pose])
+            for body, pose in moved.items():
+                poses[:, body] = pose
+            changed = with_poses(scenario, poses)
         made = tuple((options or {}).items())
         where = tuple(moved.items())
         self.log.append(Change(world.iteration, scenario, where, control, made, given))
-        world.go_on(changed, control, None if moves_on else start)
+        world.go_on(changed, control, None if moves_on else moved)
 
     def pull(
         self,

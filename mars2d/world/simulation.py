@@ -19,7 +19,6 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.core.hints import described
 from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene
-from mars2d.physics.motion import Start
 from mars2d.record.columns import DiskError, Storage
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
@@ -355,31 +354,39 @@ class Simulation(State):
 
     # -- changes while it runs -------------------------------------------------------------------
 
-    def go_on(self, scenario: Scenario, control: Control | None, start: Start | None) -> None:
+    def go_on(
+        self,
+        scenario: Scenario,
+        control: Control | None,
+        moved: Mapping[int, tuple[float, float, float]] | None,
+    ) -> None:
         """Go on with another scenario, checked before; laws and add-ons that stay remember.
 
-        start: how everything moves from now on, where bodies or obstacles were moved.
+        moved: poses of bodies that stand still elsewhere, by index; None: all move on as they do.
         """
         same = {addon.key for addon in self.scenario.addons if addon in scenario.addons}
-        energy = self.energy.total
         self.scenario = scenario
         self._drives.renew({str(robot.name): robot.drive for robot in scenario.robots})
         there = {key: addon for key, addon in vars(self.addons).items() if key in same}
         self._take_scenario(there, control)
-        if start is not None:
-            self.restart_engine(start, energy)
+        if moved is None:
+            self.surroundings.renew()
+        else:
+            self.move(moved)
+
+    def move(self, moved: Mapping[int, tuple[float, float, float]]) -> None:
+        """Go on with some bodies standing still at other poses, by index."""
+        self.engine = self.engine.changed(self.scenario, moved)
+        self._take_engine()
         self.surroundings.renew()
 
     def resume(self) -> None:
         """Go on with an engine that was put here, also from within a step of the one before."""
-        super().resume()
+        for array in (self.command, self.effort, self.contacts):  # copies can be written
+            locked(array)
+        self._take_engine()
         self.surroundings.renew()
         self._stepping = False
-
-    def rebuild(self, start: Start) -> None:
-        """Go on with everything moving like this."""
-        self.restart_engine(start, self.energy.total)
-        self.surroundings.renew()
 
 
 def _refuse(given: str, message: str) -> NoReturn:

@@ -17,11 +17,10 @@ from mars2d.core.streams import stream
 from mars2d.core.usercode import called
 from mars2d.physics.engine import Engine
 from mars2d.physics.kinematics import Kinematics
-from mars2d.physics.motion import Start
 from mars2d.physics.settings import versions
 from mars2d.record.columns import Storage
 from mars2d.record.contact import CONTACT
-from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
+from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.recorder import History, Recorder, Unrecorded
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.uncopied import Uncopied
@@ -123,24 +122,7 @@ class State(Uncopied):
         self.driven: list[tuple[float, Float]] = []
         self._neighbours: tuple[int, Sequence[Sequence[int]]] = (-1, ())
         self._robots, self._props = slice(n), slice(n, None)  # columns of all bodies' arrays
-        self._worked: Float | None = None  # before the engine that is there now, if any was
-        self.engine = ENGINES[scenario.physics](scenario, None)
-        self._take_engine()
-
-    def restart_engine(self, start: Start, energy: Float) -> None:
-        """Begin with a new engine; start: how everything moves. energy: of all bodies before, J.
-
-        What that changes in the bodies' energies is the work of hands.
-        """
-        self._worked = self.work
-        self.engine = ENGINES[self.scenario.physics](self.scenario, start)
-        self._take_engine()
-        self._worked[WORK.index("hands")] += self.energy.total - energy
-
-    def resume(self) -> None:
-        """Go on with an engine that was put here, and goes on as the one before it."""
-        for array in (self.command, self.effort, self.contacts):  # copies can be written
-            locked(array)
+        self.engine = ENGINES[scenario.physics](scenario)
         self._take_engine()
 
     def _take_engine(self) -> None:
@@ -197,8 +179,7 @@ class State(Uncopied):
         The next look may write to the same memory.
         """
         self.engine.look()
-        velocity, prop_velocity, work = self._seen
-        return velocity, prop_velocity, work if self._worked is None else work + self._worked
+        return self._seen
 
     @property
     def work(self) -> Float:
@@ -218,11 +199,6 @@ class State(Uncopied):
     @property
     def _poses(self) -> Float:
         return np.hstack([self.pose, self.prop_pose])
-
-    @property
-    def motion(self) -> Start:
-        """How everything moves at this instant."""
-        return self.engine.motion
 
     @cached_property
     def rng(self) -> np.random.Generator:

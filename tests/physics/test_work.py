@@ -152,7 +152,8 @@ def test_a_pull_from_outside_is_the_work_of_hands():
     engine.drive(np.zeros((3, 1)), 0.5, 0.0)
     engine.let_go()
     speed = 5.0 / 2.0 * 0.5
-    assert engine.work[HANDS] == pytest.approx(2.0 * speed**2 / 2, rel=1e-6)
+    engine.look()
+    assert engine.seen_work[HANDS] == pytest.approx(2.0 * speed**2 / 2, rel=1e-6)
     assert hypot(*engine.velocity[:2, 1]) == pytest.approx(speed, rel=1e-6)
 
 

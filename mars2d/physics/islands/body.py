@@ -123,10 +123,9 @@ class Body(DrivenBody):
         self.back, self.initial = State(), Progress()
         self.wall_pairs, self.contacts, self.shapes = [], [], []
 
-    def move(self, state: list[float], slips: bool) -> None:
-        """Take x, y, theta, x', y', theta', and whether it slips."""
+    def move(self, state: list[float]) -> None:
+        """Take x, y, theta, x', y', theta'."""
         self.x, self.y, self.angle, self.vx, self.vy, self.spin = state
-        self.slips = slips
         self.energy = 0.0
         self.account_now()
         self.by_holder = 0.0
@@ -137,17 +136,21 @@ class Body(DrivenBody):
             self.x, self.y, self.angle, self.vx, self.vy, self.spin,
             self.slips, self.since, self.effort, self.energy, self.by_holder, self.by_push,
             self.by_friction, self.by_joint, self.by_hand,
-            self.forward, self.left, self.turning, self.load, self.slack, self.com_x, self.com_y,
+            self.forward, self.left, self.turning, self.load, self.slack,
         )  # fmt: skip
 
     def remember(self, memory: tuple[Any, ...]) -> None:
-        """Go on from the memory of a body like this one."""
+        """Go on from the memory of a body like this; another energy is the work of hands."""
         (
             self.x, self.y, self.angle, self.vx, self.vy, self.spin,
             self.slips, self.since, self.effort, self.energy, self.by_holder, self.by_push,
             self.by_friction, self.by_joint, self.by_hand,
-            self.forward, self.left, self.turning, self.load, self.slack, self.com_x, self.com_y,
+            self.forward, self.left, self.turning, self.load, self.slack,
         ) = memory  # fmt: skip
+        by_holder: cython.double = self.by_holder
+        self.account_now()
+        self.by_hand += self.by_holder - by_holder
+        self.by_holder = by_holder
 
     @cython.cfunc
     def look(self) -> cython.void:

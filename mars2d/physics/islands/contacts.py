@@ -267,7 +267,7 @@ def lasting_touches(body: Body) -> list[Any]:
     lasting: list[Any] = []
     touch: Touch
     for touch in body.contacts:
-        lasting.append((touch.b, touch.last))  # noqa: PERF401 - as in `Mover.slipping`
+        lasting.append((touch.b, touch.last))  # noqa: PERF401 - as in `Mover.rest`
     return lasting
 
 

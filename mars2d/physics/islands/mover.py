@@ -431,14 +431,6 @@ class Mover:
             work[4] += body.by_joint
             work[5] += body.by_hand
 
-    def slipping(self) -> list[bool]:
-        """Return which bodies slip."""
-        slips: list[bool] = []
-        body: Body
-        for body in self.bodies:
-            slips.append(body.slips)  # noqa: PERF401 - a comprehension would not know the class
-        return slips
-
     def pull(self, i: int, pull: list[float]) -> None:
         """Let a force x, y and a torque act on a body, until `let_go`."""
         body: Body = self.bodies[i]
@@ -479,7 +471,8 @@ class Mover:
         memories: list[Any] = []
         body: Body
         for body in self.bodies:
-            memories.append((body.memory(), lasting_touches(body)))  # noqa: PERF401 - as below
+            # A comprehension would not know the class.
+            memories.append((body.memory(), lasting_touches(body)))  # noqa: PERF401
         return memories
 
     def remember(self, memories: list[Any]) -> None:
