@@ -22,8 +22,6 @@ from mars2d.world.world import Watcher
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
-    from mars2d.window.run.window import Window
-    from mars2d.window.screen.memory import Memory
     from mars2d.window.screen.viewpoint import Viewpoint
 
 
@@ -63,7 +61,9 @@ def show_experiment(
         window.asks = asks
         if viewpoint is not None:
             window.viewpoint.look_as(viewpoint)
-        drivers = list(humans) or _to_be_driven(experiment)
+        robots = enumerate(experiment.scenario.robots)
+        by_hand = [i for i, robot in robots if isinstance(robot.controller, ByHand)]
+        drivers = list(humans) or by_hand  # robots whose law is that a person drives them
         if drivers or play:
             window.play(memory, game_of(experiment), drivers[:MOST_PEOPLE])
         else:
@@ -81,7 +81,9 @@ def show_experiment(
             memory.keep(**window.remembered)
             if viewpoint is not None:
                 viewpoint.look_as(window.viewpoint)
-        _remember(memory, experiment, window)
+        path = experiment.source.path
+        if path is not None and path.parent not in {each.parent for each in examples().values()}:
+            memory.opened(path, window.arena())
     return source.record
 
 
@@ -102,12 +104,6 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
         memory.keep(**window.remembered)
 
 
-def _to_be_driven(experiment: Experiment) -> list[int]:
-    """Return the robots whose law is that a person drives them."""
-    robots = experiment.scenario.robots
-    return [i for i, robot in enumerate(robots) if isinstance(robot.controller, ByHand)]
-
-
 def show_comparison(
     opened: Callable[[str], Experiment],
     speed: float | str,
@@ -126,10 +122,3 @@ def show_comparison(
     memory, trio = Memory(), Trio(opened)
     CompareWindow(trio, speed, memory.size, preferences or memory.preferences()).run()
     return trio.records
-
-
-def _remember(memory: Memory, experiment: Experiment, window: Window) -> None:
-    """Note that the file of an experiment was opened, unless it is a shipped example."""
-    path = experiment.source.path
-    if path is not None and path.parent not in {each.parent for each in examples().values()}:
-        memory.opened(path, window.arena())

@@ -183,12 +183,10 @@ class Stage:
             numbers = labels(plot, camera, bounds, painter.fonts, painter.ui, painter.theme)
             surface.fblits(numbers)
         shown = [each for each in self._legends_of(frame.scenario) if getattr(layers, each.layer)]
-        self._draw_legends(shot, shown, free or [plot])
+        self._draw_legends(shot, shown, [*free] or [plot])
         surface.set_clip(before)
 
-    def _draw_legends(
-        self, shot: _Shot, shown: Sequence[Legend], free: Sequence[pygame.Rect]
-    ) -> None:
+    def _draw_legends(self, shot: _Shot, shown: list[Legend], free: list[pygame.Rect]) -> None:
         """Draw legends beside the workspace if there is room, from a picture that is kept."""
         painter, camera, names = self.painter, shot.camera, [legend.layer for legend in shown]
         beside = [strip for room in free for strip in self._around(shot, room)]
@@ -204,8 +202,8 @@ class Stage:
     def _around(self, shot: _Shot, room: pygame.Rect) -> list[pygame.Rect]:
         """Return the parts of a room beside the workspace and the numbers of its axes."""
         xmin, xmax, ymin, ymax = shot.frame.scenario.bounds
-        corners = shot.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int)
-        (left, top), (right, bottom) = corners.tolist()
+        corners = shot.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int).tolist()
+        (left, top), (right, bottom) = corners
         numbers = round(NUMBERS * self.painter.ui)
         left, right, bottom = left - numbers, right + numbers // 3, bottom + numbers // 2
         sides = (
