@@ -152,7 +152,7 @@ class Play:
         if winner is None:
             words = "A draw"
         elif len(self.seats) > 1 or not mine:
-            words = f"{winner[:1].upper()}{winner[1:]} wins"
+            words = f"{winner[:1].upper()}{winner[1:]} {'win' if winner.endswith('s') else 'wins'}"
         else:
             words = "You win" if winner == mine[0].role else "You lose"
         return Result(words, teams.get(winner or "", ()), self._noted(record, winner, mine))
