@@ -47,9 +47,7 @@ CONTROLS = {
     "figure": Control("Save as a figure", "", "M4 4h16v16H4ZM7 16l4-5 3 3 3-6"),
     "table": Control("Save the numbers as CSV", "", "M4 5h16v14H4ZM4 10h16M4 14.5h16M10 5v14"),
     "predictions": Control("Predictions", "F3", "M4 6l2 2 3.5-4M4 15l2 2 3.5-4M13 6.5h7M13 15.5h7"),
-    "lesson": Control(
-        "Lesson", "F4", "M4 5c3-1 6-1 8 1 2-2 5-2 8-1v13c-3-1-6-1-8 1-2-2-5-2-8-1ZM12 6v13"
-    ),
+    "lesson": Control("Lesson", "F4", "M4 5h7l1 1 1-1h7v14h-7l-1 1-1-1H4ZM12 6v13"),
     "drive": Control(
         "Drive by hand",
         "H",

@@ -56,7 +56,10 @@ def run(
         options = {**(options or {}), "stop_time": stop_time}
     speed = playback_speed("speed", speed)
     opened = open_experiment(experiment, options, control, seed)
-    watchers = _called(watchers)
+    expected = "a list of functions, each called with the world"
+    watchers = items_of("watchers", watchers, expected)
+    if not all(map(callable, watchers)):
+        raise wrong("watchers", watchers, expected)
     driven = robots_named(opened.scenario, human, "human =")
     target, log = (None, None) if record is None else _output(record)
     with interrupts(held=""):  # Ctrl-C ends a run, and not that it is saved
@@ -76,15 +79,6 @@ def run(
 
             save_or_rescue(result, target)
     return result
-
-
-def _called(watchers: Sequence[Watcher]) -> list[Watcher]:
-    """Return the watchers of a run. Raises InputError for anything but functions."""
-    expected = "a list of functions, each called with the world"
-    every = items_of("watchers", watchers, expected)
-    if not all(map(callable, every)):
-        raise wrong("watchers", watchers, expected)
-    return every
 
 
 def _output(record: str | Path) -> tuple[Path, Log | None]:

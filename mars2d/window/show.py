@@ -23,8 +23,6 @@ from mars2d.world.world import Watcher
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
-    from mars2d.window.run.window import Window
-    from mars2d.window.screen.memory import Memory
     from mars2d.window.screen.viewpoint import Viewpoint
 
 
@@ -64,7 +62,9 @@ def show_experiment(
         window.asks = asks
         if viewpoint is not None:
             window.viewpoint.look_as(viewpoint)
-        drivers = list(humans) or _to_be_driven(experiment)
+        robots = enumerate(experiment.scenario.robots)
+        by_hand = [i for i, robot in robots if isinstance(robot.controller, ByHand)]
+        drivers = list(humans) or by_hand  # robots whose law is that a person drives them
         if drivers or play:
             window.play(memory, game_of(experiment), drivers[:MOST_PEOPLE])
         else:
@@ -82,7 +82,9 @@ def show_experiment(
             memory.keep(**window.remembered)
             if viewpoint is not None:
                 viewpoint.look_as(window.viewpoint)
-        _remember(memory, experiment, window)
+        path = experiment.source.path
+        if path is not None and path.parent not in {each.parent for each in examples().values()}:
+            memory.opened(path, window.arena())
     return source.record
 
 
@@ -103,12 +105,6 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
         memory.keep(**window.remembered)
 
 
-def _to_be_driven(experiment: Experiment) -> list[int]:
-    """Return the robots whose law is that a person drives them."""
-    robots = experiment.scenario.robots
-    return [i for i, robot in enumerate(robots) if isinstance(robot.controller, ByHand)]
-
-
 def show_comparison(
     opened: Callable[[str], Experiment],
     speed: float | str,
@@ -127,10 +123,3 @@ def show_comparison(
     memory, runs = Memory(), {mode: Timeline(opened(mode)) for mode in MODES}
     CompareWindow(Trio(runs), speed, memory.size, preferences or memory.preferences()).run()
     return {mode: run.record for mode, run in runs.items()}
-
-
-def _remember(memory: Memory, experiment: Experiment, window: Window) -> None:
-    """Note that the file of an experiment was opened, unless it is a shipped example."""
-    path = experiment.source.path
-    if path is not None and path.parent not in {each.parent for each in examples().values()}:
-        memory.opened(path, window.arena())

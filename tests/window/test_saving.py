@@ -10,11 +10,11 @@ import pytest
 from PIL import Image
 
 from mars2d import InputError, Robot, Scenario
-from mars2d.output.films.filming import FPS, Filming
+from mars2d.output.films.filming import FPS, Filming, film_suffix
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.window.run.director import Director
 from mars2d.window.screen.player import Player
-from mars2d.window.screen.saving import Saver, free_name, saved, start_film
+from mars2d.window.screen.saving import Saver, free_name, saved
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
@@ -137,7 +137,7 @@ def test_another_size_is_fitted_into_the_first(suffix, tmp_path):
 
 def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monkeypatch):
     for suffix in (".mp4", ".gif"):
-        film = start_film(tmp_path, "walk")
+        film = Filming(free_name(tmp_path, "walk", film_suffix()))
         assert film.path.name == f"walk_1{suffix}"
         film.take(painted("red"))
         assert frames_of(film.stop())

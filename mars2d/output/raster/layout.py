@@ -16,8 +16,7 @@ HEADER, FOOTER, STRIP = 52.0, 44.0, 44.0
 """The heights of header, footer and time bar, points. A banner of one line has the
 height of the footer, which it replaces."""
 TRANSPORT, TOOLS, LABELLED = 244.0, 44.0, 138.0
-"""The width of the buttons beside the time bar, and that of the toolbar, points: without labels and
-with them."""
+"""Widths of the buttons beside the time bar, and of the toolbar without and with labels, points."""
 WIDE = 1100.0
 """The width of a surface from which on the toolbar has labels, points."""
 MIN_WIDTH = 400.0

@@ -199,8 +199,8 @@ class Stage:
     def _around(self, shot: _Shot, room: pygame.Rect) -> list[pygame.Rect]:
         """Return the parts of a room beside the workspace and the numbers of its axes."""
         xmin, xmax, ymin, ymax = shot.frame.scenario.bounds
-        corners = shot.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int)
-        (left, top), (right, bottom) = corners.tolist()
+        corners = shot.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int).tolist()
+        (left, top), (right, bottom) = corners
         numbers = round(NUMBERS * self.painter.ui)
         left, right, bottom = left - numbers, right + numbers // 3, bottom + numbers // 2
         sides = (

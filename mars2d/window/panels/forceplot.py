@@ -58,20 +58,15 @@ def _draw_title(
     bound: Bound | None,
 ) -> None:
     """Write the names of the curves, as far as there is room, and the present force."""
-    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
-    line = pygame.Rect(rect.topleft, (rect.width, round(HEAD * ui)))
+    theme = painter.theme
+    line = pygame.Rect(rect.topleft, (rect.width, round(HEAD * painter.ui)))
     now = float(reading.force[-1]) if len(reading.force) else 0.0
-    force = Word(in_newtons(now), theme.shade(FORCE), 14, bold=True)
-    groups = [[Word("net contact force", theme.ink, 12, bold=True)]]
+    names = [Word("net contact force", theme.ink, 12, bold=True)]
     if reading.effort is not None and bound is not None:
-        groups.append([Word("effort", theme.effort, 12)])
+        names.append(Word("effort", theme.effort, 12))
         if (reading.effort >= SLIPPING).any():
-            groups.append([Word("■", SLIP, 12), Word("slips", theme.text, 12)])
-    room = rect.width - fonts.width(force.text, 14 * ui, bold=True)
-    for k in range(len(groups), 0, -1):
-        names = [word for group in groups[:k] for word in group]
-        if sum(fonts.width(each.text, 12 * ui, bold=each.bold) + 9 * ui for each in names) <= room:
-            break
+            names += [Word("■", SLIP, 12), Word("slips", theme.text, 12)]
+    force = Word(in_newtons(now), theme.shade(FORCE), 14, bold=True)
     write_line(surface, line, painter, names, [force])
 
 

@@ -122,7 +122,8 @@ class Inspector(Panel):
             self._image = pygame.Surface(rect.size, 0, 32)
             self._image.fill(self.painter.theme.plate)
             whole = sum(map(self._pixels, sections)) <= rect.height * columns
-            self._first = 0 if whole else min(self._first, max(len(sections) - 2, 0))
+            last = 0 if whole else max(len(sections) - 2, 0)
+            self._first = min(max(self._first, 0), last)
             shown = [*sections[:1], *sections[1 + self._first :]]
             for column, top, part in self._chosen(shown, rect.height, columns):
                 left = column * (width + gap)
@@ -132,9 +133,8 @@ class Inspector(Panel):
     def handle(self, event: pygame.Event) -> bool:
         """Turn to further sections by the wheel where there is no room for all."""
         if event.type == pygame.MOUSEWHEEL:
-            last = max(len(self._sections) - 2, 0)
-            wanted = self._first - event.y if event.y > 0 or self._cut else self._first
-            self._first, self._image = min(max(wanted, 0), last), None
+            turned = event.y if event.y > 0 or self._cut else 0
+            self._first, self._image = self._first - turned, None
         return False
 
     def _look(self, frame: Frame) -> list[Section]:

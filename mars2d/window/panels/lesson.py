@@ -19,8 +19,8 @@ HEADINGS = re.compile(
 """The words with which parts of a docstring begin."""
 LINE, SIZE = 18.0, 13.0
 """The heights of a line and of its letters, points."""
-LEAST_LINES, MOST_LINES = 4, 100
-"""The lines that are seen at least, and the most of a part."""
+LEAST_LINES = 4
+"""The lines that are seen at least."""
 
 
 class Lesson(Panel):
@@ -67,7 +67,7 @@ class Lesson(Panel):
         for heading, text in self.parts:
             if heading:
                 found.append(Word(heading, theme.ink, SIZE, bold=True))
-            lines = self.painter.fonts.wrap(text, SIZE * ui, width, MOST_LINES)
+            lines = self.painter.fonts.wrap(text, SIZE * ui, width, 100)
             found += [Word(line, theme.text, SIZE) for line in lines]
         return found
 

@@ -226,13 +226,10 @@ class Scopes(Panel):
         bar = pygame.Rect(rect.left, 0, rect.width, round(BAR * ui))
         bar.bottom = rect.bottom
         self._buttons.draw(surface, bar, self.painter, self.pointer)
-        shown = (
-            "all that was run" if self.span is None else f"{self.span:.3g} s; wheel out for more"
-        )
-        image = self.painter.fonts.render(
-            self.painter.fonts.shorten(shown, 11.5 * ui, 0.55 * rect.width), 11.5 * ui, theme.muted
-        )
-        surface.blit(image, image.get_rect(midright=bar.midright))
+        whole = self.span is None
+        shown = "all that was run" if whole else f"{self.span:.3g} s; wheel out for more"
+        shown = self.painter.fonts.shorten(shown, 11.5 * ui, 0.55 * rect.width)
+        self.painter.write(surface, shown, 11.5 * ui, theme.muted, midright=bar.midright)
         self._buttons.draw_tip(surface, self.painter, self.pointer)
 
     def _draw_plots(self, surface: pygame.Surface, frame: Frame) -> None:
@@ -344,7 +341,7 @@ class Scopes(Panel):
 
     def _draw_cursor(self, surface: pygame.Surface, plot: _Plot, frame: Frame) -> None:
         """Draw where the time shown lies in a plot, and write the values there."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+        ui, theme = self.painter.ui, self.painter.theme
         area, signal = plot.area.move(self._place.topleft), plot.signal
         row = min(frame.iteration, len(signal.values) - 1)
         values = signal.values[row] if row >= 0 else np.full(len(plot.colors), np.nan)
@@ -356,9 +353,10 @@ class Scopes(Panel):
         x = self._place.left
         right = plot.remove.left + self._place.left - round(4 * ui)
         unit = f" [{signal.unit}]" if signal.unit else ""
-        image = fonts.render(f"{signal.name}{unit}", 12 * ui, theme.ink, bold=True)
-        surface.blit(image, image.get_rect(midleft=(x, middle)))
-        x += image.get_width() + round(10 * ui)
+        place = self.painter.write(
+            surface, f"{signal.name}{unit}", 12 * ui, theme.ink, bold=True, midleft=(x, middle)
+        )
+        x = place.right + round(10 * ui)
         left = x
         if plot.below:
             left, middle = area.left, middle + round(LINE * ui)

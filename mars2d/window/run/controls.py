@@ -34,7 +34,9 @@ class Controls:
 
     def __init__(self, player: Player, marked: Source) -> None:
         """Start with nothing drawn; marked: the source whose events are marked."""
-        self._player, self._marks = player, _marks_of(marked)
+        self._player = player
+        known = marks_of(marked.record) if isinstance(marked, Playback) else {}  # they stay
+        self._marks = Marks(marked).rows if isinstance(marked, Timeline) else lambda: known
         self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
         self._pressed: tuple[float, Pixel, int, bool] = -inf, (0, 0), 0, False
         self.handles: list[Handle] = [
@@ -118,14 +120,6 @@ class Controls:
             self._player.set_speed(speed)
 
 
-def _marks_of(source: Source) -> Callable[[], Mapping[MarkKind, Sequence[int]]]:
-    """Return a key for the rows with marks, which stay the same in a recording."""
-    if isinstance(source, Timeline):
-        return Marks(source).rows
-    marks = marks_of(source.record) if isinstance(source, Playback) else {}
-    return lambda: marks
-
-
 class Marks:
     """The rows of a run with collisions, interventions, branches and errors."""
 
@@ -140,23 +134,18 @@ class Marks:
     def rows(self) -> Mapping[MarkKind, Sequence[int]]:
         """Return the rows of each kind in ascending order; collisions may lag by a moment."""
         timeline, world = self._timeline, self._timeline.world
-        self._look(world, time.monotonic())
+        if world is not self._world:
+            self._world, self._seen, self._next, self._touched = world, 0, 0.0, []
+        now = time.monotonic()
+        if now >= self._next:
+            self._next = now + MARK_INTERVAL
+            contacts = world.frame.contact_log()
+            new, self._seen = contacts[self._seen :], len(contacts)
+            rows = meetings(new, world.sampling_time)
+            self._touched += [row for row in rows if row not in self._touched[-1:]]
         return {
             "collision": self._touched,
             "hand": sorted({each.row for each in world.operator.log}),
             "branch": sorted({timeline.parted(other) for other in timeline.branches}),
             "error": [world.iteration] if world.over and not world.finished else [],
         }
-
-    def _look(self, world: World, now: float) -> None:
-        """Read the contacts that began since the last reading."""
-        if world is not self._world:
-            self._world, self._seen, self._next, self._touched = world, 0, 0.0, []
-        if now < self._next:
-            return
-        self._next = now + MARK_INTERVAL
-        contacts = world.frame.contact_log()
-        new = contacts[self._seen :]
-        self._seen = len(contacts)
-        rows = meetings(new, world.sampling_time)
-        self._touched += [row for row in rows if row not in self._touched[-1:]]

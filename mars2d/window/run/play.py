@@ -128,9 +128,8 @@ class Play:
             player.pause()  # nobody has chosen yet
         elif self.counting:
             started = player.playing  # somebody could not wait
-            self.counting = (
-                0.0 if started else max(0.0, self.counting - min(seconds, LONGEST_PICTURE))
-            )
+            left = max(0.0, self.counting - min(seconds, LONGEST_PICTURE))
+            self.counting = 0.0 if started else left
             player.paused = self.counting > 0
         elif self.result is None and self.seats and player.over and not player.failed:
             self.result = self._ended()
@@ -153,7 +152,7 @@ class Play:
         if winner is None:
             words = "A draw"
         elif len(self.seats) > 1 or not mine:
-            words = f"{winner[:1].upper()}{winner[1:]} wins"
+            words = f"{winner[:1].upper()}{winner[1:]} {'win' if winner.endswith('s') else 'wins'}"
         else:
             words = "You win" if winner == mine[0].role else "You lose"
         return Result(words, teams.get(winner or "", ()), self._noted(record, winner, mine))

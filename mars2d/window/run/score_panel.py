@@ -77,9 +77,10 @@ class ScorePanel(Panel):
             if not seat.role:
                 about = str(scenario.robots[seat.robot].name), "you", ""
                 yield from self._role(frame, seat.robot, about, [seat], width)
-        if words := self._tally():
+        first = next((seat.role for seat in play.seats if seat.role), "")
+        if words := play.tally(first).in_words if first else "":
             yield Part(GAP, self._rule)
-            yield from self._wrapped(words, width, 2)
+            yield from self._wrapped(f"so far as {first}: {words}", width, 2)
 
     def _role(
         self,
@@ -120,12 +121,6 @@ class ScorePanel(Panel):
         ui, theme = self.painter.ui, self.painter.theme
         for line in self.painter.fonts.wrap(text, SMALL * ui, width * ui, most) if text else ():
             yield self._line(LINE, [Word(line, theme.text, SMALL)])
-
-    def _tally(self) -> str:
-        """Return the games won so far, by one person or by the first role of two."""
-        seats = [seat for seat in self.play.seats if seat.role]
-        words = self.play.tally(seats[0].role).in_words if seats else ""
-        return f"so far as {seats[0].role}: {words}" if words else ""
 
     # -- drawing ------------------------------------------------------------------------------
 

@@ -28,7 +28,14 @@ def desktop_scale() -> float:
     """
     chosen = os.environ.get(VARIABLE)
     if chosen:
-        return _chosen(chosen)
+        try:
+            scale = float(chosen)
+        except ValueError:
+            scale = float("nan")
+        if MIN_SCALE <= scale <= MAX_SCALE:
+            return scale
+        expected = f"expected the pixels of a point, {MIN_SCALE:g} to {MAX_SCALE:g}"
+        raise InputError(f"{VARIABLE}={shown(chosen)}: {expected}")
     driver = pygame.display.get_driver() if pygame.display.get_init() else ""
     found = {"windows": _of_windows, "x11": _of_x11}.get(driver, lambda: None)()
     return min(max(found, 1.0), MAX_SCALE) if found else 1.0
@@ -43,19 +50,6 @@ def opening_size(size: tuple[int, int], scale: float) -> tuple[int, int]:
     width, height = (MAX_SHARE * room for room in pygame.display.get_desktop_sizes()[0])
     share = min(scale, max(1.0, min(width / size[0], height / size[1])))
     return round(min(share * size[0], width)), round(min(share * size[1], height))
-
-
-def _chosen(text: str) -> float:
-    try:
-        scale = float(text)
-    except ValueError:
-        scale = float("nan")
-    if not MIN_SCALE <= scale <= MAX_SCALE:
-        raise InputError(
-            f"{VARIABLE}={shown(text)}: expected the pixels of a point, "
-            f"{MIN_SCALE:g} to {MAX_SCALE:g}"
-        )
-    return scale
 
 
 def _of_windows() -> float | None:

@@ -37,7 +37,10 @@ class Memory:
     def __init__(self) -> None:
         """Find the folder; make none yet."""
         chosen = os.environ.get(VARIABLE)
-        self._folder = _own_folder() if chosen is None else Path(chosen) if chosen else None
+        self._folder = Path(chosen) if chosen else None
+        if chosen is None:
+            with suppress(pygame.error, AttributeError):  # a home that can't be written
+                self._folder = Path(pygame.system.get_pref_path("MARS2D", "windows"))
 
     @property
     def recent(self) -> list[Path]:
@@ -119,11 +122,3 @@ def _small(picture: pygame.Surface) -> pygame.Surface:
     part = pygame.Rect(0, 0, int(share * PICTURE[0]), int(share * PICTURE[1]))
     part.center = width // 2, height // 2
     return pygame.transform.smoothscale(picture.subsurface(part), PICTURE)
-
-
-def _own_folder() -> Path | None:
-    """Return the folder of the user's settings for MARS2D, made if it was missing."""
-    try:
-        return Path(pygame.system.get_pref_path("MARS2D", "windows"))
-    except (pygame.error, AttributeError):  # a home that can't be written
-        return None

@@ -42,8 +42,13 @@ class Finder:
         slack: how far beside its edge a thing is still met, metres.
         """
         if frame.scenario is not self._scenario:
-            self._learn(frame.scenario)
-        body = self._body(frame, point, slack)
+            self._scenario, self._outlines = frame.scenario, frame.scenario.obstacles
+            self._obstacles = shapely.STRtree(lines_and_areas(self._outlines))
+            bounds = (body.shape.bound for body in frame.scenario.bodies)
+            self._reach = np.array([hypot(*center) + radius for center, radius in bounds])
+        x, y = np.hstack([frame.pose[:2], frame.prop_pose[:2]])
+        near = np.hypot(x - point[0], y - point[1]) <= self._reach + slack
+        body = body_at(frame, point, slack) if near.any() else None
         if body is not None:
             rigid = frame.scenario.bodies[body]
             kind = "" if body < len(frame.scenario.robots) else f" ({rigid.kind})"
@@ -58,18 +63,6 @@ class Finder:
             kind = "wall" if len(self._outlines[k]) == 2 else "obstacle"
             return Hover(None, f"{kind} {k}")
         return None
-
-    def _learn(self, scenario: Scenario) -> None:
-        self._scenario = scenario
-        self._outlines = scenario.obstacles
-        self._obstacles = shapely.STRtree(lines_and_areas(self._outlines))
-        bounds = (body.shape.bound for body in scenario.bodies)
-        self._reach = np.array([hypot(*center) + radius for center, radius in bounds])
-
-    def _body(self, frame: Frame, point: Point, slack: float) -> int | None:
-        x, y = np.hstack([frame.pose[:2], frame.prop_pose[:2]])
-        near = np.hypot(x - point[0], y - point[1]) <= self._reach + slack
-        return body_at(frame, point, slack) if near.any() else None
 
 
 def body_at(

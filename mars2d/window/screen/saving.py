@@ -106,7 +106,9 @@ class Saver:
         return self._film is not None
 
     def _begin_film(self) -> str:
-        self._film = start_film(_here(), self._stem)
+        from mars2d.output.films.filming import Filming, film_suffix
+
+        self._film = Filming(free_name(_here(), self._stem, film_suffix()))
         return f"filming {self._film.path}; V ends the film"
 
     def _end_film(self) -> str:
@@ -159,13 +161,6 @@ def free_name(folder: Path, stem: str, suffix: str) -> Path:
             raise InputError(f"{where}: no file can be made here, {error.strerror}") from None
         else:
             return path
-
-
-def start_film(folder: Path, stem: str) -> Filming:
-    """Start a film under a free name: .mp4 if PyAV is installed, else .gif."""
-    from mars2d.output.films.filming import Filming, film_suffix
-
-    return Filming(free_name(folder, stem, film_suffix()))
 
 
 def saved(folder: Path, stem: str, suffix: str, write: Callable[[Path], str | None]) -> str:
