@@ -11,13 +11,13 @@ ROOT = Path(__file__).parents[2]
 CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 
 LINES = {
-    "addons": 4_109,
+    "addons": 4_088,
     "bodies": 1_848,
     "cli": 2_547,
-    "core": 2_977,
+    "core": 2_974,
     "geometry": 1_549,
-    "output": 13_313,
-    "physics": 8_424,
+    "output": 13_255,
+    "physics": 8_380,
     "record": 1_601,
     "reports": 1_006,
     "rl": 776,
@@ -25,10 +25,10 @@ LINES = {
     "sensors": 2_031,
     "study": 3_164,
     "testing": 998,
-    "tournaments": 3_320,
-    "window": 15_203,
-    "world": 3_733,
-    "tests": 53_343,
+    "tournaments": 3_318,
+    "window": 15_125,
+    "world": 3_721,
+    "tests": 53_212,
 }
 """Lines at most, by room of the package, and of all tests."""
 
