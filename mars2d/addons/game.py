@@ -13,7 +13,7 @@ from mars2d.addons.contest import Capture, Outcome, Teams, listed, robots_of
 from mars2d.addons.elimination import Elimination, Exit, Float, Span, firsts, mark
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
-from mars2d.core.description import accepts, entry, integer, real, wrong
+from mars2d.core.description import accepts, entry, flag, integer, real, wrong
 from mars2d.core.errors import InputError, counted, likely, ordinal
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, edges_of, outside_polygon
@@ -54,7 +54,8 @@ class Game(Elimination):
     With a `goal`, an evader is safe as soon as its pose is in it, and stands still there, too;
     without one, it is safe when time is over. The hunters need `wanted` captures, by default of
     all. The evaders have won when too many are safe for that; with a goal the hunters have won when
-    time is over before. Either ends the experiment. Whatever else ends it leaves a game undecided.
+    time is over before. Either ends the experiment, unless it goes on `to_the_end`. Whatever else
+    ends it leaves a game undecided.
 
     Laws find how it stands in `score`, `winner`, `caught`, `free`, `safe` and `capture_times`. Of
     a record, `outcome` says the same, also of a loaded one.
@@ -76,6 +77,10 @@ class Game(Elimination):
         default=None, low=1, high=10**6, optional=True,
         doc="the number of captures that the hunters need; None: all of the hunted",
     )  # fmt: skip
+
+    to_the_end: bool = flag(
+        default=False, doc="go on, though it is decided, until nobody is left to catch"
+    )
 
     # -- how it stands -----------------------------------------------------------------------------
 
@@ -162,7 +167,8 @@ class Game(Elimination):
 
     def ending(self, world: WorldLike) -> str:
         """Return why the game is over now, in words; "" while it goes on."""
-        if self.winner is None:
+        goes_on = self.to_the_end and self.free and not self._time_is_over
+        if self.winner is None or goes_on:
             return ""
         names = [str(robot.name) for robot in world.scenario.robots]
         evaders, wins = len(self._teams[1]), f": {self.winner} wins"

@@ -1,0 +1,39 @@
+"""What theory says of capturing the flag, and whether a run agrees."""
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from mars2d import Prediction
+from mars2d.geometry import dominance
+
+FLAG, REACH, CAPTURE = np.array([[-4.0], [0.0]]), 0.5, 0.5  # m
+
+
+def stops(guard, attacker, mu):
+    return np.hypot(*(dominance(attacker, guard, mu, CAPTURE) - FLAG)).min() > REACH
+
+
+def matching(starts, guards, mu):
+    """Pairs of guards and attackers that they stop, as many as can be."""
+    can = [[stops(one, other, mu) for other in starts[guards:]] for one in starts[:guards]]
+    pairs = np.transpose(linear_sum_assignment(can, maximize=True))
+    return [(i, j) for i, j in pairs if can[i][j]]
+
+
+def safe(record):
+    """The attackers that reach the flag."""
+    game, scenario = record.scenario.addons[0], record.scenario
+    _, attackers = game.players(scenario)
+    caught = {capture.evader for capture in game.outcome(record).captures}
+    x, y = record.pose[-1, :2]
+    return [k for k in attackers if k not in caught and np.hypot(x[k] + 4, y[k]) < REACH]
+
+
+def checks(record):
+    guards, attackers = record.scenario.addons[0].players(record.scenario)
+    quick, slow = (record.scenario.robots[k].drive.max_linear_speed for k in (0, -1))
+    if slow > quick:
+        yield Prediction.silent("at the flag", "for guards that are as quick as attackers")
+        return
+    most = len(attackers) - len(matching(record.pose[0, :2].T, len(guards), slow / quick))
+    yield Prediction("at the flag: N - m", most, len(safe(record)), 0, bound="at most")
