@@ -11,12 +11,12 @@ ROOT = Path(__file__).parents[2]
 CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 
 LINES = {
-    "addons": 4_088,
+    "addons": 4_094,
     "bodies": 1_848,
     "cli": 2_547,
     "core": 2_974,
     "geometry": 1_549,
-    "output": 13_255,
+    "output": 13_261,
     "physics": 8_380,
     "record": 1_601,
     "reports": 1_006,
@@ -28,7 +28,7 @@ LINES = {
     "tournaments": 3_318,
     "window": 15_125,
     "world": 3_721,
-    "tests": 53_212,
+    "tests": 53_211,
 }
 """Lines at most, by room of the package, and of all tests."""
 

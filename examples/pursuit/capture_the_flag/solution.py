@@ -1,7 +1,7 @@
 """Capture the flag, a model answer: with a guard for each attacker none reaches the flag.
 
-1. The matching has two pairs, so at most two of four get through. Against `region` guards do better:
-   who has caught one takes the next. Against `decoys`, who don't let them, two do get through.
+1. The matching has two pairs, so at most two of four get through. Against `region` guards do
+   better: who has caught one takes the next. Against `decoys`, who prevent that, two do get there.
 2. `nearest` loses 12 of 12 against `region`: both guards may run after the same attacker, and they
    run to where it is, not to where it is going.
 3. Guards who stand a metre before the flag win 7 of 12 against `region`: each has the shortest way,

@@ -34,7 +34,13 @@ __all__ = [
 ]
 
 
-FORMATS = {".npz": "npz", ".csv": "table", ".mcap": "mcap", ".mat": "mat", ".nc": "dataset"}
+FORMATS = {
+    ".npz": "npz",
+    ".csv": "table",
+    ".mcap": "mcap",
+    ".mat": "mat",
+    ".nc": "dataset",
+}
 """The modules of this folder by the endings of files.
 
 Each has ``write(record, path)``; if the format is read back, also ``read(path, largest)``; if it

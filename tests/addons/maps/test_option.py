@@ -156,7 +156,7 @@ def test_check_shows_what_was_read_and_draws_it(folder):
         "hint        0.06 m is small for a map of robots: is it unit=m (6 m)?",
         "obstacles   1 wall",
         "corners     5, within 0.02 m",
-        "picture     a.png",
+        "figure: a.png",
     ]
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
