@@ -290,7 +290,7 @@ def wedge() -> Iterator[Prediction]:
     record = run([Robot(friction=0)], [[0.5], [0]], 6, walls=walls)
     speeds = np.diff(record.pose[:, 0, 0]) / 0.1
     yield Prediction(
-        "wedge of 2 degrees: speed back", 0.0, max(float(-speeds.min()), 0), 0.01, "m/s"
+        "wedge of 2 degrees: speed back", 0.0, max(float(-speeds.min()), 0), 0.02, "m/s"
     )
 
 

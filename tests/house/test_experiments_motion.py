@@ -101,13 +101,13 @@ def test_robots_circle_a_beacon_that_has_moved_evenly_and_to_the_left():
 def test_the_conditions_of_the_theorem_are_those_of_the_paper(gains, hold):
     base = open_module("circular_motion")
     record = mars2d.run(base.scenario(**gains), 1.0)
-    (check, *_) = base.checks(record)
     _, k_b, k_v = record.scenario.robots[0].controller.args
     rho = np.linspace(0, 1, 10001)
     least = np.min(rho * np.log((rho + base.RHO_0) / (2 * base.RHO_0)))
     speed = record.command[0, 0, 0]
     assert int(least > -2 * speed / (3 * pi * k_b)) + int(k_v <= 2 * k_b) == hold
-    assert (check.measured, check.ok) == (hold, hold == 2)
+    found = list(base.checks(record))  # after 1 s it says nothing, or why it will not
+    assert [bool(each.reason) for each in found] == [True] * (hold < 2)
 
 
 def test_a_neighbour_is_in_view_when_it_is_near_or_ahead():
