@@ -188,7 +188,7 @@ def svg_of(figure: Figure) -> str:
     file, told = StringIO(), {"Date": None, "Title": str(figure.get_label())}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "svg.fonttype": "none"}):
         figure.savefig(file, format="svg", metadata=told)
-    picture = file.getvalue().partition("<svg ")[2]
+    picture = " ".join(file.getvalue().partition("<svg ")[2].split())
     return f'<svg style="max-width:100%;height:auto" {picture}'
 
 
