@@ -109,12 +109,6 @@ def records(draw) -> Record:
     def anything(*shape):
         return draw(arrays(np.uint64, shape)).view(np.float64)
 
-    def moved():
-        return {
-            "velocity": finite(rows, 3, robots), "prop_velocity": finite(rows, 3, props),
-            "work": finite(rows, 6),
-        }  # fmt: skip
-
     sensors, sensor_robots = {}, {}
     identifiers = st.sampled_from(
         ["scan", "scan_0", "x", "time", "record", "größe", "カメラ", "end"]
@@ -150,7 +144,9 @@ def records(draw) -> Record:
         command_time=finite(rows),
         prop_pose=finite(rows, 3, props),
         effort=finite(rows, robots),
-        **(moved() if draw(st.booleans()) else {}),
+        velocity=finite(rows, 3, robots),
+        prop_velocity=finite(rows, 3, props),
+        work=finite(rows, 6),
         sensors=sensors,
         sensor_robots=sensor_robots,
         contacts=contacts,
