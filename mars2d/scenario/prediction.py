@@ -95,11 +95,9 @@ class Prediction(Description):
         if self.reason:
             return None
         above = self.measured - self.predicted
-        if self.bound == "equal":
-            return abs(above) <= self.tolerance
-        return math.isfinite(above) and (
-            above >= -self.tolerance if self.bound == "at least" else above <= self.tolerance
-        )
+        low = self.bound == "at most" or above >= -self.tolerance
+        high = self.bound == "at least" or above <= self.tolerance
+        return math.isfinite(self.measured) and low and high
 
     @property
     def verdict(self) -> str:
