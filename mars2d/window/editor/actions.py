@@ -98,7 +98,7 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
         Action("duplicate", "duplicate the selection", ("Ctrl D",), desk.duplicate),
         Action("all", "select all", ("Ctrl A",), editor.select_all),
         Action("next", "select the next item", ("Tab",), editor.select_next),
-        Action("properties", "choose a property to change", ("F2",), editor.list_properties),
+        Action("properties", "choose a property to change", ("F2",), editor.reach_panel),
         Action(
             "undo",
             "undo",
