@@ -29,7 +29,7 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
-from mars2d.window.editor.select import Select
+from mars2d.window.editor.select import Handling, Select
 from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_remarks, draw_selected
 from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.tying import Tie
@@ -158,7 +158,7 @@ class Editor:
         elif event.type == pygame.MOUSEWHEEL and self.panel.plate.collidepoint(self._pointer):
             self.panel.handle(event)
         elif event.type == pygame.MOUSEWHEEL:
-            self._zoom(wheel_notches(event))
+            self.zoom(wheel_notches(event))
         elif event.type == pygame.MOUSEMOTION:
             self.panel.handle(event)
             self._move(event)
@@ -271,12 +271,12 @@ class Editor:
         self.choose("select")
         self.desk.select(self.desk.draft.items())
 
-    def select_next(self) -> None:
-        """Select the item after the selected one, after the last the first."""
-        items = self.desk.draft.items()
-        place = items.index(self.desk.only) + 1 if self.desk.only in items else 0
+    def select_next(self, *, too: bool = False) -> None:
+        """Select the item after that selected last, after the last the first; too: one more."""
+        items, chosen = self.desk.draft.items(), self.desk.selection
+        place = items.index(chosen[-1]) + 1 if chosen and chosen[-1] in items else 0
         self.choose("select")
-        self.desk.select(items[place % len(items) :][:1] if items else ())
+        self.desk.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
 
     def reach_panel(self) -> None:
         """Give the keys to the panel, for who has no mouse."""
@@ -284,7 +284,7 @@ class Editor:
 
     def _touch(self, corner: int) -> None:
         """Choose a corner of the selection, and ask where it lies."""
-        if self.tool.puts:
+        if not isinstance(self.tool, Handling):
             self.choose("select")
         self.desk.corner = corner
         self.ask_pose()
@@ -295,21 +295,30 @@ class Editor:
 
     def ask_pose(self) -> None:
         """Ask where to put the selection, or a new item."""
-        if not (self.desk.selection or self.tool.puts):
+        if self.tool_name == "select" and not self.desk.selection:
             self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
         enter = Answer("Enter", "apply", self._put)
         self.dialogs.prompt = Prompt(
-            "x y [degrees] =", enter, field=TextField(opened_by_key=True), doc="such as 1.5 2 90"
+            "x y [degrees] =",
+            enter,
+            field=TextField(opened_by_key=True),
+            doc="such as 1.5 2 90, or the name of a thing that is there",
         )
 
     def _put(self, text: str) -> None:
-        """Put the selection, or a new item, at typed numbers."""
+        """Put the selection, or a new item, at typed numbers or where a thing of a name is."""
+        draft = self.desk.draft
+        named = (draft.place(item) for item in draft.items() if draft.name(item) == text.strip())
+        place = next(named, None)
+        if place is not None:
+            self.tool.put(*place, None)
+            return
         try:
             x, y, *rest = map(float, text.replace(",", " ").split())
             (angle,) = rest or (None,)
         except ValueError:
-            raise InputError(f"{text!r}: expected x y in metres, or x y degrees") from None
+            raise InputError(f"{text!r}: expected x y in metres, x y degrees, or a name") from None
         self.tool.put(x, y, None if angle is None else radians(angle))
 
     def undo(self) -> None:
@@ -327,7 +336,8 @@ class Editor:
 
     # -- the view -------------------------------------------------------------------------------
 
-    def _zoom(self, notches: float) -> None:
+    def zoom(self, notches: float) -> None:
+        """Zoom about the pointer, or else about the middle, by notches of the wheel."""
         pixel = self._pointer if self._pointer[0] >= 0 else self.layout.plot.center
         self.viewpoint.zoom(notches, pixel)
 
