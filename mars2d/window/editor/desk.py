@@ -109,6 +109,8 @@ class Desk:
 
     def hold(self, to: Callable[[Point, bool], Draft], point: Point, *, shift: bool) -> None:
         """Show the draft of a drag to a point; an InputError is shown, and it stays as it was."""
+        if self.warns:
+            self.say("")
         try:
             self._held = to(point, shift)
         except InputError as error:
@@ -193,7 +195,7 @@ class Desk:
             return
         left = (*corners[: self.corner], *corners[self.corner + 1 :])
         self.corner = None
-        self.put(self.draft.with_value(item, left))
+        self.put(self.draft.with_values({item: left}))
 
     def duplicate(self) -> None:
         """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
@@ -203,7 +205,7 @@ class Desk:
             middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
             self.corner += 1
             new = (*corners[: self.corner], middle, *corners[self.corner :])
-            self.put(self.draft.with_value(self.only, new))
+            self.put(self.draft.with_values({self.only: new}))
             return
         items = [item for item in self.selection if item.kind != "workspace"]
         if items:
@@ -220,7 +222,7 @@ class Desk:
         if self.corner is not None and self.only is not None:
             corners = list(self.draft.corners(self.only) or ())
             corners[self.corner] = moved.point(corners[self.corner])
-            self.put(self.draft.with_value(self.only, tuple(corners)), tag="nudge")
+            self.put(self.draft.with_values({self.only: tuple(corners)}), tag="nudge")
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
 

@@ -36,10 +36,10 @@ def item_at(desk: Desk, point: Point, but: Collection[Item] = ()) -> Item | None
     if body is not None:
         return Item("robot", body) if body < robots else Item("prop", body - robots)
     slack = desk.metres(NEAR)
-    for i, wall in reversed(list(enumerate(draft.walls))):
+    for i, wall in reversed(list(enumerate(draft.listed("wall")))):
         if _on_line(point, wall, slack):
             return Item("wall", i)
-    for i, outline in reversed(list(enumerate(draft.outlines))):
+    for i, outline in reversed(list(enumerate(draft.listed("outline")))):
         if edge_at(point, outline, slack) is not None or inside(point, outline):
             return Item("outline", i)
     return None

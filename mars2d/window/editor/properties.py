@@ -23,6 +23,7 @@ from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.options import parse_option
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk
@@ -43,7 +44,7 @@ CHOSEN = "✓"
 """Marks the entry of a menu that holds now."""
 BODY = ("mass", "diameter", "length", "width", "friction", "restitution", "ground_friction")
 """The fields of robots and props that have a row of their own."""
-ELSEWHERE = ("name", "color", "pose", "shape", "controller", "a", "b")
+ELSEWHERE = ("name", "color", "pose", "shape", "controller", "a", "b", "workspace")
 """The fields that are changed in other ways."""
 COLORS = ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey")
 """The colours of the palette, in words."""
@@ -124,7 +125,14 @@ class Properties:
 
     def _scenario(self) -> Subject:
         draft, put = self._desk.draft, self._desk.put
-        return Subject([draft.base], lambda f: put(dataclasses.replace(draft, base=f(draft.base))))
+        names = Subject([draft.base], lambda _: None).plain
+        alone = Scenario(workspace=None, **{name: getattr(draft.base, name) for name in names})
+
+        def change(f: Callable[[Scenario], Scenario]) -> None:
+            changed = f(alone)  # checked without the bodies, which may not go together yet
+            put(draft.with_base(**{name: getattr(changed, name) for name in names}))
+
+        return Subject([alone], change)
 
     def _members(self, items: Items) -> Subject:
         draft, put = self._desk.draft, self._desk.put
@@ -512,7 +520,7 @@ def _color_in_words(color: str | None) -> str:
 def _is_plain(value: object) -> bool:
     """Return whether a value can be typed: no part, and no function."""
     if isinstance(value, tuple):
-        return all(isinstance(each, float | int | str) for each in value)
+        return bool(value) and all(isinstance(each, float | int | str) for each in value)
     return value is None or isinstance(value, bool | float | int | str)
 
 
