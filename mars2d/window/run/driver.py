@@ -116,7 +116,7 @@ class Driver:
             return False
         return self._controller(event)
 
-    def command(self, drive: Drive, dt: float) -> tuple[float, float]:
+    def command(self, drive: Drive, dt: float) -> tuple[float, ...]:
         """Return the command of the driven robot; dt: since the last one, seconds.
 
         Keys deflect the stick gradually, in a quarter of a second, so that a tap is a nudge.
