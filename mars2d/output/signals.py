@@ -211,7 +211,7 @@ def _command(record: Rows, name: str, part: str, robots: tuple[int, ...]) -> lis
     """Return the commands of robots, or a part of them by its index or quantity."""
     found = {record.scenario.robots[i].drive.inputs for i in robots}
     agreed = found.pop() if len(found) == 1 else ()
-    kinds = agreed or [Quantity(str(k), DRIVE_UNIT) for k in range(record.scenario.inputs)]
+    kinds = agreed or [Quantity(str(k), DRIVE_UNIT) for k in range(record.command.shape[1])]
     known = {name: k for k, kind in enumerate(kinds) for name in (str(k), kind.name)}
     if part and part not in known:
         raise InputError(f"columns: {name!r}: command has no {part!r}{nearest(part, known)}")

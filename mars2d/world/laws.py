@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.core import checks
 from mars2d.core.arrays import within
-from mars2d.core.errors import LawError, counted, shown
+from mars2d.core.errors import LawError, shown
 from mars2d.core.quantity import Quantity
 from mars2d.core.usercode import called, definition, name_of
 
@@ -24,6 +24,9 @@ NONE: Mapping[int, tuple[float, ...]] = MappingProxyType({})
 """No commands."""
 
 BOUNDED = "a command must be finite"
+
+COUNTS = ("no", "one", "two", "three", "four")
+"""The numbers of inputs, in words."""
 
 PLAIN = frozenset({int, float, np.float64})
 """The types of numbers that need no conversion; most laws return a pair of them."""
@@ -85,13 +88,13 @@ def robot_command(
                 break
         else:
             return value
-    names = ", ".join(each.symbol for each in inputs)
+    names = ", ".join(each.name for each in inputs)
     if value is None:
         refuse(f"returned nothing: a law returns its command, such as `return {names}`")
     command = _numbers(value)
     if command is None or command.shape not in ((len(inputs),), (len(inputs), 1)):
-        count = {1: "one number", 2: "two numbers"}.get(len(inputs), f"{len(inputs)} numbers")
-        refuse(f"returned {shown(value)}: expected {count}, ({names})")
+        expected = f"expected {COUNTS[len(inputs)]} number{'s' * (len(inputs) > 1)}, ({names})"
+        refuse(f"returned {shown(value)}: {expected}")
     found = tuple(command.ravel().tolist())
     if not within(LARGEST, command):  # neither for NaN
         refuse(f"returned {shown(found)}: {BOUNDED}")
@@ -106,7 +109,7 @@ def team_command(value: Any, still: Float, refuse: Callable[[str], NoReturn]) ->
     inputs, robots = still.shape
     if value is None:
         refuse(f"returned nothing: a law returns its command, an array ({inputs}, n)")
-    rows = counted(inputs, "row")
+    rows = f"{COUNTS[inputs]} row{'s' * (inputs > 1)}"
     expected = f"expected {rows} and a column for each robot, shape {still.shape}"
     command = _numbers(value)
     if command is None:

@@ -20,6 +20,7 @@ from mars2d.physics.kinematics import Kinematics
 from mars2d.record.interventions import Change, Intervention, Place, Pull, Steer
 from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.laws import COUNTS
 
 if TYPE_CHECKING:
     from mars2d.world.simulation import Simulation
@@ -83,7 +84,7 @@ class Operator:
         given = command.tolist() if isinstance(command, np.ndarray) else command
         count = len(self._world.scenario.robots[index].drive.inputs)
         if not isinstance(given, (tuple, list)) or len(given) != count:
-            raise wrong("Operator.steer(command)", command, f"{count} numbers, or None")
+            raise wrong("Operator.steer(command)", command, f"{COUNTS[count]} numbers, or None")
         numbers = [real("Operator.steer(command)", number, "a number") for number in given]
         if index not in self._steered:
             self._note(Steer(self._world.iteration, index, driven=True))

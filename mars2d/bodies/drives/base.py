@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.description import Description, flag, number
+from mars2d.core.description import Description, flag, number, wrong
 from mars2d.core.quantity import UNKNOWN, Quantity
 
 Float = NDArray[np.float64]
@@ -95,6 +95,12 @@ class Drive(Description):
     """Whether it can move in any direction at once."""
     wheel_names: ClassVar[tuple[str, str] | None] = None
     """The names of the two actuators if they are wheels, as the inspector shows them."""
+
+    def _validate(self) -> None:
+        known = isinstance(self.inputs, tuple) and 1 <= len(self.inputs) <= 4
+        if not (known and all(isinstance(each, Quantity) for each in self.inputs)):
+            expected = "a tuple of 1 to 4 quantities, such as (Quantity('v', 'm/s'),)"
+            raise wrong(f"{type(self).__name__}.inputs", self.inputs, expected)
 
     @property
     def inputs(self) -> tuple[Quantity, ...]:
@@ -257,6 +263,12 @@ class Wheeled(Turning):
         default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
     )
     wheel_names: ClassVar[tuple[str, str] | None] = ("left", "right")
+
+    def _validate(self) -> None:
+        known = isinstance(self.inputs, tuple) and 1 <= len(self.inputs) <= 4
+        if not (known and all(isinstance(each, Quantity) for each in self.inputs)):
+            expected = "a tuple of 1 to 4 quantities, such as (Quantity('v', 'm/s'),)"
+            raise wrong(f"{type(self).__name__}.inputs", self.inputs, expected)
 
     @property
     def inputs(self) -> tuple[Quantity, ...]:

@@ -30,6 +30,7 @@ class Dubins(Turning):
     )  # fmt: skip
 
     def _validate(self) -> None:
+        super()._validate()
         if self.max_acceleration is not None:
             raise wrong(
                 "Dubins.max_acceleration", self.max_acceleration, "None: its speed never changes"

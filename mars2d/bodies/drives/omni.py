@@ -46,6 +46,7 @@ class Omni(Drive):
     holonomic: ClassVar[bool] = True
 
     def _validate(self) -> None:
+        super()._validate()
         for name in ("side_grip", "no_load_speed"):
             if getattr(self, name) is not None:
                 expected = "None: its wheels drive and hold alike in all directions"

@@ -50,9 +50,9 @@ POSE_UNITS = dict(zip(("x", "y", "theta"), METRES, strict=True))
 """The units of a pose's three numbers, in order."""
 
 
-def shapes_of(robots: int, props: int) -> dict[str, tuple[int, ...]]:
-    """Return the shape of a row of each of `COLUMNS`."""
-    sizes = {"axis": 3, "input": 2, "robot": robots, "prop": props, "work_of": len(WORK)}
+def shapes_of(robots: int, props: int, inputs: int) -> dict[str, tuple[int, ...]]:
+    """Return the shape of a row of each of `COLUMNS`; inputs: the numbers of a command."""
+    sizes = {"axis": 3, "input": inputs, "robot": robots, "prop": props, "work_of": len(WORK)}
     return {name: tuple(sizes[axis] for axis in about.axes) for name, about in ABOUT.items()}
 
 
@@ -155,7 +155,7 @@ def parts_of(record: Rows) -> dict[str, list[Part]]:
         axis: [Part("pose", (k, every), teams), Part("prop_pose", (k, every), others)]
         for k, axis in axes
     }
-    inputs = range(record.scenario.inputs)
+    inputs = range(record.command.shape[1])
     found |= {f"command_{k}": [Part("command", (k, every), teams)] for k in inputs}
     found["command_time"] = [Part("command_time", (None,), teams)]
     found["effort"] = [Part("effort", (every,), teams)]
