@@ -48,7 +48,7 @@ HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
-TALL, MAX_SHARE = 560.0, 0.115
+TALL, MAX_SHARE = 560.0, 0.15
 """The height from which on the toolbar has one column, points, and its largest share of the
 window's width."""
 PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42

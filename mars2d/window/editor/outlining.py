@@ -12,7 +12,7 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, PAPER, Handle, handle_at
 from mars2d.window.editor.item import Item, tidy
-from mars2d.window.editor.picking import edge_at, foot_on
+from mars2d.window.editor.picking import edge_at
 from mars2d.window.editor.readout import sides, stretch
 from mars2d.window.editor.select import Handling
 from mars2d.window.editor.tool import Drag, Tool
@@ -233,12 +233,11 @@ class Workspace(DrawRectangle, Handling):
         self._hold()
         handle = handle_at(desk, point)
         if handle is None:
-            k = edge_at(point, corners, desk.metres(NEAR))
-            if k is None:
+            edge = edge_at(point, corners, desk.metres(NEAR))
+            if edge is None:
                 desk.corner = None
                 return
-            foot = foot_on(point, corners[k], corners[(k + 1) % len(corners)])
-            handle = Handle("dot", k, foot)
+            handle = Handle("dot", *edge)
         self.take(handle, point)
 
     def release(self, point: Point, *, shift: bool) -> None:
