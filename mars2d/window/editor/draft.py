@@ -318,6 +318,8 @@ class Draft:
     def renamed(self, item: Item, name: str) -> Self:
         """Return the draft with another name of a robot or prop, wherever it is mentioned."""
         old = self.name(item)
+        if not name:
+            raise InputError("expected a name")
         if name in {part.name for part in self._members()} - {old}:
             raise InputError(f"{name!r} is the name of another body")
         parts = ("robots", "props", "joints", "random_starts", "addons")
