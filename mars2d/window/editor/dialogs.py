@@ -104,7 +104,7 @@ class Dialogs:
             self._desk.say(str(error), warns=True)
             return
         if not self._live:
-            self._desk.history.mark_saved(self._desk.draft.with_base(title=scenario.title))
+            self._desk.history.save(self._desk.draft.with_base(title=scenario.title))
         self._desk.say(said)
         if then is not None:
             then()

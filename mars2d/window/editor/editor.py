@@ -96,7 +96,7 @@ class Editor:
         self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
-            self.desk.history.mark_unsaved()
+            self.desk.history.saved = None
         self.judge = Judge(draft)
         self.dialogs = Dialogs(
             self.desk, self.document, self.judge, scenario,
