@@ -69,12 +69,10 @@ def faults_of_editor(size, text):
         if title in editor.panel.places:
             press(editor, editor.panel.places[title].center)
             editor.draw(surface)
-            prompt, entries = editor.dialogs.prompt, editor.menu.places
-            yield from unfit([*(prompt.places if prompt else entries).items()], picture)
-            if not (prompt or entries):
+            yield from unfit([*editor.menu.places.items()], picture)
+            if not editor.menu.places:
                 yield f"{title} opens nothing"
             editor.menu.close()
-            editor.dialogs.prompt = None
 
 
 def faults_of_home(size, text):

@@ -21,11 +21,11 @@ from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
-from mars2d.window.editor.chrome import Answer, Header, Prompt
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.dialogs import Dialogs
+from mars2d.window.editor.dialogs import Answer, Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.header import Header
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
@@ -57,11 +57,6 @@ window that it leaves to the drawing."""
 PANEL_HINT = "Arrows choose a row and change its number, Enter opens it, Esc leaves the panel"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
-ASKED = frozenset({
-    pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING, pygame.MOUSEBUTTONDOWN,
-    pygame.MOUSEWHEEL,
-})  # fmt: skip
-"""The events that are for a prompt alone."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
 MAX_NAMED = 40
 """With more robots and props than this, names are hidden at first."""
@@ -98,11 +93,11 @@ class Editor:
         if changed:
             self.desk.history.saved = None
         self.judge = Judge(draft)
+        self.menu, self.panel = Menu(), Menu(docked=True)
         self.dialogs = Dialogs(
-            self.desk, self.document, self.judge, scenario,
+            self.desk, self.menu, self.document, self.judge, scenario,
             live=live, complete=self._complete,
         )  # fmt: skip
-        self.menu, self.panel = Menu(), Menu(docked=True)
         self.properties = Properties(
             self.desk, self.dialogs, self.document, self.menu, self.panel,
             self.choose, self._tie, self._touch,
@@ -142,10 +137,7 @@ class Editor:
             self.desk.say(str(error), warns=True)
 
     def _take(self, event: pygame.Event) -> None:
-        prompt = self.dialogs.prompt
-        if prompt is not None:
-            self.dialogs.handle(prompt, event)
-        if (prompt is not None and event.type in ASKED) or self.menu.handle(event):
+        if self.menu.handle(event):
             pass
         elif event.type == pygame.KEYDOWN:
             if not self.panel.handle(event):
@@ -299,7 +291,7 @@ class Editor:
             self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
         enter = Answer("Enter", "apply", self._put)
-        self.dialogs.prompt = Prompt(
+        self.dialogs.ask(
             "x y [degrees] =",
             enter,
             field=TextField(opened_by_key=True),
@@ -386,10 +378,7 @@ class Editor:
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.painter)
         self._header.draw(surface, bar, self.title, self._note(), self._pointer)
-        if self.dialogs.prompt is None:
-            self._draw_foot(surface)
-        else:
-            self.dialogs.prompt.draw(surface, self.layout, self.painter)
+        self._draw_foot(surface)
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
