@@ -27,15 +27,15 @@ class Outcome:
 
 
 class Answer(NamedTuple):
-    """A way to answer a prompt: a key, by its label, or a click.
+    """A way to answer a prompt, by Enter, a click, or a key of its own.
 
     act: takes the text that was typed; if it raises Mars2dError, the error is shown and the prompt
     stays open.
     """
 
-    label: str
     words: str
     act: Callable[[str], None] = lambda _: None
+    key: str = ""
 
 
 @dataclass
@@ -98,7 +98,7 @@ class Dialogs:
         escape: str = "cancel",
     ) -> None:
         """Open a prompt, of which Enter gives the first answer; escape: what Esc does, in words."""
-        self._show(Prompt(label, field, doc), [*answers, Answer("Esc", escape)])
+        self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
 
     def _show(self, prompt: Prompt, answers: Sequence[Answer]) -> None:
         self.prompt = prompt
@@ -114,14 +114,17 @@ class Dialogs:
         def entries() -> list[Entry]:
             tone = "warning" if prompt.error else "note"
             told = [Entry(prompt.error or prompt.doc, tone=tone)] if prompt.field else []
-            # Enter chooses what is chosen: at first the first one.
-            keys = [("", "Enter"), *((each.label, "") for each in answers[1:])]
             return [
                 Entry(prompt.label, field=prompt.field),
                 *told,
                 *(
-                    Entry(each.words, partial(answer, each), key, value=value)
-                    for each, (key, value) in zip(answers, keys, strict=True)
+                    Entry(
+                        each.words,
+                        partial(answer, each),
+                        each.key,
+                        value="" if each.key else "Enter",
+                    )
+                    for each in answers
                 ),
             ]
 
@@ -144,7 +147,7 @@ class Dialogs:
         if self._document.path is None:
             self.ask(
                 "Save as",
-                Answer("Enter", "save", lambda text: self._save_as(text, then)),
+                Answer("save", lambda text: self._save_as(text, then)),
                 field=TextField(self._document.proposal, opened_by_key=True),
                 doc="a scenario file, in TOML",
             )
@@ -160,7 +163,7 @@ class Dialogs:
             return
         self.ask(
             f"{path} is there already.",
-            Answer("Enter", "overwrite it", lambda _: self._write(path, then)),
+            Answer("overwrite it", lambda _: self._write(path, then)),
         )
 
     def _write(self, path: Path, then: Callable[[], None] | None = None) -> None:
@@ -219,13 +222,13 @@ class Dialogs:
         if not self._desk.history.changed:
             self._discard()
             return
-        discard = Answer("Backspace", "discard", lambda _: self._discard())
+        discard = Answer("discard", lambda _: self._discard(), "Backspace")
         if self._live:
-            now = Answer("Enter", "from now", lambda _: self.apply("now"))
-            anew = Answer("Shift Enter", "from the start", lambda _: self.apply("start"))
+            now = Answer("from now", lambda _: self.apply("now"))
+            anew = Answer("from the start", lambda _: self.apply("start"), "Shift Enter")
             self.ask("Use what was drawn?", now, anew, discard, escape="stay")
         else:
-            save = Answer("Enter", "save", lambda _: self.save(then=self._discard))
+            save = Answer("save", lambda _: self.save(then=self._discard))
             self.ask("Not saved yet.", save, discard, escape="stay")
 
     def _discard(self) -> None:

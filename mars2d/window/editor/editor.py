@@ -290,7 +290,7 @@ class Editor:
         if self.tool_name == "select" and not self.desk.selection:
             self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
-        enter = Answer("Enter", "apply", self._put)
+        enter = Answer("apply", self._put)
         self.dialogs.ask(
             "x y [degrees] =",
             enter,

@@ -319,7 +319,7 @@ class Properties:
 
         field = TextField(text)
         field.select_all()
-        self._dialogs.ask(label, Answer("Enter", "apply", answer), field=field, doc=doc)
+        self._dialogs.ask(label, Answer("apply", answer), field=field, doc=doc)
 
     def _step(self, subject: Subject, name: str, way: int) -> None:
         """Change a number by half a power of ten that fits it."""
