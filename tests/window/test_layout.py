@@ -63,7 +63,7 @@ def faults_of_editor(size, text):
         yield from (*surface.crowded(), *surface.cut())
     if plot.width * plot.height < LEAST * size[0] * size[1]:
         yield f"the arena has {plot.width * plot.height / size[0] / size[1]:.2f} of the picture"
-    buttons = [*editor._toolbar.places.items(), *editor._header._places]
+    buttons = [*editor._toolbar.places.items(), *editor._header.places.items()]
     yield from unfit([*buttons, ("the arena", plot)], picture)
     for title in ("Mass", "Colour", "More"):
         if title in editor.panel.places:

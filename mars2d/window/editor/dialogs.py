@@ -114,19 +114,11 @@ class Dialogs:
         def entries() -> list[Entry]:
             tone = "warning" if prompt.error else "note"
             told = [Entry(prompt.error or prompt.doc, tone=tone)] if prompt.field else []
-            return [
-                Entry(prompt.label, field=prompt.field),
-                *told,
-                *(
-                    Entry(
-                        each.words,
-                        partial(answer, each),
-                        each.key,
-                        value="" if each.key else "Enter",
-                    )
-                    for each in answers
-                ),
+            ways = [
+                Entry(each.words, partial(answer, each), each.key, value="Enter" * (not each.key))
+                for each in answers
             ]
+            return [Entry(prompt.label, field=prompt.field), *told, *ways]
 
         self._menu.open("prompt", entries, (0, 0), asks=True)
 

@@ -115,7 +115,7 @@ class Editor:
         tools = [self.groups["Tools"], [self._actions["snap"]]]
         self._toolbar = Buttons(tools, side=SIDE, lettered=True)
         in_header = [self._actions[name] for name in HEADER if name in self._actions]
-        self._header = Header(painter, in_header)
+        self._header = Header([in_header])
 
     @property
     def title(self) -> str:
@@ -188,10 +188,12 @@ class Editor:
             self.help.close()
             return
         self._pointer = event.pos
+        self.desk.say("")
         if self.panel.plate.collidepoint(event.pos):
-            self.desk.say("")
             self.panel.handle(event)
-        elif event.button == pygame.BUTTON_LEFT:
+        elif self._toolbar.handle(event) or self._header.handle(event):
+            pass
+        elif event.button == pygame.BUTTON_LEFT and self.layout.plot.collidepoint(event.pos):
             self._press_left(event.pos)
         elif event.button == pygame.BUTTON_MIDDLE:
             self._panning = True
@@ -199,17 +201,11 @@ class Editor:
             self.tool.cancel()
 
     def _press_left(self, pixel: tuple[int, int]) -> None:
-        button = self._actions.get(self._toolbar.at(pixel) or self._header.at(pixel) or "")
-        if button is not None and button.act is not None:
-            self.desk.say("")
-            button.act()
-        elif self.layout.plot.collidepoint(pixel):
-            if pygame.K_SPACE in self._held:
-                self._panning = True
-                return
-            self.desk.say("")
-            self._dragging, self.panel.focused = True, False
-            self.tool.press(self._world(pixel), shift=self._shift)
+        if pygame.K_SPACE in self._held:
+            self._panning = True
+            return
+        self._dragging, self.panel.focused = True, False
+        self.tool.press(self._world(pixel), shift=self._shift)
 
     def _move(self, event: pygame.Event) -> None:
         self._pointer = event.pos
@@ -377,7 +373,7 @@ class Editor:
         self._draw_tools(surface, side)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.painter)
-        self._header.draw(surface, bar, self.title, self._note(), self._pointer)
+        self._header.draw_bar(surface, bar, self.painter, self.title, self._note(), self._pointer)
         self._draw_foot(surface)
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self.painter, self._pointer)

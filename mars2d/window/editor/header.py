@@ -2,44 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import pygame
 
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.actions import Action
+from mars2d.window.widgets.buttons import Buttons
 
 BUTTONS = 0.5
 """The share of the header in which buttons begin; the rest is for the title."""
 
 
-class Header:
+class Header(Buttons):
     """A bar with the title, and buttons of actions at the right; those that are lit stand out."""
 
-    def __init__(self, painter: Painter, actions: Sequence[Action]) -> None:
-        """Start with nothing drawn."""
-        self._painter, self._actions = painter, actions
-        self._places: list[tuple[str, pygame.Rect]] = []
-
-    def at(self, pixel: tuple[int, int]) -> str | None:
-        """Return the action of the button at a pixel, if there is one."""
-        return next((name for name, place in self._places if place.collidepoint(pixel)), None)
-
-    def draw(
+    def draw_bar(
         self,
         surface: pygame.Surface,
         bar: pygame.Rect,
+        painter: Painter,
         title: str,
         note: str,
         pointer: tuple[int, int],
     ) -> None:
         """Draw the header; note: muted text after the title."""
-        painter, theme, ui = self._painter, self._painter.theme, self._painter.ui
+        theme, ui = painter.theme, painter.ui
         fonts, pad = painter.fonts, round(20 * ui)
         surface.fill(theme.bar, bar)
         surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
-        right, self._places = bar.right - pad, []
-        for action in reversed(self._actions):
+        right, self.places = bar.right - pad, {}
+        for name, action in reversed(self._actions.items()):
             if right < (1 - BUTTONS) * bar.width:
                 break  # the keys have all of them
             first, works = action.lit, action.works
@@ -52,7 +42,7 @@ class Header:
             edge = theme.selected if hover and works else theme.key_edge
             painter.panel(surface, place, fill, 7 * ui, edge)
             painter.write(surface, action.title, 15 * ui, color, bold=first, center=place.center)
-            self._places.append((action.name, place))
+            self.places[name] = place
             right = place.left - round(8 * ui)
         room = right - 2 * pad - fonts.width(note, 14 * ui) - 12 * ui
         title = fonts.shorten(title, 20 * ui, room, bold=True)
