@@ -14,6 +14,8 @@ _INSTEAD: dict[str, dict[str, str]] = {
         _SPEED: "drive=Unicycle(max_linear_speed=...)",
         _TURN: "drive=Unicycle(max_angular_speed=...)",
         "law control controllaw behaviour behavior policy function": "controller=law",
+        "wheelssemiaxislength semiaxis wheelbase": "drive=Unicycle(wheel_semiaxis=...)",
+        "distancecenterbarycenter": "center_offset=...",
     },
     "Scenario": {
         "n number numrobots agents": "robots=3, or robots=[Robot(...), ...]",
@@ -24,6 +26,17 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "obstacle obstacles wall walls map": "addons=[Map([[(x, y), ...], ...])], of mars2d.addons",
         "bounds arena size world field area width": "workspace=[(x, y), ...], the area's corners",
         "sensor sensors": "Robot(sensors=[...])",
+        "initialpose initialposes pose poses starts":
+            "robots=[Robot(pose=(x, y, theta)), ...]; of a matrix P (3, n), "
+            "robots=[Robot(pose=p) for p in P.T]",
+        "robot": 'robots=[Robot(...)]; among options, "robots.*.diameter" is that of all robots',
+        "nonholonomic drive": "Robot(drive=Holonomic()), or Robot(drive=Unicycle())",
+        "colors colours basecolors": "animation=Animation(base_colors=[...])",
+    },
+    "Animation": {
+        "enable": "speed=1 in mars2d.run(...) for a window; without a speed there is none",
+        "color colour colors colours": "base_colors=[...]",
+        "title": "Scenario(title=...)",
     },
     "Sensor": {
         "distance maxrange reach maxdistance": "range=...",
