@@ -36,6 +36,7 @@ def entries_of_body(frame: Frame, body: int, director: Director, actions: Action
         entries.append(Entry("Drive by hand", actions["drive"], "H"))
     return [
         *entries,
+        Entry("Push with a force ...", actions["push"], "W"),
         Entry("Put back to its start", lambda: director.put_back(body)),
         Entry("Twice as heavy", lambda: director.scale_mass(body, 2.0)),
         Entry("Half as heavy", lambda: director.scale_mass(body, 0.5)),

@@ -79,6 +79,7 @@ LEAVE = _action("leave", "Ctrl Q", "close the window", "Ctrl W")
 DO = (
     _action("parameters", "F2", "sliders of parameters on and off"),
     _action("drive", "H", "drive the selected robot by hand: arrow keys, WASD, controller"),
+    _action("push", "W", "push the selected robot or prop with so many newtons, for so long"),
     _action("edit", "E", "draw walls, robots and more, while paused"),
     _action("undo", "Ctrl Z", "undo the last manual action"),
     _action("picture", "P", "save a picture", "Ctrl S"),
@@ -95,6 +96,7 @@ MOUSE = (
     _action("zoom", "Wheel", "zoom about the pointer; over the time bar, zoom in time"),
     _action("pick", "Click", "select and inspect a robot or prop; on the floor, deselect"),
     _action("carry", "Drag it", "pull a robot or prop; while paused, move it"),
+    _action("aim", "Shift drag", "push a robot or prop with the newtons at the arrow"),
     _action("menu", "Right click", "open a menu of actions"),
     _action("turn", "Right drag", "turn a robot or prop, while paused"),
     _action("pan", "Drag", "on the floor, move the picture; on the time bar, go to a time"),

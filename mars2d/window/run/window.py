@@ -12,12 +12,14 @@ import pygame
 
 from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.plane import Point
+from mars2d.core.scene import Scene
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame
+from mars2d.record.interventions import Intervention, pushes_at
 from mars2d.scenario.controllers import standing_still
 from mars2d.scenario.examples import experiment_name
 from mars2d.window.panels.inspector import Inspector
@@ -42,6 +44,8 @@ from mars2d.window.run.hints import hints_of
 from mars2d.window.run.mouse import Mouse
 from mars2d.window.run.play import Play
 from mars2d.window.run.player_window import PlayerWindow
+from mars2d.window.run.push import EXPECTED, draw_pushes, pushed, suggested
+from mars2d.window.run.question import Question
 from mars2d.window.run.reload import Reload
 from mars2d.window.run.scope_menu import ScopeMenu
 from mars2d.window.run.score_panel import ScorePanel
@@ -56,6 +60,7 @@ from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.notes import Progress, draw_progress
+from mars2d.world.operator import forceless
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -100,7 +105,7 @@ class Window(PlayerWindow):
         self._cast = _cast(source)
         painter = self._painter = self.looks.painter
         self._stage = Stage(painter, MEMORY)
-        self._selection = Selection()
+        self._selection, self._question = Selection(), Question()
         self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
         self._lesson = Lesson(painter, _path(source))
@@ -130,6 +135,7 @@ class Window(PlayerWindow):
             "follow": self._follow_or_not,
             "parameters": self._show_parameters,
             "drive": self._drive_or_not,
+            "push": self._ask_for_push,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
             "python": self._save_python,
@@ -276,6 +282,12 @@ class Window(PlayerWindow):
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
+        done: Sequence[Intervention] = self.player.source.recorded.interventions
+        if timeline is not None:  # of the newest row, too
+            done = timeline.world.operator.log
+        scene, dt = Scene(), frame.scenario.sampling_time
+        draw_pushes(scene, frame, pushes_at(done, frame.time, dt), self.camera)
+        marks = [*marks, *scene.shapes]
         others = [] if timeline is None else ghosts(timeline, frame).shapes
         self._stage.draw(
             surface,
@@ -300,6 +312,7 @@ class Window(PlayerWindow):
             self._before.draw(surface, self.viewpoint.room, layout.plot, self.camera, frame)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
+            self._question.draw(surface, layout.plot, self._painter)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
 
     def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
@@ -359,6 +372,8 @@ class Window(PlayerWindow):
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
+        if self._question.handle(event):
+            return True
         over = self.editor is None and self.toolbar.menu.is_open and self.toolbar.handle(event)
         if not over and self.director.handle(event):
             return True
@@ -561,6 +576,23 @@ class Window(PlayerWindow):
             robot = self.selected or 0
             self.select(robot)
             self.director.drive(robot)
+
+    def _ask_for_push(self) -> None:
+        """Ask for the force on the selected body, and push it."""
+        body, frame = self.selected, self.player.frame
+        if body is None:
+            self.notes.say("Tab selects what is pushed", "warning")
+        elif fault := forceless(frame.scenario, body):
+            self.notes.say(fault, "warning")
+        else:
+
+            def push(text: str) -> None:
+                force, seconds = pushed(text, self.player.frame.body_pose(body)[2])
+                if self.director.change(lambda world: world.operator.push(body, force, seconds)):
+                    self.notes.say(f"a push of {text.strip()}")
+
+            name = frame.scenario.bodies[body].name
+            self._question.ask(f"Push {name}, {EXPECTED}", suggested(frame, body), push)
 
     def say_who_stands_still(self) -> None:
         """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""
