@@ -72,6 +72,7 @@ class Game(Elimination):
     hunted: tuple[str | int, ...] | None = entry(
         default=None, check=checks.optional(robots_of),
         doc="the robots to catch, if not those of the second role, which then help them",
+        names="robot",
     )  # fmt: skip
     wanted: int | None = integer(
         default=None, low=1, high=10**6, optional=True,

@@ -6,7 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from mars2d.addons import Beacon, Map, Voronoi, Waypoints
+from mars2d.addons import Beacon, Estimate, Game, Map, Trails, Voronoi, Waypoints
 from mars2d.bodies.joints import Hinge, Rope
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.errors import InputError
@@ -126,12 +126,28 @@ def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
 
 
 def test_a_new_name_holds_wherever_the_body_is_mentioned():
-    follow = Robot(pose=(-3, 0, 0), controller=FollowRobot(leader="robot0"))
-    draft = Draft.of(furnished()).added("robot", follow)
+    follow = Robot(pose=(-3, -4, 0), controller=FollowRobot(leader="robot0"))
+    mentions = [
+        Game({"robot0": ["robot0"], "hunted": ["second", 2]}, hunted=["second"]),
+        Trails(robots=["second", "robot0"]),
+        Estimate(robot="robot0"),
+    ]
+    scenario = furnished()
+    scenario = scenario.replace(
+        robots=[*scenario.robots, follow],
+        addons=[*scenario.addons, *mentions],
+        random_starts=[RandomStarts(["robot0"])],
+    )
+    draft = Draft.of(scenario)
     draft = draft.renamed(Item("robot", 0), "Ada").renamed(Item("robot", 1), "Bo")
-    assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot1"]
+    assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot2"]
     assert draft.robots[2].controller.leader == "Ada"
     assert draft.joints[0].a == "Bo"
+    found = draft.scenario()
+    game, trails, estimate = found.addons[-3:]
+    assert game.roles == (("robot0", ("Ada",)), ("hunted", ("Bo", 2)))
+    assert (game.hunted, trails.robots, estimate.robot) == (("Bo",), ("Bo", "Ada"), "Ada")
+    assert found.random_starts[0].bodies == ("Ada",)
     with pytest.raises(InputError, match="'Bo' is the name of another body"):
         draft.renamed(Item("robot", 0), "Bo")
 

@@ -24,7 +24,6 @@ from mars2d.core.description import snake_case
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, bounds_of
 from mars2d.record.frame import Frame
-from mars2d.scenario.controllers import FollowRobot
 from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -106,18 +105,17 @@ class Draft:
 
     def _sketch(self, addons: Sequence[Addon]) -> Scenario:
         sound = [outline for outline in self.outlines if not flaw(outline)]
-        animation = self.base.animation.replace(show_initial_pose=False)
-        drawn = copy.copy(self.base)
-        drawn.__dict__.update(
+        drawn = _unchecked(
+            self.base,
             robots=self.robots,
             props=self.props,
             joints=self.joints,
             workspace=self.workspace,
             addons=tuple(self._addons(sound, addons)),
-            animation=animation,
+            animation=self.base.animation.replace(show_initial_pose=False),
         )
         if self.workspace is None and not (self.robots or self.props or drawn.obstacles):
-            drawn.__dict__["workspace"] = BLANK
+            return _unchecked(drawn, workspace=BLANK)
         return drawn
 
     def _addons(self, outlines: Sequence[Outline], addons: Sequence[Addon]) -> list[Addon]:
@@ -298,18 +296,17 @@ class Draft:
         if name in {part.name for part in self._members()} - {old}:
             raise InputError(f"{name!r} is the name of another body")
 
-        def new(known: Any) -> Any:
-            return name if known == old else known
+        def anew(parts: Sequence[Any]) -> tuple[Any, ...]:
+            return tuple(part.renamed(old, name) for part in parts)
 
-        joints = [joint.replace(a=new(joint.a), b=new(joint.b)) for joint in self.joints]
-        robots = [
-            robot.replace(controller=law.replace(leader=new(law.leader)))
-            if isinstance(law := robot.controller, FollowRobot)
-            else robot
-            for robot in self.robots
-        ]
-        starts = (each.replace(bodies=[*map(new, each.bodies)]) for each in self.starts)
-        draft = replace(self, robots=tuple(robots), joints=tuple(joints), starts=tuple(starts))
+        draft = replace(
+            self,
+            base=_unchecked(self.base, addons=anew(self.base.addons)),
+            robots=anew(self.robots),
+            props=anew(self.props),
+            joints=anew(self.joints),
+            starts=anew(self.starts),
+        )
         return draft.with_members([item], lambda part: part.replace(name=name))
 
     def joints_of(self, item: Item) -> tuple[Joint, ...]:
@@ -403,6 +400,13 @@ class Draft:
         prop_pose = np.array([prop.pose for prop in self.props], dtype=float).reshape(-1, 3).T
         nothing = np.empty((0, 3, len(self.robots)))
         return Frame(sketch or self.sketch, 0.0, 0, pose, nothing, prop_pose=prop_pose)
+
+
+def _unchecked(scenario: Scenario, **changes: Any) -> Scenario:
+    """Return a copy of a scenario with other fields, which need not go together."""
+    copied = copy.copy(scenario)
+    copied.__dict__.update(changes)
+    return copied
 
 
 @lru_cache(maxsize=8)

@@ -263,7 +263,7 @@ class Properties:
     def _ask(self, subject: Subject, name: str, pixel: Pixel) -> None:
         """Let a person change a field: by a menu of its values, or by typing."""
         field, part = subject.fields[name], subject.parts[0]
-        value, choices = getattr(part, name), self._choices(field, part)
+        value, choices = getattr(part, name), self._choices(field)
         if isinstance(value, bool):
             subject.set(name, not value)
         elif choices:
@@ -284,13 +284,14 @@ class Properties:
             doc = field.metadata.get("doc", "")
             self._type(label, doc, text, lambda typed: subject.set(name, _typed(field, typed)))
 
-    def _choices(self, field: Field, part: Any) -> Sequence[Any]:
+    def _choices(self, field: Field) -> Sequence[Any]:
         """Return the values that a field may have, if they are few."""
         robots = self._desk.draft.robots
         chosen = {item.number for item in self._desk.selection if item.kind == "robot"}
-        if isinstance(part, FollowRobot) and field.name == "leader":
+        mentions = field.metadata.get("names")
+        if mentions == "robot" and schema_of(field).get("type") == "string":
             return [None, *(r.name for i, r in enumerate(robots) if i not in chosen)]
-        if isinstance(part, Controller) and field.name == "sensor":
+        if mentions == "sensor":
             return [sensor.key for i in chosen for sensor in robots[i].sensors]
         choices: Sequence[Any] = field.metadata.get("of", ())
         return choices
