@@ -228,9 +228,21 @@ def function(name: str, value: object, *arguments: str) -> object:
     return value
 
 
-def identifier(name: str, value: str | None, prefix: str) -> None:
-    """Raise InputError for a part's name that can't follow the `prefix` in the code of a law."""
-    if value is None:
-        return
-    if not value.isidentifier() or value.startswith("_") or keyword.iskeyword(value):
-        raise wrong(name, value, f"letters, digits and _, a letter first, as it follows {prefix}")
+NAME = r"[^\x00-@\[-`{-\u007f][^\x00-/:-@\[-^`{-\u007f]*"
+"""The pattern of letters, digits and _, a letter first, whatever a pattern takes for a letter."""
+
+
+def identifier(prefix: str) -> Check:
+    """Return a check for a part's name, which follows the `prefix` in the code of laws, or None."""
+    expected = f"letters, digits and _, a letter first, as it follows {prefix}"
+
+    @accepts({"type": "string", "pattern": f"^{NAME}$"})
+    def check(name: str, value: object) -> str | None:
+        if value is None:
+            return None
+        known = isinstance(value, str) and value.isidentifier() and not keyword.iskeyword(value)
+        if not known or str(value).startswith("_"):
+            raise wrong(name, value, expected)
+        return str(value)
+
+    return check

@@ -30,7 +30,7 @@ ROBOTS = [
     ("sensors=[Proximity]", "write Proximity(...)"),
     ("drive=Unicycle", "write Unicycle(...)"),
     ("pose=(0, 0, '90')", "expected a pose (x, y, theta) in metres and radians"),
-    ("radius=0.1, diameter=0.2", "Robot has both radius and diameter: give one of them"),
+    ("radius=0.1", "write diameter=2 * radius"),
     ("drive=Unicycle(max_v=1)", "write max_linear_speed=..."),
     ("drive=Unicycle(max_omega=1)", "max_angular_speed=..."),
     ("drive=Unicycle(1)", "takes its fields by name, as in Unicycle(max_linear_speed=...)"),
