@@ -96,6 +96,12 @@ def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> 
     if value is None:
         refuse("returned nothing: a law returns its command, an array (2, n)")
     expected = f"expected two rows and a column for each robot, shape (2, {robots})"
+    rows = value if robots == 2 and isinstance(value, (list, tuple)) else [value]
+    if len(rows) == 2 and all(type(row) is tuple for row in rows):
+        refuse(
+            f"returned {shown(value)}: is each pair of a robot? A row has one number of all: "
+            "expected np.transpose(pairs), or [[v of both], [omega of both]]"
+        )
     command = _numbers(value)
     if command is None:
         refuse(f"returned {shown(value)}: {expected}{_unequal(value)}")

@@ -96,7 +96,7 @@ LAWS = [
     ("robot.command = (1, 0)", "a robot's command can't be set"),
     ("return robot.x, 0", "write robot.pose[0]"),
     ("return robot.position[2], 0", "a position is (x, y); the angle is pose[2]"),
-    ("return robot.pose[3], 0", "a pose is (x, y, theta), from 0 to 2"),
+    ("return robot.pose[3], 0", "or pose[0] to pose[2]"),
     ("x, y = robot.pose\nreturn x, y", "a pose is three numbers: x, y, theta = robot.pose"),
     ("return robot.pose(), 0", "it is an array: write it without the brackets ()"),
     ("return robot.speed, 0", "write robot.velocity: x', y' [m/s], theta' [rad/s]"),
