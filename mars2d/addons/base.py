@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core import checks
-from mars2d.core.description import Stateful, entry, number, snake_case, text
+from mars2d.core.description import Stateful, entry, number, snake_case
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.materials import check_static, surface_friction, surface_restitution
 from mars2d.core.plane import Outline, Point
@@ -36,7 +36,9 @@ class Addon(Stateful):
     `World`, see `mars2d.core.interfaces.WorldLike`; `draw` and `theory` a `Frame`, see `FrameLike`.
     """
 
-    name: str | None = text(default=None, optional=True, doc="the name in world.addons")
+    name: str | None = entry(
+        default=None, check=checks.identifier("world.addons."), doc="the name in world.addons"
+    )
 
     friction: float = entry(
         default=1.0, check=surface_friction,
@@ -74,9 +76,7 @@ class Addon(Stateful):
         return self.name or snake_case(type(self).__name__)
 
     def _validate(self) -> None:
-        kind = type(self).__name__
-        checks.identifier(f"{kind}.name", self.name, "world.addons.")
-        check_static(f"{kind}.static_friction", self.static_friction, self.friction)
+        check_static(f"{type(self).__name__}.static_friction", self.static_friction, self.friction)
 
     @property
     def acts(self) -> bool:

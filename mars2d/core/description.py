@@ -141,7 +141,7 @@ def flag(**more: Any) -> Any:
 def text(*, optional: bool = False, **more: Any) -> Any:
     """Declare a field that is one line of text, such as a name or a title."""
 
-    @accepts({"type": "string"})
+    @accepts({"type": "string", "pattern": f"^[^{CONTROLS.pattern[1:]}*$"})
     def check(name: str, value: object) -> str | None:
         if optional and value is None:
             return None
@@ -236,9 +236,6 @@ def schema_of(field: dataclasses.Field[Any]) -> Schema:
 class Description:
     """The base of all descriptions. Raises InputError for a wrong, missing or unknown field."""
 
-    twins: ClassVar[dict[str, tuple[str, float]]] = {}
-    """Other names of fields: the field, and how many times the number given it is."""
-
     __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
@@ -266,23 +263,8 @@ class Description:
         certain = likely(name, known, CERTAIN)
         return certain or instead(name, *kinds) or nearest(name, known, most=40)
 
-    @classmethod
-    def translated(cls, given: dict[str, Any]) -> dict[str, Any]:
-        """Return values by the names of their fields, where some have a twin's name."""
-        twins = cls.twins.keys() & given.keys()
-        if not twins:
-            return given
-        translated = {name: value for name, value in given.items() if name not in twins}
-        for twin in twins:
-            name, times = cls.twins[twin]
-            if name in given:
-                raise InputError(f"{cls.__name__} has both {twin} and {name}: give one of them")
-            translated[name] = times * real(f"{cls.__name__}.{twin}", given[twin])
-        return translated
-
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed, validated again."""
-        changes = self.translated(changes)
         current = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         return type(self)(**(current | changes))
 
@@ -346,7 +328,6 @@ def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
     @functools.wraps(init)
     def checked(self: Any, *args: Any, **kwargs: Any) -> None:
         if type(self) is cls:
-            kwargs = cls.translated(kwargs)
             for name in kwargs:
                 if name not in known:
                     raise InputError(f"{cls.__name__} has no field {name!r}{cls.meant(name)}")

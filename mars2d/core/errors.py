@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
-CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
+CONTROLS = re.compile(r"[\x00-\x1f\u007f-\x9f\u2028\u2029]")
 """Line breaks and the control characters of terminals."""
 
 UNSEEN = re.compile(

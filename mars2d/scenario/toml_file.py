@@ -280,8 +280,6 @@ class _Reader:
             with self._pointing(at, name):
                 if name in fields:
                     values[name] = self._field(kind, fields[name], item, _inside(at, name))
-                elif name in kind.twins:
-                    values[name] = item
                 elif name != "type":
                     known = [*fields, *(HEADS if kind is Scenario else ["type"])]
                     near = likely(name, known) or kind.meant(name)
