@@ -51,7 +51,7 @@ def checks(record):
     step, drive = record.scenario.sampling_time, record.scenario.robots[0].drive
     v, omega = record.command[:-1].swapaxes(0, 1) * step  # (steps, n), m and rad
     fastest = np.degrees(drive.max_linear_speed / drive.wheel_semiaxis)
-    wanted = np.minimum(np.linspace(90, 270, 1001), fastest) * step
+    wanted = np.minimum(np.linspace(90, 270, 100_001), fastest) * step
     turns, mean, spread = np.degrees(omega[v == 0]), wanted.mean(), wanted.std()
     if len(turns):
         fourth = ((wanted - mean) ** 4).mean() / max(spread, 1e-6) ** 4  # 9 / 5 if none is cut
