@@ -272,11 +272,14 @@ def _so_many_are(count: int, needed: int) -> str:
 def _touches(teams: Teams, span: Span) -> list[Exit]:
     """Return an exit for each touch of a hunter and an evader, in the order of the contacts."""
     hunters, evaders = teams
-    a, b = span.contacts["a"], span.contacts["b"]
+    met = span.contacts[np.minimum(span.contacts["a"], span.contacts["b"]) >= 0]  # no obstacles
+    if not len(met):
+        return []
+    a, b = met["a"], met["b"]
     hunts = np.isin(a, hunters) & np.isin(b, evaders)
     hunted = np.isin(b, hunters) & np.isin(a, evaders)
     return [
-        Exit(float(span.contacts["time"][k]), int(evader), -1.0, int(hunter))
+        Exit(float(met["time"][k]), int(evader), -1.0, int(hunter))
         for k in np.flatnonzero(hunts | hunted)
         for hunter, evader in [(a[k], b[k]) if hunts[k] else (b[k], a[k])]
     ]

@@ -238,11 +238,18 @@ class Description:
 
     __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
 
+    _computed: ClassVar[frozenset[str]] = frozenset()
+    """The names of its cached properties."""
+
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         _keep_checks(cls)
         dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
         cls.__init__ = _gated(cls, cls.__init__)  # type: ignore[method-assign]
+        attributes = [each for kind in cls.__mro__ for each in vars(kind).items()]
+        cls._computed = frozenset(
+            name for name, value in attributes if isinstance(value, functools.cached_property)
+        )
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
@@ -280,9 +287,7 @@ class Description:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state that is copied and pickled: everything but cached properties."""
-        kind, cached = type(self), functools.cached_property
-        state = self.__dict__.items()
-        return {k: value for k, value in state if not isinstance(getattr(kind, k, None), cached)}
+        return {k: value for k, value in self.__dict__.items() if k not in self._computed}
 
     def __repr__(self) -> str:
         changed = []

@@ -20,9 +20,6 @@ with extra("rl", "environments need gymnasium"):
 
 Row = NDArray[np.float32]
 
-SEEDS = 2**31
-"""Episodes without a seed of their own draw one below this."""
-
 
 def observation_space(episode: Episode, k: int) -> Box:
     """Return the space of learner k's observations."""
@@ -112,7 +109,7 @@ class Environment(gymnasium.Env[Row, Row]):
         seed: of all that is random; None: a new one from the generator that was seeded last.
         """
         super().reset(seed=seed)
-        self._episode.start(int(self.np_random.integers(SEEDS)) if seed is None else seed)
+        self._episode.start(seed)
         self._screen.follow(self.world)
         return self._episode.observed(0), {}
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.extras import extra
-from mars2d.rl.environment import SEEDS, action_space, observation_space
+from mars2d.rl.environment import action_space, observation_space
 from mars2d.rl.episode import Episode, Law, Reward, Source
 from mars2d.rl.screen import MODES, Screen
 from mars2d.world.record import Record
@@ -62,7 +62,6 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         count = range(len(episode.names))
         self.observation_spaces = {episode.names[k]: observation_space(episode, k) for k in count}
         self.action_spaces = {episode.names[k]: action_space(episode, k) for k in count}
-        self._random = np.random.default_rng()
 
     def observation_space(self, agent: str) -> Box:
         """Return the space of an agent's observations; always the same object."""
@@ -98,9 +97,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         options: dict[str, Any] | None = None,  # noqa: ARG002
     ) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
         """Begin an episode; return each agent's observation, and empty dicts."""
-        if seed is not None:
-            self._random = np.random.default_rng(seed)
-        self._episode.start(int(self._random.integers(SEEDS)) if seed is None else seed)
+        self._episode.start(seed)
         self.agents = [*self.possible_agents]
         self._screen.follow(self.world)
         seen = {name: self._episode.observed(k) for k, name in enumerate(self.agents)}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, partial
 from time import perf_counter
 from typing import Any, NoReturn, TypeVar
@@ -143,6 +143,11 @@ class Simulation(State):
         return self._drives.cuts
 
     @property
+    def drives_at_once(self) -> bool:
+        """Whether its drives follow commands at once and exactly, so that they keep nothing."""
+        return self._delay.at_once and self._drives.exact
+
+    @property
     def calls(self) -> tuple[int, int]:
         """What changes with each control step, and with each law that is asked."""
         return self.iteration, self.laws.calls
@@ -256,6 +261,20 @@ class Simulation(State):
 
     def _control_step(self, command: Any, *, ask: bool = False) -> Float:
         """Do one pass of the loop of MARS's Algorithm 1; return the commands that laws ask for."""
+        wanted, asked = self._decide(command, ask=ask)
+        self._carry_out(self._saturate(wanted))
+        return asked
+
+    def decide(self, command: Any) -> Float:
+        """Do the first part of a control step, before the drives are asked; see `Abreast`."""
+        return self._alone(self._decide, command)[0]
+
+    def carry_out(self, command: Float, twist: Float) -> None:
+        """Do the second part, under a command that drives can follow, and the twists (3, n)."""
+        self._alone(self._carry_out, command, twist)
+
+    def _decide(self, command: Any, *, ask: bool = False) -> tuple[Float, Float]:
+        """Observe, and return the commands (m, n) that are wanted and that laws ask for."""
         self._observe()
         if self.watch is not None:
             self.watch(self.world)
@@ -266,7 +285,11 @@ class Simulation(State):
             asked = self.laws.commands() if ask else wanted
         if ask:
             asked = self._saturate(self.operator.command(asked))
-        self.command = locked(self._saturate(self.operator.command(wanted)))
+        return self.operator.command(wanted), asked
+
+    def _carry_out(self, command: Float, twist: Float | None = None) -> None:
+        """Issue a command (m, n), and move under it, unless it ends here."""
+        self.command = locked(command)
         self._write_row()
         self._check_workspace()
         if self.iteration >= self.scenario.last_iteration and not self.endless:
@@ -275,10 +298,9 @@ class Simulation(State):
             self._hooks.call("on_stop", self.world)
             self.draw_addons(self._drawn)
         else:
-            self._drive()
+            self._drive(twist)
         if self._channel is not None:
             self._channel.transmit()
-        return asked
 
     def _observe(self) -> None:
         if self.observed != self.iteration:
@@ -329,18 +351,16 @@ class Simulation(State):
             name, (x, y) = self.scenario.robots[gone[0]].name, self.pose[:2, gone[0]]
             self.stop(f"Out of bounds: {name} left the workspace at ({x:.3g}, {y:.3g})")
 
-    def _drive(self) -> None:
-        """Move the robots for one sampling time under the commands in effect."""
+    def _drive(self, twist: Float | None) -> None:
+        """Move the robots for one sampling time under the commands in effect, or twists (3, n)."""
         self.sensing.close()
         time = self.time
-        self._drives.draw()
         self.driven = []
         start = perf_counter()
-        for duration, command in self._delay.send(self.command):
-            for part, twist in self._drives.drive(command, duration):
-                self.driven.append((part, twist))
-                self.operator.drive(self.engine, twist, part, time)
-                time += part
+        for part, now in self._twists() if twist is None else [(self.sampling_time, twist)]:
+            self.driven.append((part, now))
+            self.operator.drive(self.engine, now, part, time)
+            time += part
         reached = self._drives.reached()
         if reached is not None:
             self.engine.ask(reached)
@@ -352,6 +372,12 @@ class Simulation(State):
         self.iteration += 1
         if self.iteration % REST == 0:
             self.engine.rest()
+
+    def _twists(self) -> Iterator[tuple[float, Float]]:
+        """Yield the twists (3, n) that the drives ask for, each with the seconds that it holds."""
+        self._drives.draw()
+        for duration, command in self._delay.send(self.command):
+            yield from self._drives.drive(command, duration)
 
     # -- changes while it runs -------------------------------------------------------------------
 
