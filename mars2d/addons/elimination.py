@@ -62,9 +62,9 @@ class Elimination(Contest):
     def ending(self, world: WorldLike) -> str:
         """Return why it is over now, in words; "" while it goes on."""
 
-    def players(self, scenario: ScenarioLike) -> Teams:
-        """Return the indices of the robots that may leave, or let others leave, by role."""
-        return self.teams(scenario)
+    def time_is_over(self, scenario: ScenarioLike, row: int) -> bool:
+        """Return whether time is over for the contest at a row of a run."""
+        return row >= scenario.last_iteration
 
     def on_start(self, world: WorldLike) -> None:
         """Find the robots; raise InputError if one is not there, or has two roles."""
@@ -78,7 +78,7 @@ class Elimination(Contest):
         span = Span(world.scenario, np.array([world.time]), world.pose[None], world.contacts)
         now = self.exits((one, other), span)
         self._exits += tuple(now)
-        self._time_is_over = world.iteration >= world.scenario.last_iteration
+        self._time_is_over = self.time_is_over(world.scenario, world.iteration)
         if why := self.ending(world):
             world.stop(why)
         for leaving in now if self.holds_last or not why else ():
@@ -104,7 +104,7 @@ class Elimination(Contest):
         teams = self.players(record.scenario)
         contacts = record.contacts[record.contact_rows < len(record)]  # before its last row
         exits = self.exits(teams, Span(record.scenario, record.time, record.pose, contacts))
-        return self.judged(teams, exits, len(record) > record.scenario.last_iteration)
+        return self.judged(teams, exits, self.time_is_over(record.scenario, len(record) - 1))
 
     def exits_at(self, frame: FrameLike) -> list[Exit]:
         """Return who has left at a frame."""

@@ -13,7 +13,7 @@ from mars2d.addons.contest import Capture, Outcome, Teams, listed, robots_of
 from mars2d.addons.elimination import Elimination, Exit, Float, Span, firsts, mark
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
-from mars2d.core.description import accepts, entry, flag, integer, real, wrong
+from mars2d.core.description import accepts, entry, flag, integer, number, real, wrong
 from mars2d.core.errors import InputError, counted, likely, ordinal
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, edges_of, outside_polygon
@@ -54,8 +54,8 @@ class Game(Elimination):
     With a `goal`, an evader is safe as soon as its pose is in it, and stands still there, too;
     without one, it is safe when time is over. The hunters need `wanted` captures, by default of
     all. The evaders have won when too many are safe for that; with a goal the hunters have won when
-    time is over before. Either ends the experiment, unless it goes on `to_the_end`. Whatever else
-    ends it leaves a game undecided.
+    time is over before, which is at the `par` if there is one. Either ends the experiment, unless
+    it goes on `to_the_end`. Whatever else ends it leaves a game undecided.
 
     Laws find how it stands in `score`, `winner`, `caught`, `free`, `safe` and `capture_times`. Of
     a record, `outcome` says the same, also of a loaded one.
@@ -79,6 +79,10 @@ class Game(Elimination):
         doc="the number of captures that the hunters need; None: all of the hunted",
     )  # fmt: skip
 
+    par: float | None = number(
+        default=None, above=0, high=1e9, optional=True, unit="s",
+        doc="when time is over for who has to catch, or to reach the goal; None: the stop time",
+    )  # fmt: skip
     to_the_end: bool = flag(
         default=False, doc="go on, though it is decided, until nobody is left to catch"
     )
@@ -131,15 +135,24 @@ class Game(Elimination):
         (hunting, _), (evading, _) = self.roles
         captures = tuple(Capture(e.time, e.hunter, e.robot) for e in exits if e.hunter is not None)
         needed, left = self.wanted or len(teams[1]), len(teams[1]) - len(captures)
-        safe = left if time_is_over and self.goal is None else len(exits) - len(captures)
+        in_time = [leaving for leaving in exits if leaving.time <= (self.par or np.inf)]
+        caught = sum(leaving.hunter is not None for leaving in in_time)
+        safe = (
+            len(teams[1]) - caught if time_is_over and self.goal is None else len(in_time) - caught
+        )
         winner = None
-        if len(captures) >= needed:
+        if caught >= needed:
             winner = hunting
         elif safe > len(teams[1]) - needed:
             winner = evading
         elif time_is_over:
             winner = hunting
         return Outcome(captures, {hunting: len(captures), evading: left}, winner)
+
+    def time_is_over(self, scenario: ScenarioLike, row: int) -> bool:
+        """Return whether a row is the last one, or after the par."""
+        late = self.par is not None and row * scenario.sampling_time > self.par
+        return late or super().time_is_over(scenario, row)
 
     @property
     def captures(self) -> tuple[Capture, ...]:
@@ -168,7 +181,7 @@ class Game(Elimination):
 
     def ending(self, world: WorldLike) -> str:
         """Return why the game is over now, in words; "" while it goes on."""
-        goes_on = self.to_the_end and self.free and not self._time_is_over
+        goes_on = self.to_the_end and self.free and world.iteration < world.scenario.last_iteration
         if self.winner is None or goes_on:
             return ""
         names = [str(robot.name) for robot in world.scenario.robots]
@@ -179,7 +192,8 @@ class Game(Elimination):
             which = "last" if count == evaders else ordinal(count)
             whom = names[evader] + (f", the {which} of {evaders}," if evaders > 1 else "")
             verb = "sees" if self.capture == SIGHT else "catches"
-            return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{wins}"
+            late = f", not within {self.par:g} s" if self.winner == self.roles[1][0] else ""
+            return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{late}{wins}"
         if self.goal is not None and self.winner == self.roles[1][0]:
             count = len(self.safe)
             who = f"{names[self.safe[0]]} has" if evaders == 1 else f"{count} of {evaders} have"
@@ -198,12 +212,13 @@ class Game(Elimination):
         """Return how hunters or evaders win, in a few words."""
         _, evaders = self.players(scenario)
         needed, whom = self.wanted or len(evaders), listed(scenario, evaders)
-        time = f"for {scenario.last_iteration * scenario.sampling_time:g} s"
+        seconds = self.par or scenario.last_iteration * scenario.sampling_time
+        time = f"for {seconds:g} s"
         if role == self.roles[0][0]:
             verb = "see" if self.capture == SIGHT else "catch"
             some = whom if needed == len(evaders) else f"{needed} of {len(evaders)}"
             if self.goal is None:
-                return f"{verb} {some}"
+                return f"{verb} {some}" + (f" within {self.par:g} s" if self.par else "")
             return f"{verb} {some} before {_so_many_are(len(evaders), needed)} in the goal"
         if self.goal is not None:
             return "reach the goal uncaught"
@@ -235,7 +250,8 @@ class Game(Elimination):
             "Who is caught stands still." if count > 1 else "",
             f"The {hunters_win} with {'the capture' if needed == 1 else f'{needed} captures'}.",
             goal if self.goal is not None else "",
-            f"If time is over before, the {evaders_win if self.goal is None else hunters_win}.",
+            f"If {f'{self.par:g} s are' if self.par else 'time is'} over before, "
+            f"the {evaders_win if self.goal is None else hunters_win}.",
         )
         return " ".join(filter(None, sentences))
 

@@ -35,7 +35,7 @@ def scenario(guards=2, attackers=4, mu=1.0, guard=GUARD, attacker=ATTACKER, seed
     red = robot.replace(drive=quick, controller=load_law(guard), color="red")
     blue = robot.replace(drive=slow, controller=load_law(attacker), color="blue")
     y = [np.linspace(-4, 4, k + 2)[1:-1] for k in (guards, attackers)]
-    x = [rng.uniform(-2, 0.5, guards), rng.uniform(1, 3, attackers)]
+    x = [rng.uniform(-2, 0.5, guards), rng.uniform(1, 3, attackers) - rng.uniform(1, 2.5)]
     team = [red.replace(name=f"guard {k + 1}").at(x[0][k], y[0][k]) for k in range(guards)]
     team += [blue.replace(name=f"blue {k + 1}").at(x[1][k], y[1][k]) for k in range(attackers)]
     roles = {"guard": range(guards), "attacker": range(guards, guards + attackers)}

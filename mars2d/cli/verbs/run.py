@@ -23,7 +23,7 @@ from mars2d.cli.outputs import (
     run_and_save,
     save_film,
 )
-from mars2d.cli.runs import opens_window, require_display, run_headless, speed_by_hand
+from mars2d.cli.runs import opens_window, require_display, run_headless
 from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
@@ -73,7 +73,7 @@ def execute(arguments: argparse.Namespace) -> None:
                     return _run_headless(arguments, experiment, watchers)
                 speed, own = arguments.speed, experiment.scenario.animation.playback_speed
                 if speed is None:
-                    speed = speed_by_hand(experiment.scenario, humans) if humans else own
+                    speed = 1.0 if humans else own
                 look, log = preferences_of(arguments), formats.log_to(arguments.record)
                 asks = arguments.record is None
                 seen = show.show_experiment(

@@ -10,7 +10,7 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
-from mars2d.window.run.play import Play, Seat
+from mars2d.window.run.play import NEXT, Play, Seat
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.help import draw_cap
 from mars2d.window.widgets.words import Word, write_line
@@ -77,10 +77,9 @@ class ScorePanel(Panel):
             if not seat.role:
                 about = str(scenario.robots[seat.robot].name), "you", ""
                 yield from self._role(frame, seat.robot, about, [seat], width)
-        first = next((seat.role for seat in play.seats if seat.role), "")
-        if words := play.tally(first).in_words if first else "":
-            yield Part(GAP, self._rule)
-            yield from self._wrapped(f"so far as {first}: {words}", width, 2)
+        tallies = {seat.role: play.tally(seat.role).in_words for seat in play.seats if seat.role}
+        for role, words in tallies.items():
+            yield from self._wrapped(f"so far as {role}: {words}" if words else "", width, 2)
 
     def _role(
         self,
@@ -100,6 +99,8 @@ class ScorePanel(Panel):
             yield self._keys(seat.keys)
             if contest is not None and seat.role:
                 yield from self._wrapped(contest.aim(seat.role, frame.scenario), width, 2)
+            elif contest is None:
+                yield from self._wrapped(self.play.task, width, MAX_LINES)
             yield self._line(GAP / 2)
 
     def _ending(self, frame: Frame, width: float) -> Iterator[Part]:
@@ -111,6 +112,7 @@ class ScorePanel(Panel):
         yield from self._wrapped(frame.over_message, width, MAX_LINES)
         yield from self._wrapped(result.news, width, 2)
         yield self._keys(("R",), "play again")
+        yield self._keys((str(NEXT),), "next start")
         numbers = tuple(str(choice.number) for choice in self.play.choices)
         if numbers:
             yield self._keys(numbers, "other roles")
