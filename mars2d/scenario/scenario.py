@@ -187,7 +187,8 @@ class Scenario(Description):
         if self.random_starts:
             vars(self).update(self._placed(0))  # it always has poses
         self._check_joints()
-        self._check_starts()
+        for fault in starts.faults(self, self.bodies):
+            raise InputError(fault.told(self))
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
@@ -278,16 +279,6 @@ class Scenario(Description):
             "props": tuple(map(placed, self.props)),
             "bodies": tuple(bodies),
         }
-
-    def _check_starts(self) -> None:
-        """Refuse bodies that start outside the workspace, in an obstacle or in each other."""
-        overlap = self.max_overlap
-        if self.workspace is not None and self.on_exit != "ignore":
-            starts.check_in_workspace(self.bodies[: len(self.robots)], self.workspace)
-        if self.workspace is not None and self.on_exit == "wall":
-            starts.check_off_walls(self.bodies, self.workspace, overlap)
-        starts.check_off_obstacles(self.bodies, self.obstacles, overlap)
-        starts.check_apart(self.bodies, overlap, self.joined)
 
     @cached_property
     def bodies(self) -> tuple[Rigid, ...]:

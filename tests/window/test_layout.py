@@ -41,6 +41,10 @@ def unfit(places, picture):
     yield from (name for name, place in places if not picture.contains(place))
 
 
+def press(editor, pixel):
+    editor.handle(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=pixel, button=pygame.BUTTON_LEFT))
+
+
 def editor_of(text):
     looks = Looks(Preferences(text=text))
     looks.painter = Painter(Pens(), theme=looks.painter.theme)
@@ -63,7 +67,7 @@ def faults_of_editor(size, text):
     yield from unfit([*buttons, ("the arena", plot)], picture)
     for title in ("Mass", "Colour", "More"):
         if title in editor.panel.places:
-            editor.panel.click(editor.panel.places[title].center)
+            press(editor, editor.panel.places[title].center)
             editor.draw(surface)
             prompt, entries = editor.dialogs.prompt, editor.menu.places
             yield from unfit([*(prompt.places if prompt else entries).items()], picture)

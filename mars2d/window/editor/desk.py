@@ -196,7 +196,15 @@ class Desk:
         self.put(self.draft.with_value(item, left))
 
     def duplicate(self) -> None:
-        """Put a copy beside the selection, and select the copy."""
+        """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
+        corners = None if self.only is None else self.draft.corners(self.only)
+        if self.only is not None and corners is not None and self.corner is not None:
+            a, b = corners[self.corner], corners[(self.corner + 1) % len(corners)]
+            middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
+            self.corner += 1
+            new = (*corners[: self.corner], middle, *corners[self.corner :])
+            self.put(self.draft.with_value(self.only, new))
+            return
         items = [item for item in self.selection if item.kind != "workspace"]
         if items:
             aside = Motion(by=(2 * self.step, -2 * self.step))

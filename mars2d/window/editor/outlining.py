@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 
 from mars2d.bodies.props.solid import Solid
-from mars2d.core.plane import Outline, Point, rectangle
+from mars2d.core.plane import Outline, Point, bounds_of, rectangle
 from mars2d.core.scene import INK, Scene, faded
 from mars2d.geometry.shapes import Polygon
 from mars2d.window.editor.desk import Desk
@@ -146,7 +145,9 @@ class DrawSolid(DrawPolygon):
         return self.desk.draft.added("prop", Solid(shape, pose=(tidy(x), tidy(y), 0.0)))
 
 
-def framing(desk: Desk, point: Point, made: Callable[[Outline], Draft], least: float = 0) -> Drag:
+def framing(
+    desk: Desk, point: Point, made: Callable[[Draft, Outline], Draft], least: float
+) -> Drag:
     """Draw a rectangle from corner to corner; least: its shortest side, points."""
     draft, (ax, ay) = desk.draft, desk.snapped(point)
 
@@ -154,7 +155,7 @@ def framing(desk: Desk, point: Point, made: Callable[[Outline], Draft], least: f
         bx, by = desk.snapped(end)
         if min(abs(ax - bx), abs(ay - by)) <= desk.metres(least):
             return draft
-        return made(rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)))
+        return made(draft, rectangle(*bounds_of([(ax, ay), (bx, by)])))
 
     def remark() -> str:
         new = desk.draft.new_since(draft)
@@ -169,11 +170,25 @@ class DrawRectangle(Tool):
     """Draws rectangular obstacles."""
 
     hint = "Drag from corner to corner"
+    least = 0.0
+    """The shortest side, points."""
+    _first: Point | None = None
+
+    def made(self, draft: Draft, corners: Outline) -> Draft:
+        """Return the draft with the rectangle."""
+        return draft.added("outline", corners)
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Begin with a corner."""
-        draft = self.desk.draft
-        self.begin(framing(self.desk, point, partial(draft.added, "outline")), point)
+        self.begin(framing(self.desk, point, self.made, self.least), point)
+
+    def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
+        """Put a corner at a typed point; the second one makes the rectangle."""
+        start, self._first = self._first, (x, y)
+        if start is not None:
+            self._first = None
+            ring = rectangle(*bounds_of([start, (x, y)]))
+            self.desk.put_new(self.made(self.desk.draft, ring))
 
     def draw(self, scene: Scene) -> None:
         """Draw the place of the first corner."""
@@ -182,10 +197,11 @@ class DrawRectangle(Tool):
             scene.circle(place, 0.0, fill=PAPER, stroke=MARK, width=1.5, pixels=3.5)
 
 
-class Workspace(Handling):
+class Workspace(DrawRectangle, Handling):
     """Draws the workspace; moves, adds and removes its corners."""
 
     hint = "Drag corners; click an edge for a new one, Del removes one"
+    least = 2.0
 
     def __init__(self, desk: Desk) -> None:
         """Select the workspace."""
@@ -197,12 +213,20 @@ class Workspace(Handling):
         self.desk.select([Item("workspace")] if self.desk.draft.workspace is not None else [])
         self.desk.corner = corner if self.desk.selection else None
 
-    def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
+    def made(self, draft: Draft, corners: Outline) -> Draft:
+        """Return the draft with the workspace."""
+        return draft.with_value(Item("workspace"), corners)
+
+    def put(self, x: float, y: float, heading: float | None) -> None:
+        """Put the corner touched last, or without a workspace a corner of a new one."""
+        base = DrawRectangle if self.desk.draft.workspace is None else Handling
+        base.put(self, x, y, heading)
+
+    def press(self, point: Point, *, shift: bool) -> None:
         """Begin to drag a corner, or add one on an edge."""
         desk, corners = self.desk, self.desk.draft.workspace
         if corners is None:
-            frame = partial(desk.draft.with_value, Item("workspace"))
-            self.begin(framing(desk, point, frame, least=2), point)
+            super().press(point, shift=shift)
             return
         self._hold()
         handle = handle_at(desk, point)
@@ -223,4 +247,4 @@ class Workspace(Handling):
     def draw(self, scene: Scene) -> None:
         """Draw the handles."""
         self._hold()
-        super().draw(scene)
+        Handling.draw(self, scene)

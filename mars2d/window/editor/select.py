@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mars2d.core.errors import InputError
-from mars2d.core.plane import Point, rectangle
+from mars2d.core.plane import Point, bounds_of, rectangle
 from mars2d.core.scene import Scene, faded
 from mars2d.window.editor.handles import (
     MARK,
@@ -23,8 +23,6 @@ from mars2d.window.editor.tool import Tool
 
 class Handling(Tool):
     """The base of tools that drag handles."""
-
-    puts = False
 
     def take(self, handle: Handle, point: Point) -> None:
         """Begin to drag a handle."""
@@ -120,6 +118,5 @@ class Select(Handling):
         """Draw the handles and the rectangle."""
         super().draw(scene)
         if self._band is not None:
-            (ax, ay), (bx, by) = self._band
-            area = rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by))
+            area = rectangle(*bounds_of(self._band))
             scene.polygon(area, fill=faded(MARK, 0.08), stroke=MARK, width=1.0)
