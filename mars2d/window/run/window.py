@@ -282,9 +282,11 @@ class Window(PlayerWindow):
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
-        done: Sequence[Intervention] = self.player.source.recorded.interventions
-        if timeline is not None:  # of the newest row, too
+        source, done = self.player.source, list[Intervention]()
+        if timeline is not None:
             done = timeline.world.operator.log
+        elif isinstance(source, Playback):
+            done += source.record.interventions
         scene, dt = Scene(), frame.scenario.sampling_time
         draw_pushes(scene, frame, pushes_at(done, frame.time, dt), self.camera)
         marks = [*marks, *scene.shapes]
