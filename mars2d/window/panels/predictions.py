@@ -104,6 +104,10 @@ class Predictions(RowsPanel):
         each = [Row(ROW, partial(self._draw_row, prediction)) for prediction in found]
         return [Row(TITLES, self._draw_titles), *each] if found else []
 
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
+        """Return the least and the wanted height; nothing measured yet makes neither lower."""
+        return self.least, max(self.least, super().heights(frame, width)[1])
+
     def foot(self, width: float) -> Sequence[Row]:
         """Return lines about the run, and about values that could not be read."""
         theme, reading = self.painter.theme, self.reading

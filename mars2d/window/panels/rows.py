@@ -51,7 +51,7 @@ class RowsPanel(Panel):
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the least and the wanted height of the content at a width, points."""
         wanted = _high(self.rows(frame, width)) + _high(self.foot(width))
-        return self.least, max(wanted, self.least)
+        return min(self.least, wanted), wanted
 
     def handle(self, event: pygame.Event) -> bool:
         """Scroll by the wheel."""
