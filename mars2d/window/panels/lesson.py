@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import ast
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
+from mars2d.scenario.lesson import lesson_of
 from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.widgets.words import Word
 
-HEADINGS = re.compile(
-    r"(?:^|(?<=[.?!)] ))(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): "
-)
-"""The words with which parts of a docstring begin."""
 LINE, SIZE = 18.0, 13.0
 """The heights of a line and of its letters, points."""
 
@@ -31,7 +26,7 @@ class Lesson(RowsPanel):
     def __init__(self, painter: Painter, path: Path | None) -> None:
         """Read a file; one without a docstring of several parts has no lesson."""
         super().__init__(painter)
-        self.parts = parts_of(path)
+        self.parts = lesson_of(path)
 
     @property
     def offered(self) -> bool:
@@ -45,18 +40,3 @@ class Lesson(RowsPanel):
             found += self.wrapped(LINE, Word(heading, theme.ink, SIZE, bold=True), width)
             found += self.wrapped(LINE, Word(text, theme.text, SIZE), width)
         return found
-
-
-def parts_of(path: Path | None) -> list[tuple[str, str]]:
-    """Return the parts of the docstring of a Python file: headings and texts.
-
-    >>> HEADINGS.split("Question: how far? Source: a book.")
-    ['', 'Question', 'how far? ', 'Source', 'a book.']
-    """
-    if path is None or path.suffix != ".py":
-        return []
-    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
-    first, *rest = HEADINGS.split(" ".join(text.split()))
-    named = zip(rest[::2], rest[1::2], strict=True)
-    parts = [(heading, text.strip()) for heading, text in (("", first), *named)]
-    return [(heading, text[:1].upper() + text[1:]) for heading, text in parts]
