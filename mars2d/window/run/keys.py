@@ -28,6 +28,8 @@ TIME = (
     _action("pause", "Space", "pause, go on; in manual mode, one step"),
     _action("step", "→", "one step, then pause; a typed number is the count", repeats=True),
     _action("back", "←", "one step back; a typed number is the count", repeats=True),
+    _action("within", "Shift →", "the next moment within a step, as at a contact", repeats=True),
+    _action("within_back", "Shift ←", "the moment before within a step", repeats=True),
     _action("leap", "PgDn", "ten steps, then pause", repeats=True),
     _action("leap_back", "PgUp", "ten steps back", repeats=True),
     _action("start", "Home", "go to the start"),

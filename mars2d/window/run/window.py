@@ -137,6 +137,8 @@ class Window(PlayerWindow):
             "lesson": partial(
                 self._offer_panel, self._lesson, "lesson: a docstring with Question: and the like"
             ),
+            "within": partial(self._step_within, 1),
+            "within_back": partial(self._step_within, -1),
             "branch": self._other_branch,
             "undo": self._undo,
             "scopes": self._open_scopes,
@@ -493,6 +495,11 @@ class Window(PlayerWindow):
         """Go to a contact of the selected body, or of any; forces are shown there."""
         self.player.body = self.selected
         super()._to_contact(go)
+
+    def _step_within(self, way: int) -> None:
+        """Go to another moment within a control step; forces are shown there."""
+        self.layers = self.layers.switched(forces=True, impulses=True)
+        self.director.step_within(way)
 
     def _open_scopes(self) -> None:
         """Open the menu of plots."""
