@@ -293,20 +293,21 @@ class Operator:
             engine.drive(twist, duration, time)
             return
         dt, begin = self._world.sampling_time, 0.0
-        ends = {push.row * dt + push.duration - time for push in self._pushes}
-        for end in [*sorted(end for end in ends if TINY < end < duration - TINY), duration]:
-            self._pushes = [
-                push for push in self._pushes if push.row * dt + push.duration - time - begin > TINY
-            ]
-            self._drive_under(engine, twist, end - begin, time + begin)
+        left = {push: push.row * dt + push.duration - time for push in self._pushes}
+        ends = {end for end in left.values() if TINY < end < duration - TINY}
+        for end in [*sorted(ends), duration]:
+            pushes = [push for push in self._pushes if left[push] - begin > TINY]
+            self._drive_under(engine, twist, end - begin, time + begin, pushes)
             begin = end
 
-    def _drive_under(self, engine: Engine, twist: Float, duration: float, time: float) -> None:
-        """Do so while the same pulls and pushes act."""
-        if not (self._pulls or self._pushes):
+    def _drive_under(
+        self, engine: Engine, twist: Float, duration: float, time: float, pushes: Sequence[Push]
+    ) -> None:
+        """Do so while the pulls and the same pushes act."""
+        if not (self._pulls or pushes):
             engine.drive(twist, duration, time)
             return
-        count = ceil(duration / min(SLICE, self._longest_slice(engine)))
+        count = ceil(duration / min(SLICE, self._longest_slice(engine, pushes)))
         h = duration / count
         for k in range(count):
             poses, velocities = engine.pose, engine.velocity
@@ -315,7 +316,7 @@ class Operator:
                 body: self._spring(pull, poses[:, body], velocities[:, body])
                 for body, pull in self._pulls.items()
             }
-            for push in self._pushes:
+            for push in pushes:
                 own, others = _pushed(push, float(poses[2, push.body])), loads.get(push.body)
                 loads[push.body] = own if others is None else _sum(own, others)
             for body, load in loads.items():
@@ -323,14 +324,14 @@ class Operator:
             engine.drive(twist, h, time + k * h)
         engine.let_go()
 
-    def _longest_slice(self, engine: Engine) -> float:
+    def _longest_slice(self, engine: Engine, pushes: Sequence[Push]) -> float:
         """Return the longest time that forces may act unchanged, seconds."""
         bodies = self._world.scenario.bodies
         most = [
             min(pull.force / bodies[pull.body].inertia.mass, 4 * STIFFNESS * pull.speed)
             for pull in self._pulls.values()
         ]
-        most += [norm(*push.force) / bodies[push.body].inertia.mass for push in self._pushes]
+        most += [norm(*push.force) / bodies[push.body].inertia.mass for push in pushes]
         return engine.step_under(max(most))
 
     def _load(self, engine: Engine, body: int, fx: float, fy: float, torque: float) -> None:

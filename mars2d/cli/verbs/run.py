@@ -29,6 +29,7 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.physics.islands import reason_without
 from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.scenario.lesson import lesson_of
 from mars2d.scenario.prediction import table
 from mars2d.scenario.roles import robots_named
 from mars2d.window import show
@@ -74,6 +75,8 @@ def execute(arguments: argparse.Namespace) -> None:
                 speed, own = arguments.speed, experiment.scenario.animation.playback_speed
                 if speed is None:
                     speed = 1.0 if humans else own
+                if not arguments.json:
+                    _tell_lesson(experiment.source.path)
                 look, log = preferences_of(arguments), formats.log_to(arguments.record)
                 asks = arguments.record is None
                 seen = show.show_experiment(
@@ -107,6 +110,13 @@ def execute(arguments: argparse.Namespace) -> None:
         for remark in bounds.remarks():
             tell(f"note: {remark}")
     conclude({} if arguments.json else made, troubles)
+
+
+def _tell_lesson(path: Path | None) -> None:
+    """Print what an experiment asks, predicts and suggests, beside the window that shows it all."""
+    parts = [part for part in lesson_of(path) if part[0] in ("Question", "Prediction", "Try")]
+    for heading, text in parts:
+        tell(f"{heading}: {text}")
 
 
 def _check(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:

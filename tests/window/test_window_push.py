@@ -8,6 +8,7 @@ from mars2d.core.errors import InputError
 from mars2d.record.interventions import Push
 from mars2d.window.run.push import pushed
 from tests.cases import each_case
+from tests.window.test_window_buttons import choose
 
 
 @each_case(
@@ -67,5 +68,8 @@ def test_by_keys_alone_a_push_is_typed_and_a_mistake_is_said_in_place(open_windo
     assert question.field is None
     window.press("space")
     window.until(lambda s: s["props"][0][1] > -0.95)
-    window.press("w", "Escape")
+    window.click(-2, -1, button=3)
+    choose(window, "Push with a force ...")
+    assert "Push blue" in question._title
+    window.press("Escape")
     assert question.field is None
