@@ -7,13 +7,13 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, NoReturn, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arrays import sealed
-from mars2d.core.errors import counted
+from mars2d.core.errors import InputError, counted, nearest
 from mars2d.core.scene import Scene
 from mars2d.record.columns import Texts, blocks
 from mars2d.record.contact import CONTACT, count_meetings, pair_forces, rows_of
@@ -30,6 +30,14 @@ COLUMNS = (
     "work",
 )  # fmt: skip
 """The columns of every record, with a row for each control step."""
+
+
+class _BySensor(dict[str, Any]):
+    """A dict by the names of the sensors that were recorded; an InputError for others."""
+
+    def __missing__(self, name: str) -> NoReturn:
+        known = nearest(name, self, most=30) if self else "; none was recorded"
+        raise InputError(f"the record has no sensor {name!r}{known}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +92,8 @@ class Rows:
         for name in (*COLUMNS, "contacts", "messages"):
             object.__setattr__(self, name, sealed(getattr(self, name)))
         sensors = {name: sealed(values) for name, values in self.sensors.items()}
-        object.__setattr__(self, "sensors", sensors)
+        object.__setattr__(self, "sensors", _BySensor(sensors))
+        object.__setattr__(self, "sensor_robots", _BySensor(self.sensor_robots))
 
     def __len__(self) -> int:
         return len(self.time)
