@@ -175,16 +175,20 @@ class Drives:
         return twist
 
 
+FAR = 2.0
+"""How many times larger than what a drive does a command is that is far beyond its bounds."""
+
+
 class Cuts:
-    """The commands that the drives' bounds have cut: how many of each robot, and the last ones."""
+    """The commands far beyond the drives' bounds: how many of each robot, and the last ones."""
 
     def __init__(self, robots: int) -> None:
         self.count = np.zeros(robots, dtype=int)
         self.asked = np.zeros((2, robots))
 
     def note(self, columns: Index | slice, asked: Float, done: Float) -> None:
-        """Note which commands of some robots are not done as asked."""
-        cut = (asked != done).any(axis=0)
+        """Note which commands of some robots are cut to less than half."""
+        cut = np.abs(asked).max(axis=0) > FAR * np.abs(done).max(axis=0)
         self.count[columns] += cut
         self.asked[:, columns] = np.where(cut, asked, self.asked[:, columns])
 
