@@ -91,7 +91,7 @@ def _of_commands(world: World) -> Iterator[str]:
     cuts, robots = world.simulation.cuts, world.scenario.robots
     first_command = world.history.command[0]
     for i, robot in enumerate(robots):
-        for row, quantity in enumerate(robot.drive.quantities):
+        for row, quantity in enumerate(robot.drive.inputs):
             asked = cuts.asked[row, i] or first_command[row, i]
             turns = quantity.unit == "rad/s" and robot.drive.wheel_names is not None
             if turns and (_like_degrees(asked) or abs(asked) >= WHIRL):
@@ -105,11 +105,11 @@ def _of_commands(world: World) -> Iterator[str]:
         others = counted(len(cut) - 1, "other robot")
         rest = f", and most of those of {others}" if len(cut) > 1 else ""
         first, asked = robots[cut[0]], cuts.asked[:, cut[0]]
-        names = " and ".join(f"{q.name} [{q.unit}]" for q in first.drive.quantities)
+        names = " and ".join(f"{q.name} [{q.unit}]" for q in first.drive.inputs)
         yield (
             f"{shares[cut[0]]:.0%} of the commands of {first.name}{rest} were cut by the drive's "
             f"bounds, {_bounds(first)}: they mean {names}, and the last was "
-            f"({asked[0]:.3g}, {asked[1]:.3g})"
+            f"({', '.join(f'{number:.3g}' for number in asked[: len(first.drive.inputs)])})"
         )
 
 

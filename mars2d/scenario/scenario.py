@@ -211,7 +211,9 @@ class Scenario(Description):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
             where = f"{type(prop).__name__}.shape of {prop.name}"
             limits.check_centred(where, known_shape(where, shape))
-        limits.check_bodies(self.bodies, self.max_overlap)
+        floors = {str(prop.name): prop.resting_friction for prop in self.props}
+        push = sum(robot.push for robot in self.robots)
+        limits.check_bodies(self.bodies, self.max_overlap, floors, push)
         drives = [robot.drive for robot in self.robots]
         limits.check_forces(self.bodies, drives, self.max_overlap)
 
@@ -290,6 +292,11 @@ class Scenario(Description):
     def bodies(self) -> tuple[Rigid, ...]:
         """The rigid bodies of all robots, then of all props."""
         return (*(robot.rigid for robot in self.robots), *(prop.rigid for prop in self.props))
+
+    @cached_property
+    def inputs(self) -> int:
+        """The most inputs that a robot's drive has: the rows of a command (m, n)."""
+        return max((len(robot.drive.inputs) for robot in self.robots), default=2)
 
     @cached_property
     def _indices(self) -> dict[str, int]:
