@@ -19,6 +19,7 @@ from mars2d.record.columns import Texts, blocks
 from mars2d.record.contact import CONTACT, count_meetings, pair_forces, rows_of
 from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
+from mars2d.record.impacts import impacts
 from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
 from mars2d.record.message import MESSAGE, in_flight
 from mars2d.scenario.scenario import Scenario
@@ -218,6 +219,10 @@ class Rows:
     def contact_rows(self) -> NDArray[np.intp]:
         """The row at the end of each contact's control step, (c,); see `rows_of`."""
         return rows_of(self.contacts, self.time, self.scenario.sampling_time)
+
+    def impacts(self) -> NDArray[np.void]:
+        """Return what each touch did, dtype IMPACT: velocities, impulse, energies, momenta."""
+        return impacts(self)
 
     @cached_property
     def pair_forces(self) -> NDArray[np.void]:
