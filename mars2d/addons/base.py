@@ -13,6 +13,7 @@ from mars2d.core.errors import InputError, nearest
 from mars2d.core.materials import check_static, surface_friction, surface_restitution
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
+from mars2d.core.words import instead
 
 Color = tuple[float, float, float]
 """Red, green and blue from 0 to 1."""
@@ -65,9 +66,8 @@ class Addon(Stateful):
     def __init_subclass__(cls, **kwargs: Any) -> None:
         for attribute in vars(cls):
             if attribute.startswith("on_") and attribute not in HOOKS:
-                raise InputError(
-                    f"{cls.__name__}.{attribute} is no hook of an add-on{nearest(attribute, HOOKS)}"
-                )
+                hint = instead(attribute, "a hook") or nearest(attribute, HOOKS)
+                raise InputError(f"{cls.__name__}.{attribute} is no hook of an add-on{hint}")
         super().__init_subclass__(**kwargs)
 
     @property

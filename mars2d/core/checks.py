@@ -69,7 +69,8 @@ def pose(name: str, value: object) -> tuple[float, float, float]:
     expected = "a pose (x, y, theta) in metres and radians"
     items = items_of(name, value, expected)
     if len(items) not in (2, 3):
-        raise wrong(name, value, expected)
+        commas = "; decimals have a point: 0.5" if len(items) > 3 else ""
+        raise wrong(name, value, expected + commas)
     x, y, theta = _coordinates(name, value, [*items, 0.0][:3], expected)
     return x, y, theta
 
@@ -238,8 +239,8 @@ def function(name: str, value: object, *arguments: str) -> object:
         parameters = given.bind(*arguments).arguments
     except TypeError:
         raise InputError(f"{called}: expected a function of exactly {count}, {words}") from None
-    if hint := _OTHERWISE.get((words, next(iter(parameters)))):
-        raise InputError(f"{called}: {hint}")
+    if (meant := (words, next(iter(parameters)))) in _OTHERWISE:
+        raise InputError(f"{called}: {_OTHERWISE[meant]}")
     return value
 
 

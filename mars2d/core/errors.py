@@ -66,7 +66,7 @@ class UnknownNameError(LawError, AttributeError):
     """A law asked for something that does not exist."""
 
 
-class MissingExtraError(InputError):
+class MissingExtraError(InputError, ImportError):
     """An optional library is not installed; the message contains the pip command."""
 
 

@@ -68,7 +68,7 @@ def described(error: BaseException) -> str:
     return text
 
 
-def _failed(error: BaseException) -> Iterator[tuple[ast.expr, ast.expr, Any]]:
+def _failed(error: BaseException) -> Iterator[tuple[ast.AST, ast.expr, Any]]:
     """Yield what an expression that failed was made of, with its value, and what is done with it.
 
     What stands in it furthest out comes first. Only names, attributes and items are evaluated

@@ -55,6 +55,13 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "goal target state integral error": "robot.memory: a law keeps things there",
         "stop move setvelocity setspeed setcommand forward turn rotate": _COMMAND,
     },
+    "a hook": {
+        "onend onfinish onfinished onclose ondone onexit": "on_stop(self, world)",
+        "oninit onbegin onreset onsetup oninitialize": "on_start(self, world)",
+        "onupdate onloop ontick": "on_step(self, world)",
+        "oncollision oncollide ontouch onhit": "on_contact(self, world, contact)",
+        "onrender onplot onpaint": "on_draw(self, world, scene)",
+    },
     "a room": {
         "lidar laser laserscanner rangesensor scanner": "RangeFinder, of mars2d.sensors",
         "wall walls obstacle obstacles": "Map, of mars2d.addons: Map([[(x, y), ...]])",

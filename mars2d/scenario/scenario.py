@@ -212,7 +212,9 @@ class Scenario(Description):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
             where = f"{type(prop).__name__}.shape of {prop.name}"
             limits.check_centred(where, known_shape(where, shape))
-        limits.check_bodies(self.bodies, self.max_overlap)
+        floors = {str(prop.name): prop.resting_friction for prop in self.props}
+        push = sum(robot.push for robot in self.robots)
+        limits.check_bodies(self.bodies, self.max_overlap, floors, push)
         drives = [robot.drive for robot in self.robots]
         limits.check_forces(self.bodies, drives, self.max_overlap)
 

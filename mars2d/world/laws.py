@@ -109,14 +109,12 @@ def team_command(value: Any, still: Float, refuse: Callable[[str], NoReturn]) ->
     inputs, robots = still.shape
     if value is None:
         refuse(f"returned nothing: a law returns its command, an array ({inputs}, n)")
-    words = f"{COUNTS[inputs]} row{'s' * (inputs > 1)}"
-    expected = f"expected {words} and a column for each robot, shape {still.shape}"
-    rows = value if inputs == robots == 2 and isinstance(value, (list, tuple)) else [value]
-    if len(rows) == 2 and all(type(row) is tuple for row in rows):
-        refuse(
-            f"returned {shown(value)}: is each pair of a robot? A row has one number of all: "
-            "expected np.transpose(pairs), or [[v of both], [omega of both]]"
-        )
+    square = inputs == robots > 1 and isinstance(value, (list, tuple))
+    if square and all(type(row) is tuple for row in value):
+        hint = "write np.transpose(...) of them, or a list for each row"
+        refuse(f"returned {shown(value)}: is each tuple a robot's command? Then {hint}")
+    rows = f"{COUNTS[inputs]} row{'s' * (inputs > 1)}"
+    expected = f"expected {rows} and a column for each robot, shape {still.shape}"
     command = _numbers(value)
     if command is None:
         refuse(f"returned {shown(value)}: {expected}{_unequal(value)}")

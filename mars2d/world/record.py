@@ -65,7 +65,7 @@ class Record(Rows):
 
     def plot_signals(
         self,
-        *columns: str,
+        *columns: str | Sequence[str],
         robots: Sequence[str | int] | None = None,
         axes: Sequence[Axes] | None = None,
         start: float | None = None,

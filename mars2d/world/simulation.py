@@ -48,7 +48,8 @@ class Simulation(State):
     declared: the scenario with its `random_starts`. operator: does to the world what is done from
     outside. laws: of the team and of single robots. watch: called with the world between sensing
     and control. world: the World that add-ons and watchers are called with. view: the world as laws
-    may see it. engine_seconds: how long the engine has taken by now. endless: whether the stop time
+    may see it. engine_seconds, law_seconds: how long these have taken by now. endless: whether the
+    stop time
     does not end it, as in a fork.
     """
 
@@ -65,7 +66,7 @@ class Simulation(State):
         super().__init__(scenario, seed, storage, options)
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
-        self.engine_seconds = 0.0
+        self.engine_seconds = self.law_seconds = 0.0
         self.endless = False
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
@@ -278,11 +279,13 @@ class Simulation(State):
         self._observe()
         if self.watch is not None:
             self.watch(self.world)
+        start = perf_counter()
         if command is None or isinstance(command, Mapping):
             wanted = asked = self.laws.commands(self._named(command or {}))
         else:
             wanted = self._given(command)
             asked = self.laws.commands() if ask else wanted
+        self.law_seconds += perf_counter() - start
         if ask:
             asked = self._saturate(self.operator.command(asked))
         return self.operator.command(wanted), asked

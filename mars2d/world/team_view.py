@@ -27,10 +27,21 @@ from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknow
 
 Float = NDArray[np.float64]
 
+MOST_SHOWN = 20
+"""The most bodies that a world is printed with."""
+
 
 def shown(name: str) -> Any:
     """Return a property: what the simulation behind a view has by this name, with dots in it."""
     return property(attrgetter(f"_simulation.{name}"))
+
+
+def printed(world: WorldView | TeamPositionsView, bodies: Sequence[RobotView | PropView]) -> str:
+    """Return the text of a world: the time, and a line for each of the first bodies."""
+    lines = [f"  {body}" for body in bodies[:MOST_SHOWN]]
+    if len(bodies) > MOST_SHOWN:
+        lines.append(f"  and {len(bodies) - MOST_SHOWN} more")
+    return "\n".join([f"<{type(world).__name__} at {world.time:g} s:", *lines]) + ">"
 
 
 class WorldView(Uncopied):
@@ -45,6 +56,9 @@ class WorldView(Uncopied):
 
     def __getattr__(self, name: str) -> NoReturn:
         unknown(self, "a world", name)
+
+    def __repr__(self) -> str:
+        return printed(self, [*self.robots, *self.props])
 
     # -- the experiment ------------------------------------------------------------------------
 
@@ -240,6 +254,9 @@ class TeamPositionsView:
     workspace, bounds, obstacles = WorldView.workspace, WorldView.bounds, WorldView.obstacles
     command, effort = WorldView.command, WorldView.effort
     addons, rng, stop = WorldView.addons, WorldView.rng, WorldView.stop
+
+    def __repr__(self) -> str:
+        return printed(self, self.robots)
 
     @property
     def position(self) -> Float:

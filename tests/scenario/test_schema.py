@@ -134,7 +134,7 @@ def test_every_field_says_what_it_accepts_but_for_code():
         ("[[robots]]\ncontroller = { type = 'Wander', speed = 'a' }", "robots[0].controller.speed"),
         ("[[robots]]\nsensors = [{ type = 'Imu', name = 'my imu' }]", "robots[0].sensors[0].name"),
         ("[[props]]\ntype = 'Bal'", "props[0].type"),
-        ("title = \"two\\nlines\"", "title"),
+        ('title = "two\\nlines"', "title"),
         ("control = 'team'", "control"),
         ("robots = 0", "robots"),
     ],

@@ -64,10 +64,10 @@ def execute(arguments: argparse.Namespace) -> None:
     humans = _check(arguments, experiment)
     for remark in remarks.before(experiment):
         warn(remark)
-    bounds, start = remarks.Bounds(), time.perf_counter()
+    watched, start = remarks.Run(), time.perf_counter()
     try:
         with _live(arguments.foxglove) as live:
-            watchers: list[Watcher] = [bounds, *live]
+            watchers: list[Watcher] = [watched, *live]
 
             def run() -> tuple[Record, Make | None]:
                 if not opens_window(not arguments.headless):
@@ -107,7 +107,7 @@ def execute(arguments: argparse.Namespace) -> None:
         if predictions:
             title = [experiment.source.summary] if experiment.source.summary else []
             tell("", *title, table(predictions), sep="\n")
-        for remark in bounds.remarks():
+        for remark in watched.remarks():
             tell(f"note: {remark}")
     conclude({} if arguments.json else made, troubles)
 
