@@ -147,7 +147,7 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
         for rigid, pose in zip(scenario.bodies, poses.T.tolist(), strict=True)
     ]
     fault = next(faults(scenario, bodies, body), None)
-    if fault is None or (scenario.physics == "ideal" and fault.kind != "outside"):
+    if fault is None:
         return ""
     if fault.kind == "obstacle":
         return f"be in obstacle {fault.other}"

@@ -74,7 +74,7 @@ class WorldView(Uncopied):
     """The polygon in which the robots move, or None."""
     bounds: tuple[float, float, float, float] = shown("scenario.bounds")
     """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-    obstacles: tuple[Outline, ...] = shown("engine.space.obstacles")
+    obstacles: tuple[Outline, ...] = shown("engine.obstacles")
     """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
 
     # -- this instant --------------------------------------------------------------------------

@@ -172,11 +172,6 @@ def _turn(numbers: Any, angle: float, c: float, s: float) -> None:
     numbers[TURN + 5] = numbers[CENTER + 1] - (ahead * s + left * c)
 
 
-def frame_of(body: Handle) -> Handle:
-    """Return the memory of a body's transformation: cosine, sine, -sine, cosine, x, y."""
-    return ffi.buffer(ffi.cast("double *", body) + TURN, 48)
-
-
 @ffi.callback("void(cpBody *, double)", onerror=_catch)  # type: ignore[untyped-decorator]
 def _MOVE(body: Handle, h: float) -> None:  # noqa: N802
     numbers = ffi.cast("double *", body)
