@@ -126,7 +126,7 @@ def choice(*, of: Sequence[str], **more: Any) -> Any:
     @accepts({"enum": list(of)})
     def check(name: str, value: object) -> str:
         if not isinstance(value, str) or value not in of:
-            hint = likely(value, of) if isinstance(value, str) else ""
+            hint = instead(value, name) or likely(value, of) if isinstance(value, str) else ""
             raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
         return value
 

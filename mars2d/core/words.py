@@ -5,6 +5,7 @@ from __future__ import annotations
 _PLACE = "x y theta position positon pos xy orientation heading angle start initialpose location"
 _SPEED = "speed maxspeed maxlinearspeed vmax maxv v velocity"
 _TURN = "omega maxomega maxangularspeed w wmax angularspeed maxangularvelocity"
+_TORUS = "workspace=None, and neighbours=... of your own that takes distances modulo the side"
 _COMMAND = "return v, omega: a law returns its command"
 
 _INSTEAD: dict[str, dict[str, str]] = {
@@ -34,6 +35,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
             "robots=[Robot(pose=p) for p in P.T]",
         "robot": 'robots=[Robot(...)]; among options, "robots.*.diameter" is that of all robots',
         "nonholonomic drive": "Robot(drive=Holonomic()), or Robot(drive=Unicycle())",
+        "periodic wrap torus toroidal boundary": _TORUS,
         "colors colours basecolors": "animation=Animation(base_colors=[...])",
     },
     "Animation": {
@@ -41,6 +43,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "color colour colors colours": "base_colors=[...]",
         "title": "Scenario(title=...)",
     },
+    "Scenario.on_exit": {"periodic wrap torus toroidal": _TORUS},
     "Sensor": {
         "distance maxrange reach maxdistance": "range=...",
         "fov angle aperture opening": "field_of_view=...",
