@@ -110,9 +110,9 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
                 partial(editor.select_next, too=True)),
             key("properties", "F2", "choose a property to change", editor.reach_panel),
             key("undo", "Ctrl Z", "undo", editor.undo,
-                title="Undo", when=lambda: history.can_undo, repeats=True),
+                title="Undo", when=lambda: history.has(-1), repeats=True),
             key("redo", "Ctrl Y", "redo", desk.redo, "Ctrl Shift Z",
-                title="Redo", when=lambda: history.can_redo, repeats=True),
+                title="Redo", when=lambda: history.has(1), repeats=True),
         ),
         "Look": (
             button("snap", "G", "snap to the grid on and off", editor.switch_grid),

@@ -30,7 +30,7 @@ from mars2d.window.editor.item import Item
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Handling, Select
-from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_remarks, draw_selected
+from mars2d.window.editor.sketch import draw_culprits, draw_remarks, draw_selected
 from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
@@ -48,7 +48,7 @@ HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
-TALL, MAX_SHARE = 560.0, 0.115
+TALL, MAX_SHARE = 560.0, 0.15
 """The height from which on the toolbar has one column, points, and its largest share of the
 window's width."""
 PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42
@@ -92,11 +92,11 @@ class Editor:
         painter = self.painter = looks.painter
         self.help = Help()
         self.document = Document(path, control)
-        draft = Draft.empty(scenario) if empty else Draft.of(scenario)
+        draft = Draft.empty(scenario) if empty else Draft(scenario)
         self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
-            self.desk.history.mark_unsaved()
+            self.desk.history.saved = None
         self.judge = Judge(draft)
         self.dialogs = Dialogs(
             self.desk, self.document, self.judge, scenario,
@@ -107,7 +107,7 @@ class Editor:
             self.desk, self.dialogs, self.document, self.menu, self.panel,
             self.choose, self._tie, self._touch,
         )  # fmt: skip
-        self._stage, self._sketch = Stage(painter), Sketch()
+        self._stage = Stage(painter)
         self._pointer = (-1, -1)
         self._dragging = self._panning = False
         self._held: set[int] = set()
@@ -418,7 +418,7 @@ class Editor:
         draw_culprits(draft, self.judge.verdict.culprits, scene)
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.desk.camera
-        frame = self._sketch.frame(draft, bare=self._plain)
+        frame = (draft.bare if self._plain else draft).frame()
         if self._names:
             draw_remarks(draft, self.properties.idle(draft), scene)
         layers, hurried = LAYERS.switched(names=self._names), self.viewpoint.hurried
@@ -430,8 +430,7 @@ class Editor:
                 raise
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
-            frame = self._sketch.frame(draft, bare=True)
-            draw(surface, frame, camera, layers, plot)
+            draw(surface, draft.bare.frame(), camera, layers, plot)
         remark = self.tool.remark
         if remark:
             x, y = self._pointer

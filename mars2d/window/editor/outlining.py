@@ -12,7 +12,7 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, PAPER, Handle, handle_at
 from mars2d.window.editor.item import Item, tidy
-from mars2d.window.editor.picking import edge_at, foot_on
+from mars2d.window.editor.picking import edge_at
 from mars2d.window.editor.readout import sides, stretch
 from mars2d.window.editor.select import Handling
 from mars2d.window.editor.tool import Drag, Tool
@@ -48,11 +48,10 @@ class Chain(Tool):
 
     def confirm(self) -> bool:
         """Keep the outline if it has enough corners."""
-        corners, self.corners = self.corners, []
-        if len(corners) < self.least:
-            return bool(corners)
-        self.desk.put_new(self.made(tuple(corners)))
-        return True
+        if len(self.corners) < self.least:
+            return self._drop()
+        self.desk.put_new(self.made(tuple(self.corners)))
+        return self._drop()
 
     def made(self, corners: Outline) -> Draft:
         """Return the draft with the outline."""
@@ -64,6 +63,9 @@ class Chain(Tool):
 
     def cancel(self) -> bool:
         """Remove all corners."""
+        return self._drop()
+
+    def _drop(self) -> bool:
         corners, self.corners = self.corners, []
         return bool(corners)
 
@@ -159,7 +161,7 @@ def framing(
 
     def remark() -> str:
         new = desk.draft.new_since(draft)
-        ring = desk.draft.corners(new[0]) if new else desk.draft.workspace
+        ring = desk.draft.corners(new[0]) if new else desk.draft.base.workspace
         (left, low), _, (right, high), *_ = ring or ((0.0, 0.0),) * 3
         return sides(right - left, high - low) if desk.draft is not draft else ""
 
@@ -210,33 +212,32 @@ class Workspace(DrawRectangle, Handling):
 
     def _hold(self) -> None:
         corner = self.desk.corner
-        self.desk.select([Item("workspace")] if self.desk.draft.workspace is not None else [])
+        self.desk.select([Item("workspace")] if self.desk.draft.base.workspace is not None else [])
         self.desk.corner = corner if self.desk.selection else None
 
     def made(self, draft: Draft, corners: Outline) -> Draft:
         """Return the draft with the workspace."""
-        return draft.with_value(Item("workspace"), corners)
+        return draft.with_list("workspace", [corners])
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put the corner touched last, or without a workspace a corner of a new one."""
-        base = DrawRectangle if self.desk.draft.workspace is None else Handling
+        base = DrawRectangle if self.desk.draft.base.workspace is None else Handling
         base.put(self, x, y, heading)
 
     def press(self, point: Point, *, shift: bool) -> None:
         """Begin to drag a corner, or add one on an edge."""
-        desk, corners = self.desk, self.desk.draft.workspace
+        desk, corners = self.desk, self.desk.draft.base.workspace
         if corners is None:
             super().press(point, shift=shift)
             return
         self._hold()
         handle = handle_at(desk, point)
         if handle is None:
-            k = edge_at(point, corners, desk.metres(NEAR))
-            if k is None:
+            edge = edge_at(point, corners, desk.metres(NEAR))
+            if edge is None:
                 desk.corner = None
                 return
-            foot = foot_on(point, corners[k], corners[(k + 1) % len(corners)])
-            handle = Handle("dot", k, foot)
+            handle = Handle("dot", *edge)
         self.take(handle, point)
 
     def release(self, point: Point, *, shift: bool) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from math import floor, log10
 from pathlib import Path
@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.core.description import Description, schema_of
-from mars2d.core.errors import InputError, counted
+from mars2d.core.errors import counted
 from mars2d.core.files import file_beside
 from mars2d.core.materials import Coefficient
 from mars2d.core.scene import PALETTE
@@ -23,6 +23,7 @@ from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.options import parse_option
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
+from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk
@@ -43,7 +44,7 @@ CHOSEN = "✓"
 """Marks the entry of a menu that holds now."""
 BODY = ("mass", "diameter", "length", "width", "friction", "restitution", "ground_friction")
 """The fields of robots and props that have a row of their own."""
-ELSEWHERE = ("name", "color", "pose", "shape", "controller", "a", "b")
+ELSEWHERE = ("name", "color", "pose", "shape", "controller", "a", "b", "workspace")
 """The fields that are changed in other ways."""
 COLORS = ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey")
 """The colours of the palette, in words."""
@@ -124,7 +125,14 @@ class Properties:
 
     def _scenario(self) -> Subject:
         draft, put = self._desk.draft, self._desk.put
-        return Subject([draft.base], lambda f: put(dataclasses.replace(draft, base=f(draft.base))))
+        names = Subject([draft.base], lambda _: None).plain
+        alone = Scenario(workspace=None, **{name: getattr(draft.base, name) for name in names})
+
+        def change(f: Callable[[Scenario], Scenario]) -> None:
+            changed = f(alone)  # checked without the bodies, which may not go together yet
+            put(draft.with_base(**{name: getattr(changed, name) for name in names}))
+
+        return Subject([alone], change)
 
     def _members(self, items: Items) -> Subject:
         draft, put = self._desk.draft, self._desk.put
@@ -145,6 +153,12 @@ class Properties:
     def _joint(self, joint: Joint) -> Subject:
         draft, put = self._desk.draft, self._desk.put
         return Subject([joint], lambda f: put(draft.with_joint(f(joint), instead=joint)))
+
+    def _named(self, item: Item) -> Subject:
+        """Return a body whose new name is put wherever the old one is mentioned."""
+        draft, put = self._desk.draft, self._desk.put
+        body = draft.value(item)
+        return Subject([body], lambda f: put(draft.renamed(item, (f(body).name or "").strip())))
 
     # -- rows -----------------------------------------------------------------------------------
 
@@ -170,16 +184,12 @@ class Properties:
         rows = [Entry("The scenario"), *(self._row(team, name) for name in team.plain)]
         idle = self.idle(draft)
         for i, want in list(idle.items())[:MAX_IDLE]:
-            item = Item("robot", i)
-            words = f"{draft.name(item)} lacks {want}"
-            rows.append(Entry(words, act=partial(self._select, item), tone="warning"))
+            words, select = f"{draft.robots[i].name} lacks {want}", self._desk.select
+            rows.append(Entry(words, partial(select, [Item("robot", i)]), tone="warning"))
         if len(idle) > MAX_IDLE:
             more = counted(len(idle) - MAX_IDLE, "more robot")
             rows.append(Entry(f"and {more} that stand still", tone="warning"))
         return rows
-
-    def _select(self, item: Item) -> None:
-        self._desk.select([item])
 
     def idle(self, draft: Draft) -> dict[int, str]:
         """Return what each robot of a draft lacks to be moved, by its number."""
@@ -230,22 +240,17 @@ class Properties:
             if name in owners.fields
             and not (name == "diameter" and shaped and bodies[0].kind == "robot")
         ]
-        words = _alike([_color_in_words(part.color) for part in owners.parts])
+        known = dict(zip(PALETTE, COLORS, strict=True))
+        words = _alike([known.get(part.color, part.color or AUTOMATIC) for part in owners.parts])
+        seen = [part.color for part in owners.parts[:1] if part.color and words != SEVERAL]
+        if bodies[0].kind == "robot" and words == AUTOMATIC:
+            seen = [self._desk.draft.sketch.colors[bodies[0].number]]
         color = partial(self._offer_colors, owners)
-        rows.append(Entry("Colour", color, value=words, colors=self._seen_colors(bodies[0], words)))
+        rows.append(Entry("Colour", color, value=words, colors=seen))
         if len(bodies) == 1:
-            name = self._desk.draft.name(bodies[0])
-            rows.insert(0, Entry("Name", partial(self._ask_for_name, bodies[0]), value=name))
-        return [*rows, Entry("More", partial(self._offer_more, owners), value="all other fields")]
-
-    def _seen_colors(self, item: Item, words: str) -> list[str]:
-        """Return the colour in which a body is drawn, if there is one."""
-        draft = self._desk.draft
-        if words == SEVERAL:
-            return []
-        if item.kind == "robot":
-            return [draft.sketch.colors[item.number]]
-        return [color] if (color := draft.props[item.number].color) else []
+            rows.insert(0, self._row(self._named(bodies[0]), "name"))
+        more = partial(self._open, "More", list(self._fields(owners, BODY)))
+        return [*rows, Entry("More", more, value="all other fields")]
 
     def _rows_of_sensors(self, robots: Items) -> list[Entry]:
         rows = [Entry("Sensors", partial(self._offer_new_sensors, robots), value="add one")]
@@ -284,15 +289,8 @@ class Properties:
         if isinstance(value, bool):
             subject.set(name, not value)
         elif choices:
-            entries = [
-                Entry(
-                    _in_words(each),
-                    partial(subject.set, name, each),
-                    value=CHOSEN * (each == value),
-                )
-                for each in choices
-            ]
-            self._open(_title(name), entries)
+            give = partial(subject.set, name)
+            self._offer(_title(name), {_in_words(each): each for each in choices}, give, value)
         else:
             unit = field.metadata.get("unit", "")
             label = f"{_title(name)}{f' [{unit}]' if unit else ''} ="
@@ -324,16 +322,6 @@ class Properties:
         field.select_all()
         self._dialogs.prompt = Prompt(label, Answer("Enter", "apply", answer), field=field, doc=doc)
 
-    def _ask_for_name(self, item: Item) -> None:
-        draft, doc = self._desk.draft, "by which laws, joints and recordings call it"
-
-        def take(typed: str) -> None:
-            if not typed.strip():
-                raise InputError("expected a name")
-            self._desk.put(draft.renamed(item, typed.strip()))
-
-        self._type("name =", doc, draft.name(item), take)
-
     def _step(self, subject: Subject, name: str, way: int) -> None:
         """Change a number by half a power of ten that fits it."""
         value = getattr(subject.parts[0], name)
@@ -349,15 +337,27 @@ class Properties:
         listed = [Entry(title), *entries]
         self._menu.open(title, lambda: listed, self._panel.below)
 
+    def _offer(
+        self,
+        title: str,
+        choices: Mapping[str, Any],
+        give: Callable[[Any], object],
+        now: object = None,
+        more: Sequence[Entry] = (),
+    ) -> None:
+        """Open a menu of choices, by their words; now: the present one."""
+        entries = [
+            Entry(words, partial(give, each), value=CHOSEN * (each == now))
+            for words, each in choices.items()
+        ]
+        self._open(title, [*entries, *more])
+
     def _fields(self, subject: Subject, but: Sequence[str] = ()) -> Iterator[Entry]:
         """Return an entry for each field that can be typed."""
         for name in subject.plain:
             if name not in but:
                 act = partial(self._ask, subject, name)
                 yield Entry(_title(name).capitalize(), act, value=subject.in_words(name))
-
-    def _offer_more(self, bodies: Subject) -> None:
-        self._open("More", list(self._fields(bodies, BODY)))
 
     def _offer_part(self, title: str, subject: Subject) -> None:
         """Open the menu of a part that can be removed."""
@@ -370,17 +370,16 @@ class Properties:
 
     def _offer_laws(self, robots: Items) -> None:
         owners = self._members(robots)
-        now = {type(robot.controller) for robot in owners.parts}
-        entries = []
-        for kind in members("controllers").values():
-            assert issubclass(kind, Controller)
-            act = partial(self._give_law, robots, kind)
-            entries.append(Entry(kind.title, act, value=CHOSEN * (now == {kind})))
-        entries.append(Entry("from a file …", partial(self._ask_for_file, owners)))
+        now = _only({type(robot.controller) for robot in owners.parts})
+        laws: list[Any] = [*members("controllers").values()]
         without = "as the team's law says" if self._document.control is not None else NO_LAW
         stop = partial(owners.set, "controller", None)
-        entries.append(Entry(without, stop, value=CHOSEN * (now == {type(None)})))
-        self._open("Law", entries)
+        more = [
+            Entry("from a file …", partial(self._ask_for_file, owners)),
+            Entry(without, stop, value=CHOSEN * (now is type(None))),
+        ]
+        titled = {law.title: law for law in laws}
+        self._offer("Law", titled, partial(self._give_law, robots), now, more)
 
     def _give_law(self, robots: Items, kind: type[Controller]) -> None:
         """Give robots a ready-made law, with the sensors that it needs."""
@@ -414,21 +413,17 @@ class Properties:
     # -- drives, colours, sensors, joints -------------------------------------------------------
 
     def _offer_drives(self, drives: Subject) -> None:
-        kinds = {type(drive) for drive in drives.parts}
+        now = _only({type(drive) for drive in drives.parts})
 
-        def taken(kind: type[Description], drive: Description) -> Description:
-            known = kind.__dataclass_fields__
-            return kind(**{k: v for k, v in serialize.changed(drive).items() if k in known})
+        def give(kind: type[Description]) -> None:
+            def taken(drive: Description) -> Description:
+                known, given = kind.__dataclass_fields__, serialize.changed(drive)
+                return kind(**{k: v for k, v in given.items() if k in known})
 
-        entries = [
-            Entry(
-                name, partial(drives.change, partial(taken, kind)), value=CHOSEN * (kinds == {kind})
-            )
-            for name, kind in members("bodies").items()
-        ]
-        if len(kinds) == 1:
-            entries += [Entry("Fields"), *self._fields(drives)]
-        self._open("Drive", entries)
+            drives.change(taken)
+
+        fields = [] if now is None else [Entry("Fields"), *self._fields(drives)]
+        self._offer("Drive", members("bodies"), give, now, fields)
 
     def _offer_colors(self, bodies: Subject) -> None:
         entries = [
@@ -441,29 +436,35 @@ class Properties:
 
     def _offer_new_sensors(self, robots: Items) -> None:
         def added(kind: type[Any], robot: Robot) -> Robot:
-            sensor = kind(**{f.name: GIVEN for f in dataclasses.fields(kind) if _is_needed(f)})
+            needed = (
+                f.name
+                for f in dataclasses.fields(kind)
+                if f.default is f.default_factory is dataclasses.MISSING
+            )
+            sensor = kind(**dict.fromkeys(needed, GIVEN))
             taken = {each.key for each in robot.sensors}
             if sensor.key in taken:
                 names = (f"{sensor.key}{k}" for k in range(2, len(taken) + 3))
                 sensor = sensor.replace(name=next(n for n in names if n not in taken))
             return robot.replace(sensors=[*robot.sensors, sensor])
 
-        change = self._members(robots).change
-        kinds = members("sensors").items()
-        entries = [Entry(name, partial(change, partial(added, kind))) for name, kind in kinds]
-        self._open("Add a sensor", entries)
+        def give(kind: type[Any]) -> None:
+            self._members(robots).change(partial(added, kind))
+
+        self._offer("Add a sensor", members("sensors"), give)
 
     def _offer_new_joints(self, bodies: Items) -> None:
-        entries = [
-            Entry(name, partial(self._tie, kind, bodies))  # type: ignore[arg-type]
-            for name, kind in members("joints").items()
-        ]
-        self._open("Tie it by a", entries)
+        self._offer("Tie it by a", members("joints"), lambda kind: self._tie(kind, bodies))
 
 
 def _alike(words: Sequence[str]) -> str:
     """Return the words that are the same for all parts, or that they are several."""
     return words[0] if len({*words}) == 1 else SEVERAL
+
+
+def _only(kinds: set[type]) -> type | None:
+    """Return the kind of all parts, None if they are of several."""
+    return kinds.pop() if len(kinds) == 1 else None
 
 
 def _title(name: str) -> str:
@@ -503,19 +504,8 @@ def _in_words(value: object, unit: str = "") -> str:
     return f"{value} {unit}".strip() if isinstance(value, int) else str(value)
 
 
-def _color_in_words(color: str | None) -> str:
-    if color is None:
-        return AUTOMATIC
-    return COLORS[PALETTE.index(color)] if color in PALETTE else color
-
-
 def _is_plain(value: object) -> bool:
     """Return whether a value can be typed: no part, and no function."""
     if isinstance(value, tuple):
-        return all(isinstance(each, float | int | str) for each in value)
+        return bool(value) and all(isinstance(each, float | int | str) for each in value)
     return value is None or isinstance(value, bool | float | int | str)
-
-
-def _is_needed(field: Field) -> bool:
-    missing = dataclasses.MISSING
-    return field.default is missing and field.default_factory is missing

@@ -50,7 +50,7 @@ class Handling(Tool):
             raise InputError("only one robot or prop alone has a heading: expected x y")
         if corners is not None and desk.corner is not None:
             k = desk.corner
-            desk.put(draft.with_value(held, (*corners[:k], (x, y), *corners[k + 1 :])))
+            desk.put(draft.with_values({held: (*corners[:k], (x, y), *corners[k + 1 :])}))
             return
         angle = 0.0 if heading is None or pose is None else heading - pose[2]
         by = x - place[0], y - place[1]

@@ -13,7 +13,7 @@ from mars2d.core.errors import Mars2dError
 from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.scenario import starts
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.draft import Draft, flaw
+from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
 
 MAX_FAULTS = 50
@@ -54,9 +54,6 @@ class Verdict(NamedTuple):
 
 def judge(draft: Draft) -> Verdict:
     """Return the verdict on a draft: the Scenario itself decides whether it is valid."""
-    faults = list(_flaws(draft))
-    if faults:
-        return Verdict(None, tuple(faults))
     if not draft.robots:
         return Verdict(None, (Fault("there is no robot yet: choose Robot (R) and click"),))
     try:
@@ -85,16 +82,6 @@ class Judge:
             self._when = time.perf_counter()
             self._cost = self._when - now
         return self.verdict
-
-
-def _flaws(draft: Draft) -> Iterator[Fault]:
-    """Find invalid outlines."""
-    for item in (*draft.items(), Item("workspace")):
-        corners, least = draft.corners(item), 3 if item.kind == "workspace" else 2
-        if corners is not None:
-            wrong = flaw(corners, draft.name(item), least, closed=item.kind != "wall")
-            if wrong:
-                yield Fault(wrong, (item,))
 
 
 def _misplaced(draft: Draft) -> Iterator[Fault]:
@@ -126,8 +113,8 @@ def _within(point: Point, workspace: Outline) -> bool:
 
 def _obstacles(draft: Draft) -> Iterator[Item | None]:
     """Return the items of the obstacles; None for those that other add-ons make."""
-    mine = {outline: Item("outline", i) for i, outline in enumerate(draft.outlines)}
-    for i, wall in enumerate(draft.walls):
+    mine = {outline: Item("outline", i) for i, outline in enumerate(draft.listed("outline"))}
+    for i, wall in enumerate(draft.listed("wall")):
         mine |= dict.fromkeys(pairwise(wall), Item("wall", i))
     for outline in draft.sketch.obstacles:
         yield mine.get(outline)
@@ -135,7 +122,7 @@ def _obstacles(draft: Draft) -> Iterator[Item | None]:
 
 def _stray(draft: Draft) -> Iterator[Fault]:
     """Find waypoints outside the workspace."""
-    ring = None if draft.base.on_exit == "ignore" else draft.workspace
+    ring = None if draft.base.on_exit == "ignore" else draft.base.workspace
     for item in draft.items() if ring else ():
         if item.kind == "waypoint" and not _within(draft.place(item), ring or ()):
             yield Fault(f"{draft.name(item)} lies outside the workspace", (item,))
