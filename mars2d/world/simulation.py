@@ -48,8 +48,9 @@ class Simulation(State):
     declared: the scenario with its `random_starts`. operator: does to the world what is done from
     outside. laws: of the team and of single robots. watch: called with the world between sensing
     and control. world: the World that add-ons and watchers are called with. view: the world as laws
-    may see it. engine_seconds: how long the engine has taken by now. endless: whether the stop time
-    does not end it, as in a fork.
+    may see it. seconds: of the wall clock that physics, laws and sensing have
+    taken by now; sensing with add-ons. endless: whether the stop time does not end it, as in a
+    fork.
     """
 
     def __init__(
@@ -65,7 +66,7 @@ class Simulation(State):
         super().__init__(scenario, seed, storage, options)
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
-        self.engine_seconds = 0.0
+        self.seconds = {"physics": 0.0, "laws": 0.0, "sensing": 0.0}
         self.endless = False
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
@@ -278,11 +279,13 @@ class Simulation(State):
         self._observe()
         if self.watch is not None:
             self.watch(self.world)
+        start = perf_counter()
         if command is None or isinstance(command, Mapping):
             wanted = asked = self.laws.commands(self._named(command or {}))
         else:
             wanted = self._given(command)
             asked = self.laws.commands() if ask else wanted
+        self.seconds["laws"] += perf_counter() - start
         if ask:
             asked = self._saturate(self.operator.command(asked))
         return self.operator.command(wanted), asked
@@ -304,13 +307,14 @@ class Simulation(State):
 
     def _observe(self) -> None:
         if self.observed != self.iteration:
-            self.observed = self.iteration
+            self.observed, start = self.iteration, perf_counter()
             if self._channel is not None:
                 self._channel.deliver()
             self.sensing.hide()
             self._hooks.call("on_step", self.world)
             self.sensing.step(self.iteration)
             self._hooks.call("on_sensed", self.world)
+            self.seconds["sensing"] += perf_counter() - start
 
     def _given(self, command: Any) -> Float:
         return team_command(command, self.command, partial(_refuse, "World.step(command)"))
@@ -364,7 +368,7 @@ class Simulation(State):
         reached = self._drives.reached()
         if reached is not None:
             self.engine.ask(reached)
-        self.engine_seconds += perf_counter() - start
+        self.seconds["physics"] += perf_counter() - start
         self.contacts = locked(self.engine.take_contacts())
         self.recorder.write_contacts(self.contacts)
         self.take_poses()

@@ -159,7 +159,7 @@ def _run_headless(
         world = run_headless(experiment, [footage, *watchers], log, pace)
         last = world.frame
         film = partial(save_film, footage.frames(last), footage.count(last), speed, arguments)
-    seconds = world.simulation.engine_seconds
+    seconds = world.simulation.seconds["physics"]
     if seconds >= LONG and reason_without():
         from mars2d.reports.doctor import remedy
 
