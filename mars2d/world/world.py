@@ -7,13 +7,14 @@ from typing import Any, cast
 
 from mars2d.core.description import wrong
 from mars2d.core.streams import check_seed
+from mars2d.core.through import through
 from mars2d.record.columns import Column, Storage
 from mars2d.record.energy import Energy, Momentum
 from mars2d.record.recorder import Recorder
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.operator import Operator
 from mars2d.world.simulation import Simulation
-from mars2d.world.team_view import TeamPositionsView, WorldView, shown
+from mars2d.world.team_view import TeamPositionsView, WorldView
 
 Watcher = Callable[["World"], None]
 """A function that is called with the world at each control step."""
@@ -85,10 +86,8 @@ class World(WorldView):
         self.watch = before.watch
         self._begin(before.control)
 
-    @property
-    def simulation(self) -> Simulation:
-        """The machinery behind it, for programs that rebuild or follow a run."""
-        return self._simulation
+    simulation: Simulation = through("_simulation")
+    """The machinery behind it, for programs that rebuild or follow a run."""
 
     @property
     def watch(self) -> Watcher | None:
@@ -99,15 +98,15 @@ class World(WorldView):
     def watch(self, watch: Watcher | None) -> None:
         self._simulation.watch = watch
 
-    control: Callable[[World], Any] | None = shown("control")
+    control: Callable[[World], Any] | None = through("_simulation.control")
     """The law of the team."""
-    energy: Energy = shown("energy")
+    energy: Energy = through("_simulation.energy")
     """The kinetic energies of robots and props, and the work since the start, J."""
-    momentum: Momentum = shown("momentum")
+    momentum: Momentum = through("_simulation.momentum")
     """The momenta of robots and props, N s, and the angular one of all, N m s."""
-    recorder: Recorder = shown("recorder")
+    recorder: Recorder = through("_simulation.recorder")
     """Writes the rows of the record."""
-    operator: Operator = shown("operator")
+    operator: Operator = through("_simulation.operator")
     """Drives robots, puts bodies elsewhere, pulls and holds them."""
 
     def change(
