@@ -68,9 +68,7 @@ class Channel:
         self._world, self._around, self._model = world, around, model
         self._names = [str(robot.name) for robot in world.scenario.robots]
         self._indices = {name: i for i, name in enumerate(self._names)}
-        dt = world.scenario.sampling_time
-        self._steps = max(1, steps_until(model.delay, dt))
-        self.delay = self._steps * dt  # s, from sending to arrival
+        self._steps = max(1, steps_until(model.delay, world.sampling_time))  # to arrival
         self._sent: list[_Sent] = []
         self._used: dict[int, int] = defaultdict(int)  # bytes sent in this control step
         self._coming: dict[int, list[tuple[_Letter, Int]]] = {}  # by the iteration of arrival

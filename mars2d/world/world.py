@@ -53,19 +53,15 @@ class World(WorldView):
         options: Mapping[str, Any] | None = None,
         record: bool = True,
     ) -> None:
+        if not isinstance(scenario, Scenario):
+            raise wrong("World.scenario", scenario, "a Scenario")
         kept = storage if record else None
-        super().__init__(
-            Simulation(_checked(scenario), check_seed(seed), filename, kept, dict(options or {}))
-        )
+        super().__init__(Simulation(scenario, check_seed(seed), filename, kept, options or {}))
         self.watch = watch
-        self._begin(control)
-
-    def _begin(self, control: Callable[[World], Any] | None) -> None:
-        simulation = self._simulation
-        view = WorldView(simulation)
-        positions = simulation.scenario.sees == "positions"
-        team_view = TeamPositionsView(simulation) if positions else view
-        simulation.begin(self, view, team_view, control)
+        view = WorldView(self._simulation)
+        positions = self.scenario.sees == "positions"
+        team_view = TeamPositionsView(self._simulation) if positions else view
+        self._simulation.begin(self, view, team_view, control)
 
     def reset(self, seed: int | None = None, scenario: Scenario | None = None) -> None:
         """Start again, as a new World would: the run after it is the same to the bit.
@@ -76,15 +72,17 @@ class World(WorldView):
         """
         before = self._simulation
         before.refuse_within_step("reset")
-        self._simulation = Simulation(
-            before.declared if scenario is None else _checked(scenario),
-            before.seed if seed is None else check_seed(seed),
-            before.filename,
-            before.storage,
-            before.recorder.options,
+        World.__init__(
+            self,
+            before.declared if scenario is None else scenario,
+            before.control,
+            before.seed if seed is None else seed,
+            filename=before.filename,
+            watch=before.watch,
+            storage=before.storage or Column,
+            options=before.recorder.options,
+            record=before.storage is not None,
         )
-        self.watch = before.watch
-        self._begin(before.control)
 
     simulation: Simulation = through("_simulation")
     """The machinery behind it, for programs that rebuild or follow a run."""
@@ -140,9 +138,3 @@ class World(WorldView):
         from mars2d.output.pages.notebook import world_svg
 
         return world_svg(self)
-
-
-def _checked(scenario: Scenario) -> Scenario:
-    if not isinstance(scenario, Scenario):
-        raise wrong("World.scenario", scenario, "a Scenario")
-    return scenario
