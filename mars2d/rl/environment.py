@@ -108,8 +108,15 @@ class Environment(Live, gymnasium.Env[Row, Row]):
         it has. Raises InputError for an action of another shape or that is not finite, and after
         the end.
         """
+        self._episode.step(self.wanted(action))
+        return self._results()
+
+    def wanted(self, action: Any) -> dict[int, tuple[float, ...]]:
+        """Return the learner's command, by its index. Raises InputError as `step` does."""
+        return {self._learner: self._episode.command(0, action)}
+
+    def _results(self) -> tuple[Row, float, bool, bool, dict[str, Any]]:
         episode = self._episode
-        episode.step({self._learner: episode.command(0, action)})
         reward = episode.reward(0)
         self._screen.follow(episode.world)
         return episode.observed(0), reward, *episode.ended(0), episode.over
