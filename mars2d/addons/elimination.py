@@ -73,13 +73,16 @@ class Elimination(Contest):
 
     def on_step(self, world: WorldLike) -> None:
         """Note who leaves; end the experiment when it is decided, or when time is over."""
-        out = self.results
-        one, other = (tuple(robot for robot in team if robot not in out) for team in self._teams)
+        one, other, out = *self._teams, self.results
+        if out:
+            one, other = (tuple(r for r in team if r not in out) for team in self._teams)
         span = Span(world.scenario, np.array([world.time]), world.pose[None], world.contacts)
         now = self.exits((one, other), span)
         self._exits += tuple(now)
         self._time_is_over = self.time_is_over(world.scenario, world.iteration)
-        if why := self.ending(world):
+        changes = now or self._time_is_over or not world.iteration  # else it stands as before
+        why = self.ending(world) if changes else ""
+        if why:
             world.stop(why)
         for leaving in now if self.holds_last or not why else ():
             world.hold(leaving.robot)

@@ -134,16 +134,8 @@ class Episode:
             self._room = Room(now.workspace, len(now.robots))
         self.world.observe()
 
-    def check_going(self) -> None:
-        """Raise InputError if the episode is over."""
-        if self.world.over:
-            raise InputError(
-                f"the episode is over: {self.world.over_message}; reset() begins another"
-            )
-
     def step(self, commands: Mapping[int, tuple[float, ...]]) -> None:
         """Do one control step, and let add-ons and sensors see the instant after it."""
-        self.check_going()
         every = len(commands) == len(self.world.robots)
         alike = every and len({*map(len, commands.values())}) == 1
         self.world.step(
@@ -196,8 +188,13 @@ class Episode:
     def command(self, k: int, action: Any) -> tuple[float, ...]:
         """Return learner k's command: an action of -1 is the drive's least one, 1 the largest.
 
-        Actions beyond are clipped. Raises InputError unless it is a finite number for each input.
+        Actions beyond are clipped. Raises InputError unless it is a finite number for each input,
+        and when the episode is over.
         """
+        if self.world.over:
+            raise InputError(
+                f"the episode is over: {self.world.over_message}; reset() begins another"
+            )
         try:
             values = np.asarray(action, dtype=float)
         except (TypeError, ValueError):

@@ -41,7 +41,7 @@ def _gain(robot: RobotView, now: float) -> float:
 def _nearer(world: World, robot: RobotView) -> float:
     """Return the metres that a pursuer came nearer in the last step; 10 more for a capture."""
     x, y = world.pose[:2, 0] - world.pose[:2, 1]
-    return _gain(robot, hypot(x, y)) + 10 * len(world.addons.game.captures)
+    return _gain(robot, hypot(x, y)) + 10 * len(world.addons.game.results)
 
 
 def pursuit(**given: Any) -> Environment | VectorEnvironment:

@@ -35,7 +35,12 @@ class Abreast:
                 if command is not None:
                     world.step(command)
             return
-        self._take([robot.drive for now in simulations for robot in now.scenario.robots], worlds)
+        drives = [robot.drive for now in simulations for robot in now.scenario.robots]
+        if drives != self._known:
+            still = np.hstack([now.command for now in simulations])
+            named = {str(i): drive for i, drive in enumerate(drives)}
+            self._drives = Drives(named, worlds[0].sampling_time, worlds[0].stream, still)
+            self._known = drives
         steps = zip(simulations, commands, strict=True)
         wanted = np.hstack(
             [now.command if given is None else now.decide(given) for now, given in steps]
@@ -47,12 +52,3 @@ class Abreast:
             if given is not None:
                 mine = slice(k * n, (k + 1) * n)
                 simulation.carry_out(limited[:, mine].copy(), twists[:, mine])
-
-    def _take(self, drives: list[Drive], worlds: Sequence[World]) -> None:
-        """Take the drives of the robots of all worlds, unless they are those of the last step."""
-        if drives != self._known:
-            first = worlds[0]
-            named = {str(i): drive for i, drive in enumerate(drives)}
-            still = np.zeros((first.scenario.inputs, len(drives)))
-            self._drives = Drives(named, first.sampling_time, first.stream, still)
-            self._known = drives

@@ -69,11 +69,11 @@ def test_each_world_is_that_of_an_environment_alone_to_the_bit(mode, name):
     rows = [(many.reset(seed=7)[0], *np.zeros((3, count)))]
     digests = [[] for _ in range(count)]
     for action in actions:
-        kept = many.worlds, [world.simulation for world in many.worlds]
+        worlds = [one.world.simulation for one in many.envs]
         *row, infos = many.step(action)
         rows.append(row)
         for k in np.flatnonzero(row[2] | row[3]):
-            last = kept[1][k]
+            last = worlds[k]
             assert last.over
             assert infos["final_info" if mode is AutoresetMode.SAME_STEP else "over"] is not None
             digests[k].append(last.record.digest)
@@ -116,17 +116,15 @@ def test_where_worlds_do_not_start_again_by_themselves_a_mask_says_which_do():
     assert truncated.all()
     assert infos["over"].tolist() == ["Time is over: 0.2 s"] * 2
     many.reset(options={"reset_mask": np.array([False, True])})
-    assert [world.iteration for world in many.worlds] == [2, 0]
+    assert [one.world.iteration for one in many.envs] == [2, 0]
     with pytest.raises(InputError, match="the episode is over: Time is over"):
         many.step(np.zeros((2, 2)))
 
 
 WRONG = {
     "num_envs = 0": lambda: VectorEnvironment("corner_game", 0, 0),
-    "3 actions, expected one for each of 2 worlds": lambda: two().step(np.zeros((3, 2))),
+    "expected one for each of 2 worlds": lambda: two().step(np.zeros((3, 2))),
     "the action of red is an array of shape (3,)": lambda: two().step(np.zeros((2, 3))),
-    "seed = [1]": lambda: two().reset(seed=[1]),
-    "reset_mask": lambda: two().reset(options={"reset_mask": [True]}),
 }
 
 

@@ -151,7 +151,7 @@ def _run_headless(
     log = formats.log_to(arguments.record)
     pace = "max" if arguments.foxglove is None else arguments.speed or 1.0
     world = run_headless(experiment, watchers, log, pace)
-    seconds = world.simulation.engine_seconds
+    seconds = world.simulation.seconds["physics"]
     if seconds >= LONG and reason_without():
         from mars2d.reports.doctor import remedy
 
