@@ -70,12 +70,16 @@ class Elimination(Contest):
         """Find the robots; raise InputError if one is not there, or has two roles."""
         self._teams, self._time_is_over = self.players(world.scenario), False
         self._exits: tuple[Exit, ...] = ()
+        self._before: tuple[float, Float] | None = None  # the last control step
 
     def on_step(self, world: WorldLike) -> None:
         """Note who leaves; end the experiment when it is decided, or when time is over."""
-        out = self.results
+        out, time = self.results, world.time
         one, other = (tuple(robot for robot in team if robot not in out) for team in self._teams)
-        span = Span(world.scenario, np.array([world.time]), world.pose[None], world.contacts)
+        before = self._before or (time, world.pose)
+        times, poses = map(np.array, zip(before, (time, world.pose), strict=True))
+        self._before = time, world.pose
+        span = Span(world.scenario, times, poses, world.contacts)
         now = self.exits((one, other), span)
         self._exits += tuple(now)
         self._time_is_over = world.iteration >= world.scenario.last_iteration
