@@ -20,6 +20,7 @@ from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame
 from mars2d.scenario.controllers import standing_still
 from mars2d.scenario.examples import experiment_name
+from mars2d.window.panels.impact import Impact
 from mars2d.window.panels.inspector import Inspector
 from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel
@@ -103,7 +104,7 @@ class Window(PlayerWindow):
         self._selection = Selection()
         self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
-        self._lesson = Lesson(painter, _path(source))
+        self._lesson, self._impact = Lesson(painter, _path(source)), Impact(painter, self.player)
         self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
         bounds = source.bounds if isinstance(source, Playback) else None
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None), bounds)
@@ -137,8 +138,11 @@ class Window(PlayerWindow):
         self.scopes: Scopes = Scopes(painter, self.player, self._actions)
         self.dock = Dock(
             painter,
-            [self._inspector, self.scopes, self.parameters, self._predictions, self._lesson],
-        )
+            [
+                self._inspector, self.scopes, self.parameters, self._predictions, self._lesson,
+                self._impact,
+            ],
+        )  # fmt: skip
         buttons = self._actions | {"branch": self._choose_branch}
         for name, panel in (("predictions", self._predictions), ("lesson", self._lesson)):
             if not panel.offered:
@@ -434,9 +438,10 @@ class Window(PlayerWindow):
             self.notes.say(f"this file has no {lacks}", "warning")
 
     def _to_contact(self, go: Callable[[], None]) -> None:
-        """Go to a contact of the selected body, or of any; forces are shown there."""
+        """Go to a contact of the selected body, or of any; forces and its card are shown there."""
         self.player.body = self.selected
         super()._to_contact(go)
+        self._impact.open()
 
     def _open_scopes(self) -> None:
         """Open the menu of plots."""
