@@ -120,28 +120,30 @@ def card(scenario: Scenario, impact: np.void) -> list[tuple[str, str, str, str]]
     names = [scenario.body_name(int(impact[side])) for side in "ab"]
     known = 2 if impact["b"] >= 0 else 1
 
+    def number(value: float) -> str:
+        return f"{round(float(value), 9) + 0.0:.3g}"
+
     def each(name: str, column: int | None = None) -> list[str]:
         values = impact[name] if column is None else impact[name][:, column]
-        return [f"{value + 0.0:.3g}" for value in values[:known]] + ["-"] * (2 - known)
+        return [number(value) for value in values[:known]] + ["-"] * (2 - known)
 
     def pair(name: str) -> str:
-        return "({:.3g}, {:.3g})".format(*impact[name] + 0.0)
+        return f"({', '.join(map(number, impact[name]))})"
 
-    (before_a, before_b), (after_a, after_b) = impact["before"], impact["after"]
-    speeds = [f"{value:.3g}" for value in (before_a[0] - before_b[0], after_b[0] - after_a[0])]
+    nearer, apart = impact["before"][:, 0] @ (1, -1), impact["after"][:, 0] @ (-1, 1)
     rows = [
         ("", *names, "both"),
-        ("before, along [m/s]", *each("before", 0), f"{speeds[0]} nearer"),
-        ("after, along", *each("after", 0), f"{speeds[1]} apart"),
+        ("before, along [m/s]", *each("before", 0), f"{number(nearer)} nearer"),
+        ("after, along", *each("after", 0), f"{number(apart)} apart"),
         ("before, across", *each("before", 1), ""),
         ("after, across", *each("after", 1), ""),
         ("spin before [rad/s]", *each("spin_before"), ""),
         ("spin after", *each("spin_after"), ""),
-        ("energy lost [J]", *each("lost"), f"{impact['lost'].sum():.3g}"),
+        ("energy lost [J]", *each("lost"), number(impact["lost"].sum())),
         ("momentum before [N s]", "", "", pair("momentum_before")),
         ("momentum after", "", "", pair("momentum_after")),
         ("impulse [N s]", "", "", pair("impulse")),
-        ("restitution", "", "", f"{impact['restitution']:.3g}"),
+        ("restitution", "", "", number(impact["restitution"])),
     ]
     return [(label, a, b, both) for label, a, b, both in rows]
 
