@@ -18,8 +18,8 @@ from mars2d.core.words import instead
 Color = tuple[float, float, float]
 """Red, green and blue from 0 to 1."""
 
-HOOKS = ("on_start", "on_step", "on_sensed", "on_draw", "on_stop")
-"""All hooks: MARS's Initialize, Loop and Plot of an add-on, and two for sensing and the end."""
+HOOKS = ("on_start", "on_step", "on_sensed", "on_contact", "on_draw", "on_stop")
+"""All hooks: MARS's Initialize, Loop and Plot of an add-on; for sensing, touches and the end."""
 
 
 class Addon(Stateful):
@@ -31,9 +31,9 @@ class Addon(Stateful):
     ...     def on_step(self, world):
     ...         self.steps += 1
 
-    A hook is a method named on_start, on_step, on_sensed, on_draw or on_stop; any other ``on_...``
-    is an error. In a scenario an add-on is frozen. Each world works on a copy of its own, on which
-    hooks may set attributes; laws find it as ``world.addons.<name>``. The hooks get the
+    A hook is a method named as in `HOOKS`; any other ``on_...`` is an error. In a scenario an
+    add-on is frozen. Each world works on a copy of its own, on which hooks may set attributes; laws
+    find it as ``world.addons.<name>``. The hooks get the
     `World`, see `mars2d.core.interfaces.WorldLike`; `draw` and `theory` a `Frame`, see `FrameLike`.
     """
 
@@ -125,6 +125,13 @@ class Addon(Stateful):
 
     def on_sensed(self, world: Any) -> None:
         """Act at each control step, after the sensors are read and before the laws are asked."""
+
+    def on_contact(self, world: Any, contact: Any) -> None:
+        """Act where two bodies have come to touch, or have parted, before `on_step`.
+
+        contact: the row of `world.contacts`, with the time, the bodies `a` and `b`, the impulses,
+        and whether it `began` and `ended` in the last control step; a bounce does both.
+        """
 
     def on_draw(self, world: Any, scene: Scene) -> None:
         """Add shapes to the picture of the world, beneath the robots."""

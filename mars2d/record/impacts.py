@@ -11,6 +11,7 @@ from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import norm
 from mars2d.core.materials import GRAVITY
 from mars2d.record.contact import met
+from mars2d.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
     from mars2d.record.rows import Rows
@@ -85,8 +86,10 @@ class _State(NamedTuple):
 _FIXED = _State(0.0, np.zeros(2), np.zeros(2), 0.0)
 
 
-def impacts(record: Rows) -> NDArray[np.void]:
+def impacts(record: Rows, row: int | None = None) -> NDArray[np.void]:
     """Return what each touch of two bodies did, a row (dtype IMPACT) each, in order of time.
+
+    row: of the record, for those in the control step that led to it alone; None: all of them.
 
     `before` is at the touch: the velocity at the control step's start, less what the floor takes
     from a prop until then; the contact's speed and slip say how fast a robot came by its drive. A
@@ -95,16 +98,54 @@ def impacts(record: Rows) -> NDArray[np.void]:
     part faster than their restitution allows, `after` is at its end: drives and the floor have a
     share in it.
     """
-    contacts, found = record.contacts, []
+    contacts, ends, found = record.contacts, record.contact_rows, []
+    if row is not None:
+        chosen = ends == row
+        contacts, ends = contacts[chosen], ends[chosen]
     after: dict[int, tuple[int, _State]] = {}  # each body's last control step with a touch
     for k in np.flatnonzero(met(contacts)):
-        first, row = contacts[k], int(record.contact_rows[k])
-        if 0 < row < len(record):
-            start, end = np.searchsorted(record.contact_rows, [row, row + 1])
-            rows = contacts[start:end]
+        first, end = contacts[k], int(ends[k])
+        if 0 < end < len(record):
+            rows = contacts[slice(*np.searchsorted(ends, [end, end + 1]))]
             rows = rows[(rows["a"] == first["a"]) & (rows["b"] == first["b"])]
-            found.append(_impact(record, row - 1, rows, first, after))
+            found.append(_impact(record, end - 1, rows, first, after))
     return np.array(found, dtype=IMPACT)
+
+
+def card(scenario: Scenario, impact: np.void) -> list[tuple[str, str, str, str]]:
+    """Return an impact as a table: labels, the numbers of a and of b, and those of both.
+
+    Its first row has the names of the bodies.
+    """
+    names = [scenario.body_name(int(impact[side])) for side in "ab"]
+    known = 2 if impact["b"] >= 0 else 1
+
+    def number(value: float) -> str:
+        return f"{round(float(value), 9) + 0.0:.3g}"
+
+    def each(name: str, column: int | None = None) -> list[str]:
+        values = impact[name] if column is None else impact[name][:, column]
+        return [number(value) for value in values[:known]] + ["-"] * (2 - known)
+
+    def pair(name: str) -> str:
+        return f"({', '.join(map(number, impact[name]))})"
+
+    nearer, apart = impact["before"][:, 0] @ (1, -1), impact["after"][:, 0] @ (-1, 1)
+    rows = [
+        ("", *names, "both"),
+        ("before, along [m/s]", *each("before", 0), f"{number(nearer)} nearer"),
+        ("after, along", *each("after", 0), f"{number(apart)} apart"),
+        ("before, across", *each("before", 1), ""),
+        ("after, across", *each("after", 1), ""),
+        ("spin before [rad/s]", *each("spin_before"), ""),
+        ("spin after", *each("spin_after"), ""),
+        ("energy lost [J]", *each("lost"), number(impact["lost"].sum())),
+        ("momentum before [N s]", "", "", pair("momentum_before")),
+        ("momentum after", "", "", pair("momentum_after")),
+        ("impulse [N s]", "", "", pair("impulse")),
+        ("restitution", "", "", number(impact["restitution"])),
+    ]
+    return [(label, a, b, both) for label, a, b, both in rows]
 
 
 def _impact(

@@ -220,9 +220,9 @@ class Rows:
         """The row at the end of each contact's control step, (c,); see `rows_of`."""
         return rows_of(self.contacts, self.time, self.scenario.sampling_time)
 
-    def impacts(self) -> NDArray[np.void]:
-        """Return what each touch did, dtype IMPACT: velocities, impulse, energies, momenta."""
-        return impacts(self)
+    def impacts(self, row: int | None = None) -> NDArray[np.void]:
+        """Return what each touch did, dtype IMPACT; see `mars2d.record.impacts.impacts`."""
+        return impacts(self, row)
 
     @cached_property
     def pair_forces(self) -> NDArray[np.void]:

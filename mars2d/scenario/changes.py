@@ -25,7 +25,7 @@ MECHANICAL = frozenset(
 )
 """Fields of bodies that may change, and with which the engine starts again."""
 
-WHOLE = frozenset({"title", "workspace", "on_exit", "stop_time", "animation"})
+WHOLE = frozenset({"title", "workspace", "on_exit", "stop_time", "stop_on", "animation"})
 """Fields of a scenario that may change while its world runs, each as a whole."""
 
 PARTS = {

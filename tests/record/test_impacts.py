@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Robot, Scenario
+from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.bodies import Ball, Box
 from tests.cases import each_case
@@ -104,3 +104,18 @@ def test_blows_that_follow_each_other_in_one_control_step_are_told_apart():
 
 def test_a_record_without_touches_has_none():
     assert len(record_of(0.1).impacts()) == 0
+    with pytest.raises(InputError, match="the record has no impacts: nothing came to touch"):
+        record_of(0.1).plot_impacts()
+
+
+def test_a_figure_has_a_panel_for_each_of_the_hardest_with_its_table():
+    row = [Ball(pose=(x, 0, 0)) for x in (0.0, 0.4, 0.65, 0.9, 1.15, 1.4)]
+    record = record_of(0.1, [row[0].replace(velocity=(1, 0, 0)), *row[1:]])
+    assert len(record.impacts()) == 5
+    axes = record.plot_impacts()
+    assert len(axes) == len(axes[0].figure.axes) == 4
+    cells = axes[0].tables[0].get_celld()
+    assert cells[1, 0].get_text().get_text() == "before, along [m/s]"
+    assert cells[1, 3].get_text().get_text() == "1 nearer"
+    with pytest.raises(InputError, match="axes: 1 of them, for 4 impacts"):
+        record.plot_impacts(axes[:1])
