@@ -15,7 +15,7 @@ from mars2d.core import interrupt  # noqa: F401 - first: Ctrl-C while the others
 
 if TYPE_CHECKING:
     from mars2d.addons import Addon
-    from mars2d.bodies import Car, Differential, Drive, Dubins, Holonomic, Unicycle
+    from mars2d.bodies import Car, Differential, Drive, Dubins, Holonomic, Omni, Unicycle
     from mars2d.core.errors import InputError, LawError, Mars2dError
     from mars2d.scenario.animation import Animation
     from mars2d.scenario.experiment import load_law, load_scenario
@@ -54,6 +54,7 @@ __all__ = [
     "MaterialPair",
     "Nearest",
     "Neighbourhood",
+    "Omni",
     "Prediction",
     "RandomStarts",
     "Range",
@@ -77,7 +78,7 @@ __all__ = [
 
 _HOMES = {
     "addons": ("Addon",),
-    "bodies": ("Car", "Differential", "Drive", "Dubins", "Holonomic", "Unicycle"),
+    "bodies": ("Car", "Differential", "Drive", "Dubins", "Holonomic", "Omni", "Unicycle"),
     "core.errors": ("InputError", "LawError", "Mars2dError"),
     "output.pages.notebook": ("scenario_svg",),
     "scenario.animation": ("Animation",),

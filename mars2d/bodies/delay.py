@@ -19,9 +19,9 @@ class DelayLine:
     are zero.
     """
 
-    def __init__(self, delay: float | Float, sampling_time: float, columns: int) -> None:
-        """Take the delay [s], one for all or (n,), the sampling time [s], and the columns n."""
-        delays = np.broadcast_to(np.asarray(delay, dtype=float), (columns,))
+    def __init__(self, delay: float | Float, sampling_time: float, still: Float) -> None:
+        """Take the delay [s], one for all or (n,), the sampling time [s], and commands of 0."""
+        delays = np.broadcast_to(np.asarray(delay, dtype=float), still.shape[1:])
         whole = np.floor(delays / sampling_time + ROUNDING).astype(int)
         rest = _rounded(delays - whole * sampling_time, ROUNDING * sampling_time)
         starts = np.unique([0.0, *rest]).tolist()
@@ -31,19 +31,18 @@ class DelayLine:
             for start, end in zip(starts, ends, strict=True)
         ]
         oldest = max(age for _, groups in self._segments for age, _ in groups)
-        still = np.zeros((2, columns))
         self._sent = [still] * (oldest + 1)  # a ring: the next command replaces the oldest
         self._next = 0
 
     def send(self, command: Float) -> list[tuple[float, Float]]:
-        """Issue a command (2, n), and return those in effect meanwhile: (seconds, command)."""
+        """Issue a command (m, n), and return those in effect meanwhile: (seconds, command)."""
         now = self._next
         self._sent[now] = command
         self._next = (now + 1) % len(self._sent)
         return [(duration, self._in_effect(groups, now)) for duration, groups in self._segments]
 
     def _in_effect(self, groups: list[tuple[int, Index]], now: int) -> Float:
-        """Return the commands (2, n) in effect, given the age of each group of columns."""
+        """Return the commands (m, n) in effect, given the age of each group of columns."""
         sent, (age, _) = self._sent, groups[0]
         if len(groups) == 1:
             return sent[now - age]

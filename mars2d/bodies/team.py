@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from math import sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,8 @@ MAX_DEAD_TIME = 1e6
 PARTS = 8
 """The parts of a control step in which commands change that follow a ramp as stairs."""
 
+ROWS = "expected three, as `return v, 0, omega`: velocities ahead and to the left, and the spin"
+
 BLOCK = 256
 """The number of control steps for which random numbers are drawn at once."""
 
@@ -41,8 +44,8 @@ class _Team:
     def __init__(self, drive: Drive, columns: Index | None, noise: _White | None) -> None:
         """Take the drive, the robots' columns, None for all, and their random numbers."""
         self.drive, self.noise = drive, noise
-        self._everybody = columns is None
         self.columns = slice(None) if columns is None else columns
+        self.inputs = len(drive.inputs)
         self.normal: Float | None = None  # those of this control step
         name = f"drive {type(drive).__name__}"
         self.saturating = called(name, drive.saturate)
@@ -51,15 +54,31 @@ class _Team:
         self.moving = called(name, drive.twist)
 
     def part(self, command: Float) -> Float:
-        """Return the team's columns of all robots' commands: the array itself for everybody."""
-        return command if self._everybody else command[:, self.columns]
+        """Return the team's columns of all robots' commands, and the rows of its inputs.
+
+        For everybody, and all rows, it is the array itself.
+        """
+        if len(command) != self.inputs:
+            command = command[: self.inputs]
+        return command if isinstance(self.columns, slice) else command[:, self.columns]
+
+    def write(self, command: Float, mine: Float) -> None:
+        """Write the team's part of all robots' commands."""
+        command[: self.inputs, self.columns] = mine
 
 
 class Drives:
-    """The drives of a world's robots: from all commands (2, n) to all twists (3, n)."""
+    """The drives of a world's robots: from all commands (m, n) to all twists (3, n).
 
-    def __init__(self, drives: Mapping[str, Drive], sampling_time: float, stream: Stream) -> None:
+    m: the largest number of inputs of a drive; a robot whose drive has fewer has zeros for others.
+    """
+
+    def __init__(
+        self, drives: Mapping[str, Drive], sampling_time: float, stream: Stream, still: Float
+    ) -> None:
         """Take the drives by robots' names, the sampling time [s], and a source of random streams.
+
+        still: the commands (m, n) of robots that stand still.
 
         Raises InputError for a dead time of more than a million sampling times.
         """
@@ -74,8 +93,8 @@ class Drives:
         self._drives: Mapping[str, Drive] = {}
         self._noisy: list[_Team] = []
         self.renew(drives)
-        self.cuts = Cuts(len(drives))
-        self._reached = np.zeros((2, len(drives)))  # the commands that actuators have got to
+        self._reached = still  # the commands that actuators have got to
+        self.cuts = Cuts(still)
 
     def renew(self, drives: Mapping[str, Drive]) -> None:
         """Take other drives of the same robots; those with noise must be the same as before.
@@ -90,15 +109,16 @@ class Drives:
         for drive, names in _grouped(drives):
             columns = np.array([column[name] for name in names])
             streams = [self._stream(f"drive {name}") for name in names] if drive.noise else []
-            noise = _White(streams, self._sampling_time) if streams else None
+            count = len(drive.rates)
+            noise = _White(streams, count, self._sampling_time) if streams else None
             everybody = len(names) == len(drives)
             noise = next((team.noise for team in before if team.drive == drive), noise)
             self._teams.append(_Team(drive, None if everybody else columns, noise))
-        self._rated = [team for team in self._teams if team.drive.rates != (None, None)]
+        self._rated = [team for team in self._teams if {*team.drive.rates} != {None}]
         self._noisy = [team for team in self._teams if team.noise is not None]
 
     def limit(self, command: Float, last: Float) -> Float:
-        """Limit commands (2, n), in place, to those that drives can follow after the last (2, n).
+        """Limit commands (m, n), in place, to those that drives can follow after the last (m, n).
 
         Raises LawError if a drive of the user's fails.
         """
@@ -110,7 +130,7 @@ class Drives:
                         team.part(command), team.part(last), self._sampling_time
                     )
                     if reached is not command:
-                        command[:, team.columns] = reached
+                        team.write(command, reached)
             _saturate(self._rated, command)  # rounding may have brought one beyond a limit again
         if not within(LARGEST, command):
             raise LawError(f"a drive saturates a command to {shown(command.tolist())}")
@@ -123,7 +143,7 @@ class Drives:
             team.normal = team.noise.draw()
 
     def drive(self, command: Float, duration: float) -> Iterator[tuple[float, Float]]:
-        """Yield twists (3, n) that lead to commands (2, n), each with the seconds that it holds.
+        """Yield twists (3, n) that lead to commands (m, n), each with the seconds that it holds.
 
         Where actuators change at a bound, the time is cut into parts, with the mean of each. Raises
         LawError if a drive of the user's fails.
@@ -138,23 +158,22 @@ class Drives:
             mean = command.copy()
             for team in self._rated:
                 with team.ramping:
-                    mean[:, team.columns] = team.drive.ramp(
-                        team.part(command), team.part(last), k * h, (k + 1) * h
-                    )
+                    ramp = team.drive.ramp
+                    team.write(mean, ramp(team.part(command), team.part(last), k * h, (k + 1) * h))
             yield h, self.twist(mean)
         self._reached = command.copy()
         for team in self._rated:
             with team.accelerating:
-                self._reached[:, team.columns] = team.drive.accelerate(
-                    team.part(command), team.part(last), duration
-                )
+                accelerate = team.drive.accelerate
+                gone = accelerate(team.part(command), team.part(last), duration)
+                team.write(self._reached, gone)
 
     def reached(self) -> Float | None:
         """Return the twists (3, n) at the end of that time; None if no drive has ramps."""
         return self.twist(self._reached) if self._rated else None
 
     def twist(self, command: Float) -> Float:
-        """Return the twists (3, n) for commands (2, n), with the drives' noise.
+        """Return the twists (3, n) for commands (m, n), with the drives' noise.
 
         Raises LawError if a drive of the user's fails.
         """
@@ -162,11 +181,13 @@ class Drives:
         for team in self._teams:
             mine = team.part(command)
             try:
-                twist[:, team.columns] = (
+                moved = (
                     team.drive.twist(mine)
                     if team.normal is None
                     else team.drive.noisy_twist(mine, team.normal)
                 )
+                for row, part in zip(twist, _rows(moved), strict=True):
+                    row[team.columns] = part
             except BaseException as error:
                 team.moving.blame(error)
                 raise
@@ -178,30 +199,39 @@ class Drives:
 class Cuts:
     """The commands that the drives' bounds have cut: how many of each robot, and the last ones."""
 
-    def __init__(self, robots: int) -> None:
-        self.count = np.zeros(robots, dtype=int)
-        self.asked = np.zeros((2, robots))
+    def __init__(self, still: Float) -> None:
+        """Take the commands (m, n) of robots that stand still."""
+        self.count = np.zeros(still.shape[1], dtype=int)
+        self.asked = still.copy()
 
-    def note(self, columns: Index | slice, asked: Float, done: Float) -> None:
+    def note(self, team: _Team, asked: Float, done: Float) -> None:
         """Note which commands of some robots are not done as asked."""
         cut = (asked != done).any(axis=0)
-        self.count[columns] += cut
-        self.asked[:, columns] = np.where(cut, asked, self.asked[:, columns])
+        self.count[team.columns] += cut
+        team.write(self.asked, np.where(cut, asked, team.part(self.asked)))
 
 
 def _saturate(teams: list[_Team], command: Float, cuts: Cuts | None = None) -> None:
-    """Limit commands (2, n), in place. cuts: notes those that were changed."""
+    """Limit commands (m, n), in place. cuts: notes those that were changed."""
     for team in teams:
         try:
             mine = team.part(command)
             limited = team.drive.saturate(mine)
             if cuts is not None and limited is not mine:
-                cuts.note(team.columns, mine, limited)
+                cuts.note(team, mine, limited)
             if limited is not command:  # else it is there already
-                command[:, team.columns] = limited
+                team.write(command, limited)
+                command[team.inputs :, team.columns] = 0.0
         except BaseException as error:
             team.saturating.blame(error)
             raise
+
+
+def _rows(twist: Any) -> Any:
+    """Return a twist that has three rows."""
+    if not hasattr(twist, "__len__") or len(twist) != 3:
+        raise LawError(f"twist returned {shown(twist)}: {ROWS}")
+    return twist
 
 
 def _differ(a: Float, b: Float) -> bool:
@@ -222,20 +252,20 @@ def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:
 
 
 class _White:
-    """The means (2, n) of white noise of density 1 over `duration` seconds, in turn.
+    """The means (count, n) of white noise of density 1 over `duration` seconds, in turn.
 
     They are normal numbers with variance 1 / duration; each robot has a random stream of its own.
     """
 
-    def __init__(self, streams: list[np.random.Generator], duration: float) -> None:
-        self._streams, self._duration = streams, duration
-        self._block: Float = np.empty((0, 2, len(streams)))
+    def __init__(self, streams: list[np.random.Generator], count: int, duration: float) -> None:
+        self._streams, self._count, self._duration = streams, count, duration
+        self._block: Float = np.empty((0, count, len(streams)))
         self._next = 0
 
     def draw(self) -> Float:
         """Return the next mean."""
         if self._next == len(self._block):
-            blocks = [stream.standard_normal((BLOCK, 2)) for stream in self._streams]
+            blocks = [stream.standard_normal((BLOCK, self._count)) for stream in self._streams]
             self._block = np.stack(blocks, axis=-1) / sqrt(self._duration)
             self._next = 0
         self._next += 1

@@ -70,7 +70,7 @@ class Bounds:
         cuts, robots = self._world.simulation.cuts, self._world.scenario.robots
         first_command = self._world.history.command[0]
         for i, robot in enumerate(robots):
-            for row, quantity in enumerate(robot.drive.quantities):
+            for row, quantity in enumerate(robot.drive.inputs):
                 asked = cuts.asked[row, i] or first_command[row, i]
                 if quantity.unit == "rad/s" and _like_degrees(asked):
                     yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"

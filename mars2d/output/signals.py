@@ -209,10 +209,10 @@ def _put_elsewhere(record: Rows) -> Iterator[tuple[int, int]]:
 
 def _command(record: Rows, name: str, part: str, robots: tuple[int, ...]) -> list[Signal]:
     """Return the commands of robots, or a part of them by its index or quantity."""
-    found = {record.scenario.robots[i].drive.quantities for i in robots}
+    found = {record.scenario.robots[i].drive.inputs for i in robots}
     agreed = found.pop() if len(found) == 1 else ()
-    kinds = agreed or (Quantity("0", DRIVE_UNIT), Quantity("1", DRIVE_UNIT))
-    known = {"0": 0, "1": 1} | {kind.name: k for k, kind in enumerate(kinds)}
+    kinds = agreed or [Quantity(str(k), DRIVE_UNIT) for k in range(record.command.shape[1])]
+    known = {name: k for k, kind in enumerate(kinds) for name in (str(k), kind.name)}
     if part and part not in known:
         raise InputError(f"columns: {name!r}: command has no {part!r}{nearest(part, known)}")
     return [
@@ -220,7 +220,7 @@ def _command(record: Rows, name: str, part: str, robots: tuple[int, ...]) -> lis
             f"command {kinds[k].name}" if agreed else f"command.{k}",
             kinds[k].unit, record.command[:, k, list(robots)], robots, "post",
         )
-        for k in ([known[part]] if part else [0, 1])
+        for k in ([known[part]] if part else range(len(kinds)))
     ]  # fmt: skip
 
 

@@ -75,9 +75,10 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bo
         })  # fmt: skip
     else:
         drive = part.drive
+        force, torque = drive.strength(inertia.mass * GRAVITY)
         body.describe(what)
         body.describe_drive({
-            "force": drive.max_force, "torque": drive.max_torque,
+            "force": force, "torque": torque,
             "in_robot_frame": drive.frame == "robot", "limited": drive.force_limited and forces,
             "no_load_speed": 1e300 if drive.no_load_speed is None else drive.no_load_speed,
             "grips": [1e300 if g is None else g * inertia.mass * GRAVITY for g in drive.grips],

@@ -47,7 +47,7 @@ class Frame:
     if it is not `iteration`. draw_addons: adds the add-ons' shapes
     to a scene; None if they are unknown. prop_pose: (3, p). contacts: of the control step that led
     here; effort: (n,), of the drives in it. contact_log: returns all contacts so far. prop_path:
-    (k, 3, p), effort_path: (k, n), and command_path: (k, 2, n), at the times of `path`; they may be
+    (k, 3, p), effort_path: (k, n), and command_path: (k, m, n), at the times of `path`; they may be
     empty. messages: under way in the control step that led here. message_log: returns all messages
     so far, and the texts to which their field `content` refers. reading_path: returns the readings
     of a sensor, by its name, on a robot at the times of `path`, (k, ...), or None if unknown.

@@ -28,7 +28,7 @@ KEPT = frozenset({np.dtype(bool), np.dtype(float)})
 
 
 class History:
-    """The record so far, as views: time (k,), pose (k, 3, n), command (k, 2, n) and so on."""
+    """The record so far, as views: time (k,), pose (k, 3, n), command (k, m, n) and so on."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
@@ -45,7 +45,7 @@ class History:
 
     @property
     def command(self) -> Float:
-        """The commands issued, (k, 2, n)."""
+        """The commands issued, (k, m, n)."""
         return self._recorder.column("command")
 
     @property
@@ -108,7 +108,7 @@ class Recorder:
         self._columns = {
             "time": storage((), float, capacity),
             "pose": storage((3, n), float, capacity),
-            "command": storage((2, n), float, capacity),
+            "command": storage((scenario.inputs, n), float, capacity),
             "command_time": storage((), float, capacity),
             "prop_pose": storage((3, props), float, capacity),
             "effort": storage((n,), float, capacity),

@@ -36,7 +36,7 @@ COLUMNS = (
 class Rows:
     """All data of a run. Row k of a column is the world at ``time[k]`` = k sampling times.
 
-    time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, 2, n), issued at
+    time: (T,) seconds. pose: (T, 3, n) = x, y [m], theta [rad]. command: (T, m, n), issued at
     ``time``, after saturation; it takes effect at command_time (T,). prop_pose: (T, 3, p). effort:
     (T, n), the largest share of its bounds that a drive used in the control step before. velocity,
     prop_velocity: (T, 3, n) and (T, 3, p) = x', y' [m/s], theta' [rad/s] at ``time``, before its

@@ -30,6 +30,11 @@ def observation_space(episode: Episode, k: int) -> Box:
     return Box(seen.low.astype(np.float32), seen.high.astype(np.float32), dtype=np.float32)
 
 
+def action_space(episode: Episode, k: int) -> Box:
+    """Return the space of learner k's actions: a share for each input of its drive."""
+    return Box(-1.0, 1.0, (len(episode.actions[k].low),), np.float32)
+
+
 class Environment(gymnasium.Env[Row, Row]):
     """One robot of an experiment learns, and laws drive the others.
 
@@ -78,7 +83,7 @@ class Environment(gymnasium.Env[Row, Row]):
             "render_modes": MODES, "render_fps": 1 / self._episode.scenario.sampling_time,
         }  # fmt: skip
         self.observation_space = observation_space(self._episode, 0)
-        self.action_space = Box(-1.0, 1.0, (2,), np.float32)
+        self.action_space = action_space(self._episode, 0)
         self._learner = self._episode.learners[0]
 
     @property
@@ -114,7 +119,7 @@ class Environment(gymnasium.Env[Row, Row]):
     def step(self, action: Any) -> tuple[Row, float, bool, bool, dict[str, Any]]:
         """Do one control step; return observation, reward, terminated, truncated and info.
 
-        action: shares of the drive's bounds (2,). info: ``over``, why the episode has ended, once
+        action: shares of the drive's bounds (m,). info: ``over``, why the episode has ended, once
         it has. Raises InputError for an action of another shape or that is not finite, and after
         the end.
         """

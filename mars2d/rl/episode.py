@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, shown
-from mars2d.core.quantity import UNKNOWN
 from mars2d.scenario.experiment import load_law, open_experiment
 from mars2d.scenario.observation import Action, Observation
 from mars2d.scenario.policy import describe
@@ -125,13 +124,14 @@ class Episode:
             self._room = Room(now.workspace, len(now.robots))
         self.world.observe()
 
-    def step(self, commands: Mapping[int, tuple[float, float]]) -> None:
+    def step(self, commands: Mapping[int, tuple[float, ...]]) -> None:
         """Do one control step, and let add-ons and sensors see the instant after it."""
         world = self.world
         if world.over:
             raise InputError(f"the episode is over: {world.over_message}; reset() begins another")
         every = len(commands) == len(world.robots)
-        world.step(np.array([commands[i] for i in range(len(commands))]).T if every else commands)
+        alike = every and len({*map(len, commands.values())}) == 1
+        world.step(np.array([commands[i] for i in range(len(commands))]).T if alike else commands)
         world.observe()
         held = world.operator.held
         if held and not world.over and all(robot in held for robot in self.learners):
@@ -171,26 +171,27 @@ class Episode:
             raise InputError(f"reward returned {shown(value)}: expected a finite number")
         return worth
 
-    def command(self, k: int, action: Any) -> tuple[float, float]:
+    def command(self, k: int, action: Any) -> tuple[float, ...]:
         """Return learner k's command: an action of -1 is the drive's least one, 1 the largest.
 
-        Actions beyond are clipped. Raises InputError unless it is two finite numbers.
+        Actions beyond are clipped. Raises InputError unless it is a finite number for each input.
         """
         try:
             values = np.asarray(action, dtype=float)
         except (TypeError, ValueError):
             values = np.empty(0)
-        if values.shape != (2,):
+        shape = (len(self.actions[k].low),)
+        if values.shape != shape:
             found = f"an array of shape {values.shape}" if values.size else shown(action)
-            self._refuse(k, found, "shape (2,)")
-        first, second = values.tolist()
-        if not abs(first) + abs(second) < np.inf:
-            self._refuse(k, shown((first, second)), "both finite")
-        return self.actions[k](first, second)
+            self._refuse(k, found, f"shape {shape}")
+        shares = values.tolist()
+        if not isfinite(sum(map(abs, shares))):
+            self._refuse(k, shown(tuple(shares)), "all finite")
+        return self.actions[k](shares)
 
     def _refuse(self, k: int, found: str, expected: str) -> NoReturn:
-        quantities = self.scenario.robots[self.learners[k]].drive.quantities or UNKNOWN
-        names = ", ".join(quantity.name for quantity in quantities)
+        inputs = self.scenario.robots[self.learners[k]].drive.inputs
+        names = ", ".join(quantity.name for quantity in inputs)
         raise InputError(
             f"the action of {self.names[k]} is {found}: expected shares of its bounds for "
             f"({names}), from -1 to 1, {expected}"

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.extras import extra
-from mars2d.rl.environment import SEEDS, observation_space
+from mars2d.rl.environment import SEEDS, action_space, observation_space
 from mars2d.rl.episode import Episode, Law, Reward, Source
 from mars2d.rl.screen import MODES, Screen
 from mars2d.world.record import Record
@@ -61,7 +61,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         }  # fmt: skip
         count = range(len(episode.names))
         self.observation_spaces = {episode.names[k]: observation_space(episode, k) for k in count}
-        self.action_spaces = {name: Box(-1.0, 1.0, (2,), np.float32) for name in episode.names}
+        self.action_spaces = {episode.names[k]: action_space(episode, k) for k in count}
         self._random = np.random.default_rng()
 
     def observation_space(self, agent: str) -> Box:
@@ -115,7 +115,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         dict[str, bool],
         dict[str, dict[str, Any]],
     ]:
-        """Do one control step under the action (2,) of each agent.
+        """Do one control step under the action (m,) of each agent.
 
         Returns observations, rewards, terminations, truncations and infos, by agent. Raises
         InputError for an action that is missing, of another shape or not finite, and for an agent

@@ -160,28 +160,27 @@ class Observation:
 
 
 class Action(NamedTuple):
-    """Turns two shares, from -1 to 1, into a command: from its least value to its largest one."""
+    """Turns shares, from -1 to 1, into a command (m,): from its least value to its largest one."""
 
-    low: tuple[float, float]
-    high: tuple[float, float]
+    low: tuple[float, ...]
+    high: tuple[float, ...]
 
     @classmethod
     def of(cls, drive: Drive, robot: str) -> Self:
         """Return the action of a robot's drive. Raises InputError if that has no bounds."""
-        (a, b), (c, d) = drive.bounds.tolist()
-        if not isfinite(a + b + c + d):
+        low, high = drive.bounds.tolist()
+        if not isfinite(sum(low) + sum(high)):
             raise InputError(
                 f"{robot}: its drive, {type(drive).__name__}, does not limit its commands: a "
                 "learner needs bounds; give it a `saturate` that has some"
             )
-        return cls((a, b), (c, d))
+        return cls(tuple(low), tuple(high))
 
-    def __call__(self, first: float, second: float) -> tuple[float, float]:
-        """Return the command for two finite shares; beyond -1 and 1 they are clipped."""
-        (a, b), (c, d) = self
-        return (
-            a + (c - a) * (min(max(first, -1.0), 1.0) + 1) / 2,
-            b + (d - b) * (min(max(second, -1.0), 1.0) + 1) / 2,
+    def __call__(self, shares: Sequence[float]) -> tuple[float, ...]:
+        """Return the command for finite shares (m,); beyond -1 and 1 they are clipped."""
+        return tuple(
+            low + (high - low) * (min(max(share, -1.0), 1.0) + 1) / 2
+            for low, high, share in zip(*self, shares, strict=True)
         )
 
 

@@ -38,7 +38,7 @@ class Policy:
     """A law that was learned: a network from observations to commands, read from an ONNX file.
 
     It has no memory: copies of it are itself. Its network takes one input (1, k), float32, and
-    returns an action (1, 2), from -1 for the least command that it was learned with to 1 for the
+    returns an action (1, m), from -1 for the least command that it was learned with to 1 for the
     largest. The file's metadata say which observation and commands these are, see `mars2d.rl`.
     """
 
@@ -73,8 +73,8 @@ class Policy:
         try:
             given = json.loads(metadata[KEY])
             self.drive, action = str(given["drive"]), given["action"]
-            (a, b), (c, d) = action["low"], action["high"]
-            self.action = Action((float(a), float(b)), (float(c), float(d)))
+            low, high = (tuple(map(float, action[end])) for end in ("low", "high"))
+            self.action = Action(low, high)
             self.experiment, self.robot = str(given["experiment"]), str(given["robot"])
             self.observation = Observation.of_json(given["observation"])
         except InputError as error:
@@ -86,8 +86,8 @@ class Policy:
         if [(each.type, each.shape[-1]) for each in taken] != [("tensor(float)", size)]:
             found = ", ".join(f"{each.type} {each.shape}" for each in taken)
             self._refuse(f"takes {found}; its metadata say one tensor(float) [1, {size}]")
-        if made.shape[-1] != 2:
-            self._refuse(f"returns {made.shape}, expected an action [1, 2]")
+        if made.shape[-1] != len(self.action.low):
+            self._refuse(f"returns {made.shape}, expected an action [1, {len(self.action.low)}]")
         self._input = taken[0].name
 
     def _refuse(self, why: str) -> NoReturn:
@@ -96,7 +96,7 @@ class Policy:
     def __deepcopy__(self, memo: dict[int, Any]) -> Policy:
         return self
 
-    def __call__(self, robot: Any) -> tuple[float, float]:
+    def __call__(self, robot: Any) -> tuple[float, ...]:
         """Return the command for a robot's present observation.
 
         Raises LawError for a robot with another drive, or another observation.
@@ -104,10 +104,10 @@ class Policy:
         if getattr(robot.memory, "_fits", None) is not self:
             self._check(robot)
         (result, *_) = self._session.run(None, {self._input: self.observation(robot)[None]})
-        first, second = result[0].tolist()
-        if not abs(first) + abs(second) < np.inf:
-            raise LawError(f"{self.file.name} returned {shown((first, second))}: expected numbers")
-        return self.action(first, second)
+        shares = result[0].tolist()
+        if not np.isfinite(shares).all():
+            raise LawError(f"{self.file.name} returned {shown(tuple(shares))}: expected numbers")
+        return self.action(shares)
 
     def _check(self, robot: Any) -> None:
         """Raise LawError unless a robot has the drive and the parts that it was learned with."""

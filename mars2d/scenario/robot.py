@@ -143,8 +143,8 @@ class Robot(Description):
     @property
     def push(self) -> float:
         """The most it can push with at rest: its drive's force, or what its wheels hold [N]."""
-        grip = self.drive.grip
-        return min(self.drive.max_force, inf if grip is None else grip * self.mass * GRAVITY)
+        weight, along = self.mass * GRAVITY, self.drive.grips[0]
+        return min(self.drive.strength(weight)[0], inf if along is None else along * weight)
 
     @property
     def surface(self) -> Surface:

@@ -290,6 +290,11 @@ class Scenario(Description):
         return (*(robot.rigid for robot in self.robots), *(prop.rigid for prop in self.props))
 
     @cached_property
+    def inputs(self) -> int:
+        """The most inputs that a robot's drive has: the rows of a command (m, n)."""
+        return max((len(robot.drive.inputs) for robot in self.robots), default=2)
+
+    @cached_property
     def _indices(self) -> dict[str, int]:
         return {body.name: i for i, body in enumerate(self.bodies)}
 

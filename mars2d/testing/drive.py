@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from mars2d.bodies.drives.base import Drive
@@ -13,7 +15,14 @@ from mars2d.testing.finding import Finding
 from mars2d.testing.subject import Subject
 from mars2d.testing.trial import Placed, small_world
 
-COMMANDS = np.array([[0.0, 0.3, -0.2, 5.0, -7.0], [0.0, 0.4, 1.0, -9.0, 0.0]])
+COMMANDS = np.array(
+    [
+        [0.0, 0.3, -0.2, 5.0, -7.0],
+        [0.0, 0.4, 1.0, -9.0, 0.0],
+        [0.0, -0.5, 0.8, 6.0, 0.1],
+        [0.0, 0.2, 0.0, -8.0, 3.0],
+    ]
+)
 
 KEEP = "A drive is the same at each step and for all robots that have it, and keeps nothing"
 
@@ -33,7 +42,7 @@ def check_drive(drive: Drive, *, deadline: Deadline | None = None) -> tuple[Find
     if type(drive).twist is Drive.twist:
         subject.wrong(
             f"{subject.name} has no method twist: write twist(self, command), which makes "
-            "of commands (2, n) the velocities (3, n) that they ask for"
+            "of commands (m, n) the velocities (3, n) that they ask for"
         )
     elif subject.check_part(drive, Drive):
         subject.check_runs(lambda: _placed(drive, subject), deadline, small=True)
@@ -42,15 +51,16 @@ def check_drive(drive: Drive, *, deadline: Deadline | None = None) -> tuple[Find
 
 def _placed(drive: Drive, subject: Subject) -> Placed:
     """Try a drive's methods; return a small world, whose robots have it."""
+    commands = COMMANDS[: len(drive.inputs)]
     for method in ("saturate", "twist"):
         function, where = getattr(drive, method), f"{subject.name}.{method}"
         with called(where, function):
-            every = function(COMMANDS.copy())
-            alone = [function(COMMANDS[:, i : i + 1].copy()) for i in range(COMMANDS.shape[1])]
-        shape = (3 if method == "twist" else 2, COMMANDS.shape[1])
+            every = _rows(function(commands.copy()), commands.shape[1])
+            alone = [_rows(function(each[:, None].copy()), 1) for each in commands.T]
+        shape = (3 if method == "twist" else len(commands), commands.shape[1])
         if np.shape(every) != shape:
             raise InputError(
-                f"{where} returned {shown(every)} for commands of shape {COMMANDS.shape}: expected "
+                f"{where} returned {shown(every)} for commands of shape {commands.shape}: expected "
                 f"an array of shape {shape}, a column for each robot"
             )
         if not np.allclose(np.hstack(alone), every, rtol=1e-9, atol=1e-12):
@@ -58,8 +68,15 @@ def _placed(drive: Drive, subject: Subject) -> Placed:
                 f"{where} gives a robot another result among others than alone: each column "
                 "belongs to a robot, and must not depend on the others"
             )
-    limited = drive.saturate(COMMANDS.copy())
+    limited = drive.saturate(commands.copy())
     if not np.allclose(drive.saturate(limited.copy()), limited):
         subject.wrong(f"{subject.name}.saturate limits a command again that is limited already")
     scenario = small_world()
     return scenario.replace(robots=[robot.replace(drive=drive) for robot in scenario.robots]), None
+
+
+def _rows(result: Any, n: int) -> Any:
+    """Return rows as an array (k, n), some of which may be one number for all robots."""
+    if isinstance(result, tuple) and all(np.shape(row) in ((), (n,)) for row in result):
+        return np.array([np.broadcast_to(row, n) for row in result])
+    return result

@@ -36,9 +36,10 @@ Placed = tuple[Scenario, ControlLaw | None]
 """A scenario, and the law of its team."""
 
 
-def wander(robot: Any) -> tuple[float, float]:
+def wander(robot: Any) -> tuple[float, ...]:
     """Wander at random: the law of robots that carry what is tried."""
-    return 0.3, robot.rng.uniform(-1.5, 1.5)
+    turn = robot.rng.uniform(-1.5, 1.5)
+    return (0.3, turn, 0.1, 0.1)[: len(robot.drive.inputs)]
 
 
 def small_world(

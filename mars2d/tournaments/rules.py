@@ -127,11 +127,11 @@ def _facts(robot: Robot) -> dict[str, str]:
     """Return what a robot can do, and what its law knows."""
     bounds = {words: getattr(robot.drive, name, None) for name, words in BOUNDS.items()}
     told = [words.format(bound) for words, bound in bounds.items() if bound and bound < 1e3]
-    names = ", ".join(f"{each.name} [{each.unit}]" for each in robot.drive.quantities)
+    names = ", ".join(f"{each.name} [{each.unit}]" for each in robot.drive.inputs)
     sensors = ", ".join(sensor.key for sensor in robot.sensors)
     return {
         "Drive": ", ".join([type(robot.drive).__name__, *told]),
-        "A law returns": f"({names})" if names else "two numbers",
+        "A law returns": f"({names})",
         "It sees": SEES[robot.sees] + (f"; it senses {sensors}" if sensors else ""),
     }
 

@@ -9,7 +9,6 @@ from typing import Any
 from mars2d.core.errors import InputError, one_line
 from mars2d.record.columns import Column
 from mars2d.record.recorder import History, Recorder, Unrecorded
-from mars2d.world.laws import Laws
 from mars2d.world.simulation import Simulation
 from mars2d.world.uncopied import FORKING
 
@@ -59,7 +58,7 @@ def _replaced(
     if simulation.watch is not None:
         yield simulation.watch, None
     if not laws:
-        yield simulation.laws, Laws(len(scenario.robots))
+        yield simulation.laws, simulation.laws.silent()
 
 
 def _parts_of_users(simulation: Simulation, *, laws: bool) -> Iterator[tuple[str, object]]:

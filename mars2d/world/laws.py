@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mars2d.core import checks
 from mars2d.core.arrays import within
 from mars2d.core.errors import LawError, shown
+from mars2d.core.quantity import Quantity
 from mars2d.core.usercode import called, definition, name_of
 
 Float = NDArray[np.float64]
@@ -19,10 +20,13 @@ Float = NDArray[np.float64]
 LARGEST = 1e300
 """The largest entry of a command, in any unit, so that the drives' results stay floats."""
 
-NONE: Mapping[int, tuple[float, float]] = MappingProxyType({})
+NONE: Mapping[int, tuple[float, ...]] = MappingProxyType({})
 """No commands."""
 
 BOUNDED = "a command must be finite"
+
+COUNTS = ("no", "one", "two", "three", "four")
+"""The numbers of inputs, in words."""
 
 PLAIN = frozenset({int, float, np.float64})
 """The types of numbers that need no conversion; most laws return a pair of them."""
@@ -34,9 +38,7 @@ class Law:
     A generator is started at the first step. When it returns, its robots stand still.
     """
 
-    def __init__(
-        self, function: Callable[[Any], Any], subject: Any, still: Any = (0.0, 0.0)
-    ) -> None:
+    def __init__(self, function: Callable[[Any], Any], subject: Any, still: Any) -> None:
         """Take the user's function, its argument, and the command to stand still."""
         self.function = function
         self._subject = subject
@@ -73,36 +75,49 @@ class Law:
         raise error
 
 
-def robot_command(value: Any, refuse: Callable[[str], NoReturn]) -> tuple[float, float]:
-    """Check the command of one robot: two finite numbers. refuse: raises the error."""
+def robot_command(
+    value: Any, inputs: Sequence[Quantity], refuse: Callable[[str], NoReturn]
+) -> tuple[float, ...]:
+    """Check the command of one robot: a finite number for each input of its drive.
+
+    refuse: raises the error.
+    """
+    if type(value) is tuple and len(value) == len(inputs):
+        for number in value:
+            if type(number) not in PLAIN or not abs(number) <= LARGEST:
+                break
+        else:
+            return value
+    names = ", ".join(each.name for each in inputs)
     if value is None:
-        refuse("returned nothing: a law returns its command, such as `return v, omega`")
-    if type(value) is tuple and len(value) == 2:
-        first, second = value
-        plain = type(first) in PLAIN and type(second) in PLAIN
-        if plain and abs(first) <= LARGEST and abs(second) <= LARGEST:
-            return first, second
+        refuse(f"returned nothing: a law returns its command, such as `return {names}`")
     command = _numbers(value)
-    if command is None or command.shape not in ((2,), (2, 1)):
-        refuse(f"returned {shown(value)}: expected two numbers, such as (v, omega) or (vx, vy)")
-    first, second = command.ravel().tolist()
-    if not (abs(first) <= LARGEST and abs(second) <= LARGEST):  # neither for NaN
-        refuse(f"returned {shown((first, second))}: {BOUNDED}")
-    return first, second
+    if command is None or command.shape not in ((len(inputs),), (len(inputs), 1)):
+        expected = f"expected {COUNTS[len(inputs)]} number{'s' * (len(inputs) > 1)}, ({names})"
+        refuse(f"returned {shown(value)}: {expected}")
+    found = tuple(command.ravel().tolist())
+    if not within(LARGEST, command):  # neither for NaN
+        refuse(f"returned {shown(found)}: {BOUNDED}")
+    return found
 
 
-def team_command(value: Any, robots: int, refuse: Callable[[str], NoReturn]) -> Float:
-    """Check the command of all robots: a finite array (2, n); for one robot also (2,)."""
+def team_command(value: Any, still: Float, refuse: Callable[[str], NoReturn]) -> Float:
+    """Check the command of all robots: a finite array (m, n); for one robot also (m,).
+
+    still: the command (m, n) of robots that stand still.
+    """
+    inputs, robots = still.shape
     if value is None:
-        refuse("returned nothing: a law returns its command, an array (2, n)")
-    expected = f"expected two rows and a column for each robot, shape (2, {robots})"
+        refuse(f"returned nothing: a law returns its command, an array ({inputs}, n)")
+    rows = f"{COUNTS[inputs]} row{'s' * (inputs > 1)}"
+    expected = f"expected {rows} and a column for each robot, shape {still.shape}"
     command = _numbers(value)
     if command is None:
         refuse(f"returned {shown(value)}: {expected}{_unequal(value)}")
-    if command.shape == (2,) and robots == 1:
-        command = command.reshape(2, 1)
-    if command.shape != (2, robots):
-        turned = "; transpose it" if command.shape == (robots, 2) else ""
+    if command.shape == (inputs,) and robots == 1:
+        command = command.reshape(inputs, 1)
+    if command.shape != still.shape:
+        turned = "; transpose it" if command.shape == still.shape[::-1] else ""
         refuse(f"returned an array of shape {command.shape}: {expected}{turned}")
     if not within(LARGEST, command):
         row, column = np.argwhere(~(np.abs(command) <= LARGEST))[0]  # also NaN
@@ -138,11 +153,15 @@ class Laws:
     A robot's own law overrides its column of the team's command.
     """
 
-    def __init__(self, robots: int) -> None:
-        """Take how many robots there are; they stand still until `renew` brings laws."""
-        self._still = np.zeros((2, robots))
+    def __init__(self, still: Float, inputs: Sequence[Sequence[Quantity]]) -> None:
+        """Take the command (m, n) of robots that stand still, and the inputs of their drives."""
+        self._still, self._inputs = still, inputs
         self._central: Law | None = None
         self._own: list[tuple[int, Law]] = []
+
+    def silent(self) -> Laws:
+        """Return none, for the same robots."""
+        return Laws(self._still, self._inputs)
 
     @property
     def function(self) -> Callable[[Any], Any] | None:
@@ -182,23 +201,24 @@ class Laws:
             if controller is not None:
                 law = before.get(i)
                 if law is None or law.function is not controller:
-                    law = Law(controller, robot_view(i))
+                    law = Law(controller, robot_view(i), (0.0,) * len(self._inputs[i]))
                 self._own.append((i, law))
 
-    def commands(self, given: Mapping[int, tuple[float, float]] = NONE) -> Float:
-        """Ask the laws for their commands and return them as one array (2, n).
+    def commands(self, given: Mapping[int, tuple[float, ...]] = NONE) -> Float:
+        """Ask the laws for their commands and return them as one array (m, n).
 
         given: commands of robots, by index, in place of those of the laws. Their own laws are not
         asked.
         """
-        central, robots = self._central, self._still.shape[1]
+        central = self._central
         if central is None:
             command = self._still.copy()
         else:
-            command = team_command(central.command(), robots, central.refuse)
+            command = team_command(central.command(), self._still, central.refuse)
         for i, law in self._own:
             if i not in given:
-                command[0, i], command[1, i] = robot_command(law.command(), law.refuse)
-        for i, pair in given.items():
-            command[:, i] = pair
+                numbers = robot_command(law.command(), self._inputs[i], law.refuse)
+                command[: len(numbers), i] = numbers
+        for i, numbers in given.items():
+            command[: len(numbers), i] = numbers
         return command

@@ -20,6 +20,7 @@ from mars2d.physics.kinematics import Kinematics
 from mars2d.record.interventions import Change, Intervention, Place, Pull, Push, Steer
 from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario
+from mars2d.world.laws import COUNTS
 
 if TYPE_CHECKING:
     from mars2d.world.simulation import Simulation
@@ -53,7 +54,7 @@ class Operator:
     def __init__(self, world: Simulation) -> None:
         """Take the world; nothing is done to it yet."""
         self._world = world
-        self._driven: dict[int, tuple[float, float]] = {}
+        self._driven: dict[int, list[float]] = {}
         self._steered: set[int] = set()  # those that the log says are driven
         self._pulls: dict[int, Pull] = {}
         self._pushes: list[Push] = []
@@ -75,7 +76,7 @@ class Operator:
         return tuple(self._held)
 
     def steer(self, robot: str | int, command: ArrayLike | None) -> None:
-        """Give a robot this command (2,) from now on in place of its law's; None: its law's again.
+        """Give a robot this command (m,) from now on in place of its law's; None: its law's again.
 
         Its law is asked all the same, so that it is up to date when it takes over again.
         """
@@ -83,13 +84,14 @@ class Operator:
         if command is None:
             self._drive_no_more(index)
             return
-        pair = command.tolist() if isinstance(command, np.ndarray) else command
-        if not isinstance(pair, (tuple, list)) or len(pair) != 2:
-            raise wrong("Operator.steer(command)", command, "two numbers, or None")
-        first, second = (real("Operator.steer(command)", number, "a number") for number in pair)
+        given = command.tolist() if isinstance(command, np.ndarray) else command
+        count = len(self._world.scenario.robots[index].drive.inputs)
+        if not isinstance(given, (tuple, list)) or len(given) != count:
+            raise wrong("Operator.steer(command)", command, f"{COUNTS[count]} numbers, or None")
+        numbers = [real("Operator.steer(command)", number, "a number") for number in given]
         if index not in self._steered:
             self._note(Steer(self._world.iteration, index, driven=True))
-        self._driven[index] = first, second
+        self._driven[index] = numbers
 
     def _drive_no_more(self, robot: int) -> None:
         self._driven.pop(robot, None)
@@ -114,12 +116,12 @@ class Operator:
         return tuple(self._driven)
 
     def command(self, wanted: Float) -> Float:
-        """Return the laws' commands (2, n), replaced for robots that are driven or held."""
+        """Return the laws' commands (m, n), replaced for robots that are driven or held."""
         if not (self._driven or self._held):
             return wanted
         given = wanted.copy()
         for robot, command in self._driven.items():
-            given[:, robot] = command
+            given[: len(command), robot] = command
         given[:, self._held] = 0.0
         return given
 

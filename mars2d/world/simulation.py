@@ -73,14 +73,15 @@ class Simulation(State):
         self.operator = Operator(self)
         n = len(scenario.robots)
         drives = {str(robot.name): robot.drive for robot in scenario.robots}
-        self._drives = Drives(drives, scenario.sampling_time, self.stream)
+        still = locked(np.zeros((scenario.inputs, n)))
+        self._drives = Drives(drives, scenario.sampling_time, self.stream, still)
         delay = scenario.command_delay + self._drives.dead_time
-        self._delay = DelayLine(delay, scenario.sampling_time, n)
-        self._still = np.zeros((2, n))
+        self._delay = DelayLine(delay, scenario.sampling_time, still)
+        self._inputs = [drive.inputs for drive in drives.values()]
         self.props = tuple(PropView(self, i) for i in range(len(scenario.props)))
         self.minds = [Mind(str(robot.name), self.stream) for robot in scenario.robots]
         self.robots = [RobotView(self, i, mind) for i, mind in enumerate(self.minds)]
-        self.laws = Laws(n)
+        self.laws = Laws(still, self._inputs)
         self._channel: Channel | None = None
 
     def begin(
@@ -192,10 +193,10 @@ class Simulation(State):
         self._alone(self._control_step, command)
 
     def follow(self, command: Any) -> Float:
-        """Do one control step under a command (2, n) that is known from before.
+        """Do one control step under a command (m, n) that is known from before.
 
         The laws are asked all the same, so that they remember what they did then. Returns the
-        commands (2, n) that the laws ask for now, limited by the drives.
+        commands (m, n) that the laws ask for now, limited by the drives.
         """
         return self._alone(self._control_step, command, ask=True)
 
@@ -290,19 +291,19 @@ class Simulation(State):
             self._hooks.call("on_sensed", self.world)
 
     def _given(self, command: Any) -> Float:
-        return team_command(command, len(self.robots), partial(_refuse, "World.step(command)"))
+        return team_command(command, self.command, partial(_refuse, "World.step(command)"))
 
-    def _named(self, commands: Mapping[Any, Any]) -> dict[int, tuple[float, float]]:
+    def _named(self, commands: Mapping[Any, Any]) -> dict[int, tuple[float, ...]]:
         """Return the commands that are given for some robots, by index."""
-        return {
-            self.scenario.index_of("World.step", robot): robot_command(
-                command, partial(_refuse, f"World.step: the command of {robot}")
-            )
-            for robot, command in commands.items()
-        }
+        found: dict[int, tuple[float, ...]] = {}
+        for robot, command in commands.items():
+            i = self.scenario.index_of("World.step", robot)
+            refuse = partial(_refuse, f"World.step: the command of {robot}")
+            found[i] = robot_command(command, self._inputs[i], refuse)
+        return found
 
     def _saturate(self, command: Float) -> Float:
-        """Limit the commands (2, n) to those that each drive can follow after the last ones."""
+        """Limit the commands (m, n) to those that each drive can follow after the last ones."""
         return self._drives.limit(command, self.command)
 
     def _write_row(self) -> None:

@@ -83,7 +83,7 @@ class State(Uncopied):
 
     All arrays are read only, and new at each control step. n robots, p props.
 
-    pose, prop_pose: (3, n) and (3, p): x, y [m], theta [rad]. command: (2, n), the last one, after
+    pose, prop_pose: (3, n) and (3, p): x, y [m], theta [rad]. command: (m, n), the last one, after
     saturation. contacts: since the last control step. effort: (n,), 0 to 1, in that step. driven:
     the twists that the drives asked for in it, see `Surroundings.driven`. engine: moves the bodies.
     recorder: writes the rows. addons: by name.
@@ -116,7 +116,7 @@ class State(Uncopied):
         self.history = History(self.recorder)
         self.addons = Addons()
         n = len(scenario.robots)
-        self.command: Float = locked(np.zeros((2, n)))
+        self.command: Float = locked(np.zeros((scenario.inputs, n)))
         self.contacts: NDArray[np.void] = np.empty(0, dtype=CONTACT)
         self.effort: Float = locked(np.zeros(n))
         self.driven: list[tuple[float, Float]] = []

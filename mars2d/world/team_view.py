@@ -91,7 +91,7 @@ class WorldView(Uncopied):
     It is 0 for a robot that nothing holds or pushes. At 1 the wheels slip.
     """
     command: Float = shown("command")
-    """The last command (2, n) that was issued, after saturation; zeros at first. Read only."""
+    """The last command (m, n) that was issued, after saturation; zeros at first. Read only."""
     contacts: NDArray[np.void] = shown("contacts")
     """The contacts since the last step, rows of dtype `mars2d.record.CONTACT`."""
 
@@ -176,7 +176,7 @@ class WorldView(Uncopied):
     def step(self, command: Any = None) -> None:
         """Do one control step.
 
-        command: (2, n) to use in place of what the laws would command; or a dict of commands (2,)
+        command: (m, n) to use in place of what the laws would command; or a dict of commands (m,)
         for some robots, by name or index, while the laws command the others: ``{"red": (1, 0)}``.
         Raises LawError when a law, sensor or add-on fails, and InputError for a command of another
         shape, within a step, as a law would call it, and when the experiment is over already.

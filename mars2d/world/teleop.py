@@ -12,18 +12,22 @@ RISE, FALL = 4.0, 8.0
 
 
 class Stick(NamedTuple):
-    """The deflection of a stick: across, to the right, and ahead; each from -1 to 1."""
+    """The deflection of a stick: across, to the right, and ahead; each from -1 to 1.
+
+    turn: of a second one, to the right.
+    """
 
     across: float = 0.0
     ahead: float = 0.0
+    turn: float = 0.0
 
     def within(self, most: float = 1.0) -> Stick:
         """Return the same direction with a deflection of at most `most`."""
-        share = most / max(norm(*self), most)
-        return Stick(share * self.across, share * self.ahead)
+        share = most / max(norm(self.across, self.ahead), most)
+        return Stick(share * self.across, share * self.ahead, self.turn)
 
 
-def command_of(drive: Drive, stick: Stick) -> tuple[float, float]:
+def command_of(drive: Drive, stick: Stick) -> tuple[float, ...]:
     """Return the command of a drive that a stick asks for.
 
     A drive that moves in the world's frame goes where the stick points to in the picture. Others

@@ -243,8 +243,8 @@ class RobotView(_Body):
 
     @property
     def command(self) -> Float:
-        """The last command (2,) that was issued, after saturation; zeros at first."""
-        return alone(self._world.command[:, self._index])
+        """The last command (m,) that was issued, after saturation; zeros at first."""
+        return alone(self._world.command[: len(self.drive.inputs), self._index])
 
     @property
     def effort(self) -> float:

@@ -17,7 +17,7 @@ from mars2d.bodies.delay import DelayLine
     count=st.integers(1, 30),
 )
 def test_what_is_in_effect_was_issued_a_delay_ago(delay, sampling_time, count):
-    line = DelayLine(delay, sampling_time, 1)
+    line = DelayLine(delay, sampling_time, np.zeros((2, 1)))
     for k in range(count):
         pieces = line.send(np.full((2, 1), float(k + 1)))  # command k reads k + 1, before it 0
         assert sum(duration for duration, _ in pieces) == pytest.approx(sampling_time)
@@ -52,8 +52,8 @@ def test_a_robot_moves_by_the_delayed_command_at_every_sampling_time(delay):
     count=st.integers(1, 30),
 )
 def test_each_robot_has_a_delay_of_its_own(delays, sampling_time, count):
-    team = DelayLine(np.array(delays), sampling_time, len(delays))
-    alone = [DelayLine(delay, sampling_time, 1) for delay in delays]
+    team = DelayLine(np.array(delays), sampling_time, np.zeros((2, len(delays))))
+    alone = [DelayLine(delay, sampling_time, np.zeros((2, 1))) for delay in delays]
     for k in range(count):
         pieces = team.send(np.full((2, len(delays)), float(k + 1)))
         ends = np.cumsum([duration for duration, _ in pieces])
@@ -70,7 +70,7 @@ def test_each_robot_has_a_delay_of_its_own(delays, sampling_time, count):
 
 
 def test_robots_with_the_same_part_of_a_sampling_time_share_a_step():
-    line = DelayLine(np.array([0.0, 0.3, 0.25, 0.05, 0.15 + 1e-13, 1.0]), 0.1, 6)
+    line = DelayLine(np.array([0.0, 0.3, 0.25, 0.05, 0.15 + 1e-13, 1.0]), 0.1, np.zeros((2, 6)))
     for k in range(20):
         pieces = line.send(np.full((2, 6), float(k + 1)))
         assert [duration for duration, _ in pieces] == pytest.approx([0.05, 0.05])

@@ -19,6 +19,7 @@ from mars2d import (
     Holonomic,
     InputError,
     LawError,
+    Omni,
     Robot,
     Scenario,
     Unicycle,
@@ -458,11 +459,12 @@ class Strange(Drive):
         (Differential(command="twist"), ["v [m/s]", "omega [rad/s]"]),
         (Car(), ["v [m/s]", "delta [rad]"]),
         (Holonomic(), ["vx [m/s]", "vy [m/s]"]),
-        (Strange(), []),
+        (Strange(), ["u₁ []", "u₂ []"]),
+        (Omni(), ["vx [m/s]", "vy [m/s]", "omega [rad/s]"]),
     ],
 )
 def test_a_drive_says_what_its_command_is(drive, names):
-    assert [f"{each.name} [{each.unit}]" for each in drive.quantities] == names
+    assert [f"{each.name} [{each.unit}]" for each in drive.inputs] == names
 
 
 @each_case("method", ["saturate", "accelerate", "twist"])

@@ -88,7 +88,7 @@ FILES = [
 
 LAWS = [
     ("v = 1", "go returned nothing: a law returns its command, such as `return v, omega`"),
-    ("return 1", "expected two numbers, such as (v, omega) or (vx, vy)"),
+    ("return 1", "expected two numbers, (v, omega)"),
     ("return np.nan, 0", "a command must be finite"),
     ("robot.v = 0.2", "as `return v, omega`; keep things in robot.memory.v"),
     ("robot.pose[2] = 0", "a law can't change the world: it returns its command"),

@@ -3,7 +3,7 @@
 import pygame
 import pytest
 
-from mars2d import Car, Holonomic, InputError, Robot, Scenario, Unicycle
+from mars2d import Car, Holonomic, InputError, Omni, Robot, Scenario, Unicycle
 from mars2d.addons import Game
 from mars2d.cli.command_line import BAD_INPUT, main
 from mars2d.scenario.roles import robots_named
@@ -73,10 +73,10 @@ def test_a_car_steers():
 
 def test_a_tap_is_a_nudge_and_a_stick_comes_back_sooner_than_it_goes_out():
     out = ramped(Stick(), Stick(0, 1), 0.05)
-    assert out == pytest.approx((0.0, 0.2))
-    assert ramped(out, Stick(), 0.05) == (0.0, 0.0)
-    assert ramped(Stick(0, 0.5), Stick(0, 1), 10.0) == (0.0, 1.0)
-    assert ramped(Stick(0, 1), Stick(0, -1), 0.1) == pytest.approx((0.0, 0.2))
+    assert out == pytest.approx(Stick(0, 0.2))
+    assert ramped(out, Stick(), 0.05) == Stick()
+    assert ramped(Stick(0, 0.5), Stick(0, 1, 1), 10.0) == Stick(0, 1, 1)
+    assert ramped(Stick(0, 1), Stick(0, -1), 0.1) == pytest.approx(Stick(0, 0.2))
 
 
 # -- keys -----------------------------------------------------------------------------------
@@ -167,6 +167,21 @@ def test_a_controllers_stick_drives(driver, controller):
     assert driver.status == "driving red by controller"
     tilt(driver, controller, 1.0, 0.0)
     assert settled(driver, Holonomic()) == pytest.approx((0.5, 0.0))
+
+
+def test_a_robot_of_three_inputs_is_turned_by_keys_of_its_own_and_by_the_cross(controller, driver):
+    q = key(pygame.KSCAN_Q)
+    assert not driver.handle(q)  # which lists plots for a robot of two
+    driver.take(0, "red", turns=True)
+    assert driver.handle(key(UP))
+    assert driver.handle(q)
+    assert settled(driver, Omni()) == pytest.approx((0.5, 0.0, 1.5))
+    driver.handle(key(UP, down=False))
+    driver.handle(key(pygame.KSCAN_Q, down=False))
+    driver.handle(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=0))
+    tilt(driver, controller, 1.0, 0.0)
+    driver.handle(pygame.event.Event(pygame.JOYHATMOTION, instance_id=10, hat=0, value=(1, 0)))
+    assert settled(driver, Omni()) == pytest.approx((0.0, -0.5, -1.5))
 
 
 def test_unplugged_it_stops_and_plugged_in_again_it_drives(driver, controller):

@@ -9,8 +9,8 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.description import Description, flag, number
-from mars2d.core.quantity import Quantity
+from mars2d.core.description import Description, flag, number, wrong
+from mars2d.core.quantity import UNKNOWN, Quantity
 
 Float = NDArray[np.float64]
 
@@ -27,8 +27,9 @@ ROUNDING = 1e-12
 class Drive(Description):
     """The base of all drives.
 
-    A drive turns a command (2,) into a motion. A drive of one's own needs `twist` only. Every
-    method works on the columns of many robots at once. A command takes these steps:
+    A drive turns a command (m,) into a motion; `inputs` names its m numbers, 1 to 4, two if it does
+    not say. A drive of one's own needs `twist` only. Every method works on the columns of many
+    robots at once. A command takes these steps:
 
     1. `saturate` limits it to what the actuators can do, `accelerate` to what they can reach from
        the last command within a sampling time; the result is recorded;
@@ -37,7 +38,7 @@ class Drive(Description):
     4. `disturb` adds the actuators' noise, which is neither recorded nor limited;
     5. `twist` returns the velocity that it asks for; `noisy_twist` does 4 and 5 together.
 
-    Two actuators move a robot. By default the command is the speed of each.
+    There are as many actuators as `rates`. By default a command has the speed of each.
 
     `noise` is the density of white noise, in shares of the speed: in a control step of T seconds a
     speed u is off by a normal number of deviation u noise / sqrt(T). So an actuator's way is off by
@@ -95,13 +96,24 @@ class Drive(Description):
     wheel_names: ClassVar[tuple[str, str] | None] = None
     """The names of the two actuators if they are wheels, as the inspector shows them."""
 
+    def _validate(self) -> None:
+        known = isinstance(self.inputs, tuple) and 1 <= len(self.inputs) <= 4
+        if not (known and all(isinstance(each, Quantity) for each in self.inputs)):
+            expected = "a tuple of 1 to 4 quantities, such as (Quantity('v', 'm/s'),)"
+            raise wrong(f"{type(self).__name__}.inputs", self.inputs, expected)
+
+    @property
+    def inputs(self) -> tuple[Quantity, ...]:
+        """The numbers of a command, 1 to 4; by default two whose units are not known."""
+        return UNKNOWN
+
     def saturate(self, command: Float) -> Float:
-        """Return commands (2, n) within the actuators' limits; by default, unchanged."""
+        """Return commands (m, n) within the actuators' limits; by default, unchanged."""
         return command
 
     @cached_property
     def bounds(self) -> Float:
-        """The least (row 0) and the largest value (row 1) of each number of a command, (2, 2).
+        """The least (row 0) and the largest value (row 1) of each number of a command, (2, m).
 
         +-inf where `saturate` does not limit it. Not every command within these bounds can be
         followed: two wheels at their limit can't turn.
@@ -110,51 +122,49 @@ class Drive(Description):
         >>> Holonomic(max_linear_speed=0.5).bounds.tolist()
         [[-0.5, -0.5], [0.5, 0.5]]
         """
-        ends = HUGE * np.array([[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0]])
-        reached = self.saturate(ends)
-        pairs = np.array([reached[0, :2], reached[1, 2:]]).T
+        one = np.eye(len(self.inputs))
+        pairs = np.array([self.saturate(sign * HUGE * one).diagonal() for sign in (-1.0, 1.0)])
         return np.where(np.abs(pairs) >= HUGE, np.copysign(inf, pairs), pairs)
 
     def twist(self, command: Float) -> Float:
-        """Return (3, n): two components of velocity [m/s], in `frame`, and spin [rad/s]."""
+        """Return (3, n): two components of velocity [m/s], in `frame`, and spin [rad/s].
+
+        A row may be one number for all robots: ``return v, 0, omega``.
+        """
         raise NotImplementedError(f"{type(self).__name__} must say how it moves")
 
     def actuators(self, command: Float) -> Float:
-        """Return the speeds (2, n) that commands (2, n) ask of the two actuators."""
+        """Return the speeds (A, n) that commands (m, n) ask of the actuators."""
         return command
 
     def command_for(self, actuators: Float) -> Float:
-        """Return the commands (2, n) that ask for these speeds (2, n) of the actuators."""
+        """Return the commands (m, n) that ask for these speeds (A, n) of the actuators."""
         return actuators
 
-    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
         """Return the command that a stick asks for which is held across to the right, and ahead.
 
         across, ahead: from -1 to 1, in the picture for a drive that moves in the world's frame.
-        Here, the first number of a command is a speed; the second is a spin, or a speed, too.
+        turn: of a second stick, to the right, for drives with three inputs. Here, the first number
+        of a command is a speed; the second is a spin, or a speed, too; others are 0.
         """
         most = self.max_linear_speed
         if self.frame == "world":
             return most * across, most * ahead
-        return most * ahead, -STICK_TURN * across
+        return (most * ahead, -STICK_TURN * across, 0.0, 0.0)[: len(self.inputs)]
 
     def turning_radius(self, speed: float) -> float:  # noqa: ARG002
         """Return the least radius of its arcs at a speed [m/s], metres; 0: it turns on the spot."""
         return 0.0
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """The two numbers of a command, for figures and tables; by default they are not known."""
-        return ()
-
-    @property
-    def rates(self) -> tuple[float | None, float | None]:
+    def rates(self) -> tuple[float | None, ...]:
         """The largest change of each actuator in a second, in its own unit; None: unlimited."""
-        return self.max_acceleration, self.max_acceleration
+        return (self.max_acceleration,) * len(self.inputs)
 
     @cached_property
     def _fastest_change(self) -> Float:
-        """The rates as an array (2, 1), inf for None."""
+        """The rates as an array (A, 1), inf for None."""
         return np.array([[inf if rate is None else rate] for rate in self.rates])
 
     @property
@@ -162,10 +172,14 @@ class Drive(Description):
         """The friction of its wheels along and across them; None: they bear any force."""
         return self.grip, self.grip if self.side_grip is None else self.side_grip
 
-    def accelerate(self, command: Float, last: Float, duration: float) -> Float:
-        """Return commands (2, n) with the change of each actuator limited.
+    def strength(self, weight: float) -> tuple[float, float]:  # noqa: ARG002
+        """Return the largest force [N] and torque [N m] of the drive of a robot of a weight [N]."""
+        return self.max_force, self.max_torque
 
-        last: (2, n), the commands issued `duration` seconds before.
+    def accelerate(self, command: Float, last: Float, duration: float) -> Float:
+        """Return commands (m, n) with the change of each actuator limited.
+
+        last: (m, n), the commands issued `duration` seconds before.
         """
         had = self.actuators(last)
         change = self.actuators(command) - had
@@ -176,9 +190,9 @@ class Drive(Description):
         return np.where(over.any(axis=0), self.command_for(had + change.clip(-most, most)), command)
 
     def ramp(self, command: Float, last: Float, start: float, end: float) -> Float:
-        """Return the commands (2, n) that the actuators follow in the mean over some time.
+        """Return the commands (m, n) that the actuators follow in the mean over some time.
 
-        last: (2, n), those that they followed when commands (2, n) came. start, end: of the time
+        last: (m, n), those that they followed when commands (m, n) came. start, end: of the time
         since then, seconds. They change as quickly as they can, and stay where they have arrived.
         """
         had = self.actuators(last)
@@ -187,9 +201,9 @@ class Drive(Description):
         return self.command_for(had + share * change)
 
     def disturb(self, command: Float, normal: Float) -> Float:
-        """Return commands (2, n) as noisy actuators execute them: each is off by a random share.
+        """Return commands (m, n) as noisy actuators execute them: each is off by a random share.
 
-        normal: (2, n), normal numbers with variance 1 / T [1/s], one for each actuator: the means
+        normal: (A, n), normal numbers with variance 1 / T [1/s], one for each actuator: the means
         over a control step of T seconds of white noise of density 1.
         """
         return self.command_for(self.actuators(command) * (1.0 + self.noise * normal))
@@ -197,7 +211,7 @@ class Drive(Description):
     def noisy_twist(self, command: Float, normal: Float) -> Float:
         """Return the twists (3, n) of noisy actuators.
 
-        normal: (2, n), as in `disturb`.
+        normal: (A, n), as in `disturb`.
         """
         return self.twist(self.disturb(command, normal))
 
@@ -250,8 +264,14 @@ class Wheeled(Turning):
     )
     wheel_names: ClassVar[tuple[str, str] | None] = ("left", "right")
 
+    def _validate(self) -> None:
+        known = isinstance(self.inputs, tuple) and 1 <= len(self.inputs) <= 4
+        if not (known and all(isinstance(each, Quantity) for each in self.inputs)):
+            expected = "a tuple of 1 to 4 quantities, such as (Quantity('v', 'm/s'),)"
+            raise wrong(f"{type(self).__name__}.inputs", self.inputs, expected)
+
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def inputs(self) -> tuple[Quantity, ...]:
         """V [m/s] and omega [rad/s]."""
         return Quantity("v", "m/s"), Quantity("omega", "rad/s")
 
@@ -268,12 +288,12 @@ class Wheeled(Turning):
         left, right = actuators
         return np.array([(left + right) / 2, (right - left) / (2 * self.wheel_semiaxis)])
 
-    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
         """Return the command that a stick asks for; it slows down as far as it needs to turn."""
-        most, turn = self.max_linear_speed, min(STICK_TURN, self.max_angular_speed or STICK_TURN)
-        rim = min(turn * self.wheel_semiaxis, most)
-        turn, way = -rim * across, ahead * (most - rim * abs(across))
-        first, second = self.command_for(np.array([[way - turn], [way + turn]])).ravel().tolist()
+        most, spin = self.max_linear_speed, min(STICK_TURN, self.max_angular_speed or STICK_TURN)
+        rim = min(spin * self.wheel_semiaxis, most)
+        side, way = -rim * across, ahead * (most - rim * abs(across))
+        first, second = self.command_for(np.array([[way - side], [way + side]])).ravel().tolist()
         return first, second
 
     def saturate(self, command: Float) -> Float:

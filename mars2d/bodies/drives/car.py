@@ -35,7 +35,7 @@ class Car(Turning):
     )  # fmt: skip
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def inputs(self) -> tuple[Quantity, ...]:
         """V [m/s] and the steering angle delta [rad]."""
         return Quantity("v", "m/s"), Quantity("delta", "rad", "angle")
 
@@ -44,7 +44,7 @@ class Car(Turning):
         """The bounds of the acceleration [m/s^2] and of the steering rate [rad/s]."""
         return self.max_acceleration, self.max_steering_rate
 
-    def steered(self, across: float, ahead: float) -> tuple[float, float]:
+    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
         """Return the command that a stick asks for: across, it steers."""
         return self.max_linear_speed * ahead, -self.max_steering * across
 

@@ -30,11 +30,11 @@ class Differential(Wheeled):
     )
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def inputs(self) -> tuple[Quantity, ...]:
         """The speeds of the left and the right wheel [rad/s], or v [m/s] and omega [rad/s]."""
         if self.command == "wheels":
             return Quantity("left", "rad/s"), Quantity("right", "rad/s")
-        return super().quantities
+        return super().inputs
 
     def actuators(self, command: Float) -> Float:
         """Return the speeds (2, n) of the left and the right wheel's rim, m/s."""

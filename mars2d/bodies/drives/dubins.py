@@ -30,13 +30,14 @@ class Dubins(Turning):
     )  # fmt: skip
 
     def _validate(self) -> None:
+        super()._validate()
         if self.max_acceleration is not None:
             raise wrong(
                 "Dubins.max_acceleration", self.max_acceleration, "None: its speed never changes"
             )
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def inputs(self) -> tuple[Quantity, ...]:
         """V [m/s] and omega [rad/s]."""
         return Quantity("v", "m/s"), Quantity("omega", "rad/s")
 
@@ -45,7 +46,7 @@ class Dubins(Turning):
         assert self.max_angular_speed is not None
         return self.max_angular_speed
 
-    def steered(self, across: float, ahead: float) -> tuple[float, float]:  # noqa: ARG002
+    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
         """Return the command that a stick asks for: across, it turns."""
         return self.max_linear_speed, -self._most * across
 

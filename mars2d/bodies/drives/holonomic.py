@@ -24,7 +24,7 @@ class Holonomic(Drive):
     holonomic: ClassVar[bool] = True
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def inputs(self) -> tuple[Quantity, ...]:
         """Vx and vy [m/s]."""
         return Quantity("vx", "m/s"), Quantity("vy", "m/s")
 

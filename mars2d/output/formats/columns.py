@@ -50,9 +50,9 @@ POSE_UNITS = dict(zip(("x", "y", "theta"), METRES, strict=True))
 """The units of a pose's three numbers, in order."""
 
 
-def shapes_of(robots: int, props: int) -> dict[str, tuple[int, ...]]:
-    """Return the shape of a row of each of `COLUMNS`."""
-    sizes = {"axis": 3, "input": 2, "robot": robots, "prop": props, "work_of": len(WORK)}
+def shapes_of(robots: int, props: int, inputs: int) -> dict[str, tuple[int, ...]]:
+    """Return the shape of a row of each of `COLUMNS`; inputs: the numbers of a command."""
+    sizes = {"axis": 3, "input": inputs, "robot": robots, "prop": props, "work_of": len(WORK)}
     return {name: tuple(sizes[axis] for axis in about.axes) for name, about in ABOUT.items()}
 
 
@@ -78,7 +78,7 @@ def units_in(record: Rows, column: str) -> tuple[str, ...]:
         sensors = [robots[robot].sensor(name) for robot in record.sensor_robots[name]]
         found = {_units(sensor.quantities) for sensor in sensors if sensor is not None}
     elif column == "command":
-        found = {_units(robot.drive.quantities) for robot in robots}
+        found = {_units(robot.drive.inputs) for robot in robots}
     else:
         return ABOUT[column].units
     return found.pop() if len(found) == 1 else ()
@@ -129,8 +129,6 @@ KEYS = ("time", "body")
 LAST = "record"
 """The column that a file has after all others, for everything that is not in the table."""
 
-INPUTS = ("command_0", "command_1")
-
 
 class Part(NamedTuple):
     """Where the values of a column of the table are in the record, for some of the bodies.
@@ -157,7 +155,8 @@ def parts_of(record: Rows) -> dict[str, list[Part]]:
         axis: [Part("pose", (k, every), teams), Part("prop_pose", (k, every), others)]
         for k, axis in axes
     }
-    found |= {name: [Part("command", (k, every), teams)] for k, name in enumerate(INPUTS)}
+    inputs = range(record.command.shape[1])
+    found |= {f"command_{k}": [Part("command", (k, every), teams)] for k in inputs}
     found["command_time"] = [Part("command_time", (None,), teams)]
     found["effort"] = [Part("effort", (every,), teams)]
     found |= {

@@ -157,7 +157,8 @@ def _contents(columns: Columns) -> tuple[str, ...]:
 
 def _check_shapes(record: Rows) -> None:
     """Raise ValueError for columns of wrong shapes or types."""
-    shapes = shapes_of(len(record.scenario.robots), len(record.scenario.props))
+    scenario, inputs = record.scenario, [*record.command.shape, 0][1]
+    shapes = shapes_of(len(scenario.robots), len(scenario.props), inputs)
     for name in COLUMNS:
         column = getattr(record, name)
         if column.shape != (len(record), *shapes[name]) or column.dtype != np.float64:

@@ -14,7 +14,7 @@ from mars2d.core.interfaces import ScenarioLike
 from mars2d.core.plane import wrap
 from mars2d.sensors.base import Sensor
 
-Command = tuple[float, float]
+Command = tuple[float, ...]
 
 TURN_GAIN = 1.5
 """The deflection of the stick to the side for each radian that the heading is off."""
@@ -84,20 +84,40 @@ def standing_still(scenario: ScenarioLike, control: object = None) -> dict[int, 
     return found
 
 
-def steered(drive: Drive, heading: float, direction: float, speed: float) -> Command:
-    """Return the command (2,) that takes a robot towards a direction of the world.
+def still(drive: Drive) -> Command:
+    """Return the command (m,) to stand still."""
+    return (0.0,) * len(drive.inputs)
 
-    heading, direction: radians. speed: m/s. A drive that moves in the world's frame goes straight
+
+def gone(drive: Drive, direction: float, speed: float) -> Command:
+    """Return the command (m,) of a drive that moves in any direction; speed: m/s.
+
+    direction: radians, of the world where the drive moves in its frame, else from the heading.
+    """
+    share = min(speed / drive.max_linear_speed, 1.0)
+    c, s = cosine_sine(direction)
+    return (
+        drive.steered(share * c, share * s)
+        if drive.frame == "world"
+        else drive.steered(-share * s, share * c)
+    )
+
+
+def steered(drive: Drive, heading: float, direction: float, speed: float) -> Command:
+    """Return the command (m,) that takes a robot towards a direction of the world.
+
+    heading, direction: radians. speed: m/s. A drive that moves in any direction goes straight
     there. One that can turn on the spot does so first, the slower ahead the more its heading is
     off. A car backs where the direction lies behind it, and turns as it goes.
     """
-    share = min(speed / drive.max_linear_speed, 1.0)
     if drive.frame == "world":
-        c, s = cosine_sine(direction)
-        return drive.steered(share * c, share * s)
+        return gone(drive, direction, speed)
     off = float(wrap(direction - heading))
+    if drive.holonomic:
+        return gone(drive, off, speed)
+    share = min(speed / drive.max_linear_speed, 1.0)
     across, ahead = min(max(-TURN_GAIN * off, -1.0), 1.0), cosine_sine(off)[0]
-    if not drive.twist(np.array([drive.steered(1.0, 0.0)]).T)[2, 0]:  # nor on the spot
+    if not np.any(drive.twist(np.array([drive.steered(1.0, 0.0)]).T)[2]):  # nor on the spot
         sign = 1.0 if ahead >= 0 else -1.0
         return drive.steered(sign * across, sign * share * max(abs(ahead), SLOW))
     return drive.steered(across, share * max(ahead, 0.0))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from mars2d.scenario.controllers.base import Command, Controller
+from mars2d.scenario.controllers.base import Command, Controller, still
 
 
 class ByHand(Controller):
@@ -15,6 +15,6 @@ class ByHand(Controller):
 
     title: ClassVar[str] = "driven by hand"
 
-    def __call__(self, robot: Any) -> Command:  # noqa: ARG002
+    def __call__(self, robot: Any) -> Command:
         """Return the command to stand still."""
-        return 0.0, 0.0
+        return still(robot.drive)

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 from mars2d.core.arithmetic import angle_of, norm
 from mars2d.core.description import number, text
 from mars2d.core.interfaces import ScenarioLike
-from mars2d.scenario.controllers.base import Command, Paced, steered
+from mars2d.scenario.controllers.base import Command, Paced, steered, still
 
 
 class FollowRobot(Paced):
@@ -43,10 +43,12 @@ class FollowRobot(Paced):
             if self.leader is None or each.name == self.leader
         ]
         if not seen:
-            return 0.0, 0.0
+            return still(robot.drive)
         dx, dy = min((place.tolist() for place in seen), key=lambda place: norm(*place))
         speed = min(self.gain * (norm(dx, dy) - self.distance), self.speed)
-        return steered(robot.drive, theta, angle_of(dy, dx), speed) if speed > 0 else (0.0, 0.0)
+        if speed <= 0:
+            return still(robot.drive)
+        return steered(robot.drive, theta, angle_of(dy, dx), speed)
 
     def want(self, scenario: ScenarioLike, index: int) -> str:
         """Return what a robot lacks to be moved by this law: a robot to follow."""

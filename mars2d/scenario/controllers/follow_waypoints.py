@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 from mars2d.core.arithmetic import angle_of, norm
 from mars2d.core.description import number
 from mars2d.core.interfaces import ScenarioLike
-from mars2d.scenario.controllers.base import Command, Paced, steered
+from mars2d.scenario.controllers.base import Command, Paced, steered, still
 
 
 class FollowWaypoints(Paced):
@@ -28,7 +28,7 @@ class FollowWaypoints(Paced):
         """Return the command that goes to the next waypoint."""
         ways = getattr(robot.world.addons, "waypoints", None)
         if ways is None or ways.arrived(robot.index):
-            return 0.0, 0.0
+            return still(robot.drive)
         (gx, gy), (x, y, theta) = ways.goal(robot.index), robot.pose.tolist()
         last = len(ways.routes[robot.index]) - ways.reached[robot.index] == 1
         speed = min(self.gain * norm(gx - x, gy - y), self.speed) if last else self.speed

@@ -8,9 +8,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import number, text
-from mars2d.scenario.controllers.base import Command, Paced
+from mars2d.scenario.controllers.base import Command, Paced, gone
 from mars2d.sensors.base import Sensor
 from mars2d.sensors.proximity import Proximity
 
@@ -41,17 +40,15 @@ class Wander(Paced):
         """Yield the commands."""
         drive, rng, way = robot.drive, robot.rng, 0.0
         share = min(self.speed / drive.max_linear_speed, 1.0)
-        world = drive.frame == "world"
+        free = drive.holonomic or drive.frame == "world"
         while True:
-            c, s = cosine_sine(way)
-            ahead = (share * c, share * s) if world else (0.0, share)
+            ahead = gone(drive, way, self.speed) if free else drive.steered(0.0, share)
             while not np.any(getattr(robot.sense, self.sensor)):
-                yield drive.steered(*ahead)
-            if world:
+                yield ahead
+            if free:
                 way += pi + rng.uniform(-HALF, HALF)
-                c, s = cosine_sine(way)
-                back = share * c, share * s
+                back = gone(drive, way, self.speed)
             else:
-                back = rng.choice((-1.0, 1.0)), -share
+                back = drive.steered(rng.choice((-1.0, 1.0)), -share)
             for _ in range(max(round(rng.uniform(0.5, 1.5) * self.turn / robot.sampling_time), 1)):
-                yield drive.steered(*back)
+                yield back

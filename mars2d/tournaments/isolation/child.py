@@ -111,7 +111,8 @@ def _play(channel: socket.socket) -> None:
     kind = "start"
     try:
         loaded = [law_in(briefing.file, "control", loader=Sent) for _ in mirror.mine]
-        laws = [Law(law, view) for law, view in zip(loaded, mirror.mine, strict=True)]
+        inputs = mirror.mine[0].drive.inputs
+        laws = [Law(law, view, ()) for law, view in zip(loaded, mirror.mine, strict=True)]
         answer({})
         while questions.peek(1):
             mirror.show(pickle.load(questions))
@@ -120,7 +121,7 @@ def _play(channel: socket.socket) -> None:
                 kind = "error"
                 command: Any = law.command()
                 kind = "command"
-                commands.append([*map(float, robot_command(command, law.refuse))])
+                commands.append([*map(float, robot_command(command, inputs, law.refuse))])
             answer({"commands": commands, "letters": mirror.mailbox.sent})
     except BaseException as error:
         answer(_fault(kind, error, int(briefing.limits.output * MB)))

@@ -60,10 +60,10 @@ def run_isolated(
     code = code or {role: law_code(file) for role, file in files.items()}
     processes: dict[str, LawProcess] = {}
     verdicts: dict[str, Verdict] = {}
-    commands: dict[int, tuple[float, float]] = {}
+    commands: dict[int, tuple[float, ...]] = {}
     asked = -1
 
-    def control(view: RobotView) -> tuple[float, float]:
+    def control(view: RobotView) -> tuple[float, ...]:
         """Return the command of a robot; once a control step, ask one law after the other."""
         nonlocal asked
         world = view._world

@@ -90,7 +90,7 @@ class LawProcess:
         with self._judged(self._limits.start, "not loaded"):
             self._ask(self._briefing)
 
-    def command(self, world: Simulation) -> dict[int, tuple[float, float]]:
+    def command(self, world: Simulation) -> dict[int, tuple[float, ...]]:
         """Return its robots' commands of a control step, and send their messages; {} if it fails.
 
         The law's process checks both. So if they are invalid, the law has written to the match
@@ -98,12 +98,12 @@ class LawProcess:
         """
         robots = self._briefing.robots
         seen = look(world, robots)
-        commands: dict[int, tuple[float, float]] = {}
+        commands: dict[int, tuple[float, ...]] = {}
         with self._judged(min(self._limits.tick, self._limits.match - self._spent), "no command"):
             answer = self._ask(seen)
             self._spent += self._clock.used
             if self.fault is None:
-                commands = {i: (v, w) for i, (v, w) in zip(robots, answer["commands"], strict=True)}
+                commands = {i: tuple(c) for i, c in zip(robots, answer["commands"], strict=True)}
                 # Such a test is false for NaN, too.
                 if not all(
                     type(x) is float and abs(x) <= LARGEST for x in chain(*commands.values())

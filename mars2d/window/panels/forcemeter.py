@@ -48,7 +48,7 @@ def holding_force(scenario: Scenario, body: int) -> float:
     """Return the largest force with which a drive, or the floor, holds a body, newtons."""
     n = len(scenario.robots)
     if body < n:
-        return scenario.robots[body].drive.max_force
+        return scenario.robots[body].push
     prop = scenario.props[body - n]
     return prop.resting_friction * prop.inertia.mass * GRAVITY
 

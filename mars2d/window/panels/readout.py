@@ -11,7 +11,6 @@ import numpy as np
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.description import snake_case
 from mars2d.core.plane import wrap
-from mars2d.core.quantity import UNKNOWN
 from mars2d.output.layers.forces import in_newtons
 from mars2d.record.contact import pair_forces
 from mars2d.record.frame import Frame
@@ -50,9 +49,9 @@ def state_of(frame: Frame, body: int) -> list[Row]:
     if body >= n:
         return [*pose, ("moves", moves)]
     drive = frame.scenario.robots[body].drive
-    command = np.zeros(2)
+    command = np.zeros(len(drive.inputs))
     if len(frame.command_path):
-        command = frame.command_path[-1][:, body]
+        command = frame.command_path[-1][: len(drive.inputs), body]
     rows: list[Row] = [*pose, ("command", command_words(drive, command)), ("moves", moves)]
     if drive.wheel_names is not None:
         speeds = drive.actuators(command[:, None])[:, 0].tolist()
@@ -78,13 +77,18 @@ def dynamics_of(frame: Frame, body: int) -> list[Row]:
 
 
 def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
-    """Return the names and values of a command (2,); a common unit is written once."""
-    first, second = drive.quantities or UNKNOWN
-    units = "" if first.unit == second.unit else first.unit, second.unit
-    pairs = zip((first, second), np.asarray(command).tolist(), units, strict=True)
+    """Return the names and values of a command (m,); units that follow each other are said once."""
+    after = [each.unit for each in drive.inputs[1:]] + [""]
     return [
-        (each.symbol, _degrees(value) if each.kind == "angle" else _number(value, unit))
-        for each, value, unit in pairs
+        (
+            each.symbol,
+            _degrees(value)
+            if each.kind == "angle"
+            else _number(value, "" if each.unit == next_unit else each.unit),
+        )
+        for each, value, next_unit in zip(
+            drive.inputs, np.asarray(command).tolist(), after, strict=True
+        )
     ]
 
 

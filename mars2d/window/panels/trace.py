@@ -129,7 +129,11 @@ class Trace:
 def _row_of(frame: Frame) -> dict[str, Any]:
     """Return the columns of a frame whose row is not recorded yet; its command holds on."""
     n = frame.pose.shape[1]
-    command = frame.command_path[-1] if len(frame.command_path) else np.full((2, n), np.nan)
+    command = (
+        frame.command_path[-1]
+        if len(frame.command_path)
+        else np.full((frame.scenario.inputs, n), np.nan)
+    )
     row = {
         "time": frame.time,
         "pose": frame.pose,

@@ -11,6 +11,7 @@ import pygame
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.scenario.changes import alike, carried, check_same, with_poses, without_body
 from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
 from mars2d.window.screen.looks import Looks
@@ -236,8 +237,11 @@ class Director:
         if self._live() is None:
             return
         self.seat((robot,))
-        name = self._player.source.scenario.robots[robot].name
-        self._notes.say(f"arrow keys or WASD drive {name}, Shift slowly; H or Esc lets go")
+        mine = self._player.source.scenario.robots[robot]
+        turns = ", Q and E turn it" * _turns(mine)
+        self._notes.say(
+            f"arrow keys or WASD drive {mine.name}{turns}, Shift slowly; H or Esc lets go"
+        )
 
     def seat(self, robots: Sequence[int]) -> None:
         """Let one person or two drive these robots from now on, and no others."""
@@ -245,7 +249,8 @@ class Director:
         one, two = Driver(ARROWS, 0, 2), Driver(LETTERS, 1, 2)
         self.drivers = (Driver(),) if len(robots) < 2 else (one, two)
         for driver, robot in zip(self.drivers, robots, strict=False):
-            driver.take(robot, str(self._player.source.scenario.robots[robot].name))
+            mine = self._player.source.scenario.robots[robot]
+            driver.take(robot, str(mine.name), turns=_turns(mine))
 
     def release(self) -> None:
         """Stop driving, as far as keys are concerned."""
@@ -359,3 +364,8 @@ class Director:
         self._player.error = None
         self._player.settle()
         self._notes.say(said)
+
+
+def _turns(robot: Robot) -> bool:
+    """Return whether a robot can turn as it moves in any direction."""
+    return len(robot.drive.inputs) > 2

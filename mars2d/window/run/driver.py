@@ -25,6 +25,7 @@ ARROWS = Keys(
     {
         pygame.KSCAN_UP: Stick(0, 1), pygame.KSCAN_DOWN: Stick(0, -1),
         pygame.KSCAN_LEFT: Stick(-1, 0), pygame.KSCAN_RIGHT: Stick(1, 0),
+        pygame.KSCAN_COMMA: Stick(turn=-1), pygame.KSCAN_PERIOD: Stick(turn=1),
     },
     ("↑", "←", "↓", "→"),
 )  # fmt: skip
@@ -32,6 +33,7 @@ LETTERS = Keys(
     {
         pygame.KSCAN_W: Stick(0, 1), pygame.KSCAN_S: Stick(0, -1),
         pygame.KSCAN_A: Stick(-1, 0), pygame.KSCAN_D: Stick(1, 0),
+        pygame.KSCAN_Q: Stick(turn=-1), pygame.KSCAN_E: Stick(turn=1),
     },
     ("W", "A", "S", "D"),
 )  # fmt: skip
@@ -62,7 +64,7 @@ class Driver:
         self.robot: int | None = None
         self._name = ""
         self._held: set[int] = set()
-        self._slow = False
+        self._slow = self._turns = False
         self._stick = Stick()
         self._controllers: dict[int, pygame.joystick.JoystickType] = {}
         self._dealt: list[int | None] = []  # the controllers in turn; None: one was plugged out
@@ -71,9 +73,12 @@ class Driver:
 
     # -- who ------------------------------------------------------------------------------------
 
-    def take(self, robot: int, name: str = "") -> None:
-        """Start to drive a robot; name: for `status`."""
-        self.robot, self._name = robot, name or f"robot {robot}"
+    def take(self, robot: int, name: str = "", *, turns: bool = False) -> None:
+        """Start to drive a robot; name: for `status`.
+
+        turns: whether it also turns by keys of their own, and by a controller's cross.
+        """
+        self.robot, self._name, self._turns = robot, name or f"robot {robot}", turns
         self._rest()
         if not pygame.joystick.get_init():
             pygame.joystick.init()  # which posts an event for each controller
@@ -116,7 +121,7 @@ class Driver:
             return False
         return self._controller(event)
 
-    def command(self, drive: Drive, dt: float) -> tuple[float, float]:
+    def command(self, drive: Drive, dt: float) -> tuple[float, ...]:
         """Return the command of the driven robot; dt: since the last one, seconds.
 
         Keys deflect the stick gradually, in a quarter of a second, so that a tap is a nudge.
@@ -130,9 +135,8 @@ class Driver:
         if not self._held:
             return self._of_controllers
         ways = {self.keys.ways[key] for key in self._held}
-        across, ahead = (sum(way[k] for way in ways) for k in (0, 1))
         share = SLOW if self._slow else 1.0
-        return Stick(share * across, share * ahead)
+        return Stick(*(share * sum(part) for part in zip(*ways, strict=True)))
 
     @property
     def _own(self) -> list[int | None]:
@@ -143,7 +147,8 @@ class Driver:
     def _of_controllers(self) -> Stick:
         ways = [*self._axes.items(), *self._hats.items()]
         held = [way for which, way in ways if which in self._own]
-        return max(held, key=lambda stick: abs(stick.across) + abs(stick.ahead), default=Stick())
+        stick = max(held, key=lambda stick: abs(stick.across) + abs(stick.ahead), default=Stick())
+        return stick._replace(turn=max((way.turn for way in held), key=abs, default=0.0))
 
     @property
     def _by_controller(self) -> bool:
@@ -153,7 +158,8 @@ class Driver:
 
     def _key(self, event: pygame.Event) -> bool:
         self._slow = bool(event.mod & pygame.KMOD_SHIFT)
-        if event.scancode not in self.keys.ways:
+        way = self.keys.ways.get(event.scancode)
+        if way is None or (way.turn and not self._turns):
             return False
         if event.type == pygame.KEYUP:
             held = event.scancode in self._held
@@ -190,7 +196,9 @@ class Driver:
                 self._tilt(event.instance_id)
             return True
         if event.type == pygame.JOYHATMOTION:
-            self._hats[event.instance_id] = Stick(*event.value)
+            across, ahead = event.value
+            cross = Stick(turn=across) if self._turns else Stick(across, ahead)
+            self._hats[event.instance_id] = cross
             return True
         return False
 

@@ -123,11 +123,9 @@ def _columns(frame: Frame, body: int | None) -> dict[str, str]:
     scenario = frame.scenario
     found = dict(MOTION)
     robots = scenario.robots if body is None else scenario.robots[body : body + 1]
-    drives = {robot.drive.quantities for robot in robots}
+    drives = {robot.drive.inputs for robot in robots}
     if len(drives) == 1:
-        parts = drives.pop() or ()
-        names = [part.name for part in parts] or ["0", "1"]
-        found |= {f"Command {name}": f"command.{name}" for name in names}
+        found |= {f"Command {part.name}": f"command.{part.name}" for part in drives.pop()}
     if robots:
         found["Effort of the drive"] = "effort"
     found |= (CONTACT if scenario.physics == "contact" else {}) | DYNAMICS

@@ -113,10 +113,10 @@ def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | Non
 
     end: how the run ended, None where the log does not tell.
     """
-    shapes = shapes_of(*(len(header["scenario"].get(kind, ())) for kind in ("robots", "props")))
+    robots, props = (len(header["scenario"].get(kind, ())) for kind in ("robots", "props"))
     columns: dict[str, NDArray[Any]] = {}
     if not rows:
-        columns = {name: np.empty((0, *shape)) for name, shape in shapes.items()}
+        columns = {name: np.empty((0, *s)) for name, s in shapes_of(robots, props, 2).items()}
     contacts, messages = [np.empty(0, CONTACT)], [np.empty(0, MESSAGE)]
     contents: list[str] = []
     changes: list[Any] = []
@@ -137,7 +137,8 @@ def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | Non
         messages.append(row.messages)
         contents += row.contents
         changes += map(json.loads, row.changes)
-    for name, shape in shapes.items():
+    inputs = columns["command"].size // max(len(rows) * robots, 1) or 2
+    for name, shape in shapes_of(robots, props, inputs).items():
         columns[name] = columns[name].reshape(len(rows), *shape)
     touched = np.concatenate(contacts)
     columns |= {f"contact:{name}": touched[name] for name in CONTACT.names or ()}
@@ -145,10 +146,10 @@ def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | Non
         sent, texts = as_of(np.concatenate(messages), columns["time"][-1]), Texts.of(contents)
         columns |= {f"message:{name}": sent[name] for name in MESSAGE.names or ()}
         columns |= {"contents": texts.data, "content_sizes": texts.sizes}
-    robots = header["sensor_robots"]
+    carried = header["sensor_robots"]
     whole = header | {
         "interventions": [*header["interventions"], *changes],
-        "sensor_robots": {name: robots[name] for name in robots if f"sensor:{name}" in columns},
+        "sensor_robots": {name: carried[name] for name in carried if f"sensor:{name}" in columns},
     }
     whole |= end or {"over_message": BROKEN_OFF, "finished": False}
     return headers.to_record(whole, columns, torn=end is None)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
-from mars2d.core.quantity import ANGLE, DISTANCE, UNKNOWN, Quantity
+from mars2d.core.quantity import ANGLE, DISTANCE, Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.arrows import MAX_ARROW
@@ -206,8 +206,7 @@ class _Content:
             )
         ]
         for robot, told in zip(robots, bodies, strict=False):
-            quantities = robot.drive.quantities or UNKNOWN
-            told["commands"] = [[q.symbol, q.unit, q.kind] for q in quantities]
+            told["commands"] = [[q.symbol, q.unit, q.kind] for q in robot.drive.inputs]
         return bodies
 
     # -- the panel ----------------------------------------------------------------------------
