@@ -49,3 +49,7 @@ def scenario(strength: float = 0.0, guard: str = GUARD, escort: str = ESCORT, se
 
 
 checks = theory.checks
+
+
+def gets_through(record):
+    return int(record.scenario.addons[1].outcome(record).winner == "escort")

@@ -56,3 +56,7 @@ def scenario(strength: float = 0.0, hunter: str = HUNTER, evader: str = EVADER, 
 
 
 checks = theory.checks
+
+
+def gets_out(record):
+    return int(theory.gets_out(record))

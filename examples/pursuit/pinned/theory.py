@@ -13,6 +13,10 @@ def holds(record, row):
     return (away / np.hypot(*away)).sum(axis=1)
 
 
+def gets_out(record):
+    return record.scenario.addons[0].outcome(record).winner == "evader"
+
+
 def checks(record):
     *hunters, evader = record.scenario.robots
     row = int(SETTLED / record.scenario.sampling_time)
@@ -27,5 +31,4 @@ def checks(record):
     if abs(share - 1) < 0.03:
         yield Prediction.silent("the evader gets out", "the forces are equal within 3 %")
         return
-    out = record.scenario.addons[0].outcome(record).winner == "evader"
-    yield Prediction("the evader gets out", int(share > 1), int(out), 0)
+    yield Prediction("the evader gets out", int(share > 1), int(gets_out(record)), 0)

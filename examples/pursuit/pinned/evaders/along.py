@@ -7,4 +7,4 @@ def control(robot):
     ways = [o.position - robot.position for o in robot.neighbours]
     x, y = sum(way / dist(way, (0, 0)) for way in ways)
     while True:
-        yield (100, 0) if x < y else (0, 100)
+        yield (100, 0) if x < y + 0.01 else (0, 100)
