@@ -52,8 +52,9 @@ class Game(Elimination):
 
     An evader is caught when a hunter touches it, comes as near as `capture`, or has it in sight:
     then no obstacle lies on the line between their poses. This is checked once a control step, for
-    nearness on the straight ways that both have come since the last one. A caught evader stands
-    still from then on, and the game goes on with the others.
+    nearness on the straight ways that both have come since the last one. A caught evader brakes
+    from then on, but can be pushed, and shields others; the game goes on with those. Where
+    `capture` is None nobody is caught: bodies alone keep evaders from their goal.
 
     With a `goal`, an evader is safe as soon as its pose is in it, and stands still there, too;
     without one, it is safe when time is over. The hunters need `wanted` captures, by default of
@@ -65,9 +66,9 @@ class Game(Elimination):
     a record, `outcome` says the same, also of a loaded one.
     """
 
-    capture: str | float = entry(
-        default=CONTACT, check=_capture, unit="m",
-        doc="'contact', 'sight', or the distance of a hunter's pose from an evader's at a capture",
+    capture: str | float | None = entry(
+        default=CONTACT, check=checks.optional(_capture), unit="m",
+        doc="'contact', 'sight', a hunter's distance from an evader, or None: nobody is caught",
     )  # fmt: skip
     goal: Outline | None = entry(
         default=None, check=checks.optional(checks.outline, 3), unit="m",
@@ -93,6 +94,11 @@ class Game(Elimination):
 
     # -- how it stands -----------------------------------------------------------------------------
 
+    def _validate(self) -> None:
+        super()._validate()
+        if self.capture is None and self.goal is None:
+            raise wrong("Game.capture", None, "a way to capture, or a goal that evaders must reach")
+
     def players(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the hunters in a scenario, and of those that they hunt.
 
@@ -115,11 +121,12 @@ class Game(Elimination):
 
     def exits(self, teams: Teams, span: Span) -> list[Exit]:
         """Return the evaders that are caught, in order, then those that reach the goal before."""
+        captures: list[Exit] = []
         if self.capture == CONTACT:
             captures = _touches(teams, span)
         elif self.capture == SIGHT:
             captures = _approaches(teams, span, np.inf, _sights(teams, span))
-        else:
+        elif self.capture is not None:
             captures = _approaches(teams, span, float(self.capture), np.True_)
         safe = []
         if self.goal is not None:
@@ -220,12 +227,14 @@ class Game(Elimination):
         time = f"for {seconds:g} s"
         if role == self.roles[0][0]:
             verb = "see" if self.capture == SIGHT else "catch"
+            if self.capture is None:
+                return f"keep {whom} from the goal {time}"
             some = whom if needed == len(evaders) else f"{needed} of {len(evaders)}"
             if self.goal is None:
                 return f"{verb} {some}" + (f" within {self.par:g} s" if self.par else "")
             return f"{verb} {some} before {_so_many_are(len(evaders), needed)} in the goal"
         if self.goal is not None:
-            return "reach the goal uncaught"
+            return "reach the goal" + ("" if self.capture is None else " uncaught")
         if self.hunted is not None:
             return f"let nobody catch {whom} {time}"
         return f"stay out of sight {time}" if self.capture == SIGHT else f"stay free {time}"
@@ -248,14 +257,16 @@ class Game(Elimination):
         hunters_win, evaders_win = (
             f"{role} win" if role.endswith("s") else f"{role} wins" for role in (hunting, evading)
         )
-        goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal uncaught."
+        over = f"{self.par:g} s are over" if self.par else "time is over"
+        in_goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal"
+        if self.capture is None:
+            return f"Nobody is caught. {in_goal}. If {over} before, the {hunters_win}."
         sentences = (
             f"A capture is when {hunter} {how}.",
             "Who is caught stands still." if count > 1 else "",
             f"The {hunters_win} with {'the capture' if needed == 1 else f'{needed} captures'}.",
-            goal if self.goal is not None else "",
-            f"If {f'{self.par:g} s are' if self.par else 'time is'} over before, "
-            f"the {evaders_win if self.goal is None else hunters_win}.",
+            f"{in_goal} uncaught." if self.goal is not None else "",
+            f"If {over} before, the {evaders_win if self.goal is None else hunters_win}.",
         )
         return " ".join(filter(None, sentences))
 
@@ -269,7 +280,7 @@ class Game(Elimination):
     def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Cross out the caught ones, ring those that are safe; draw the hunters' reach."""
         scenario = frame.scenario
-        if not isinstance(self.capture, str):
+        if isinstance(self.capture, float):
             for robot in self.players(scenario)[0]:
                 color = faded(scenario.colors[robot], 0.5)
                 scene.circle(frame.pose[:2, robot], self.capture, stroke=color)

@@ -42,7 +42,7 @@ def scenario(mu: float = 0.0, hunter: str = HUNTER, escort: str = ESCORT, seed: 
     robot = Robot(diameter=SIZE, sees="positions", friction=0.1)
     rng = np.random.default_rng(seed)
     angle, other = rng.uniform(0, 2 * pi, 2)
-    mu = mu or NEAR / (NEAR + SIZE) * rng.uniform(0.85, 1.1)
+    mu = mu or NEAR / (NEAR + SIZE) * (1.1 - rng.uniform(0, 0.25))
     slow, quick = (Holonomic(max_linear_speed=speed) for speed in (mu * SPEED, SPEED))
     red = robot.replace(name="hunter", drive=quick, controller=load_law(hunter), color="red")
     blue = robot.replace(name="guard", drive=slow, controller=load_law(escort), color="blue")

@@ -3,7 +3,7 @@
 Question: who is quicker is sure to catch. How much sooner does it, if it aims well?
 Setting: distributed, partial information: each knows its own pose and where the other is, and asks
 for a velocity, which its drive shortens. A touch is a capture; the pursuer wins by one within the
-par, drawn from 0.4 to 0.9 of the longest chase. Crates may stand in the way.
+par, drawn from 0.4 to 0.75 of the longest chase. Crates may stand in the way.
 Source: pure pursuit, P. Bouguer, 1732; constant bearing and the circle of Apollonius, R. Isaacs,
 Differential Games, 1965. All hold for points that turn at once, and an evader that runs straight.
 Prediction: of the pursuer's speed v the evader has the share g < 1. It runs at the angle phi to the
@@ -47,7 +47,7 @@ def scenario(
     longest = (r - start.diameter) / SPEED / (1 - ratio) if ratio < 1 else 60.0  # straight away
     game = Game(
         {"pursuer": ["red"], "evader": ["blue"]},
-        par=round(longest * rng.uniform(0.4, 0.9), 1), to_the_end=True,
+        par=round(longest * rng.uniform(0.4, 0.75), 1), to_the_end=True,
     )  # fmt: skip
     return Scenario(
         title="Straight chase", robots=[red, blue],

@@ -2,7 +2,7 @@
 
 Question: is it enough to be quicker?
 Setting: distributed, partial information: each knows its own pose and that of the other, and
-steers. A touch is a capture. The evader's radius is drawn from 0.4 to 1.1 m if it is 0.
+steers. A touch is a capture. The evader's radius is drawn from 0.4 to 1.2 m if it is 0.
 Play: mars2d run two_cars --human evader
 Source: E. J. Cockayne, Plane pursuit with curvature constraints, SIAM Journal on Applied
 Mathematics 15, 1967: with points in the endless plane the pursuer can capture from every start if
@@ -38,7 +38,7 @@ def scenario(
 
     rng = np.random.default_rng(seed)
     way, heading, other = rng.uniform(0, 2 * pi, 3)
-    radius = radius or rng.uniform(0.4, 1.1)
+    radius = radius or rng.uniform(0.4, 1.2)
     hold = {"force_limited": accel > 0, "max_force": accel or 1.0, "max_torque": 100.0}
     quick = Dubins(max_linear_speed=SPEED, max_angular_speed=SPEED / RADIUS, **hold)
     slow = Dubins(max_linear_speed=RATIO * SPEED, max_angular_speed=RATIO * SPEED / radius, **hold)

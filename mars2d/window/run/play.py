@@ -232,8 +232,8 @@ class Play:
             return None
         held = timeline.world.operator.held
         own = [seat.robot for seat in self.seats if len(self.seats) == 1]
-        teams = contest.players(frame.scenario)
-        teams = [[robot for robot in team if robot in own] or [*team] for team in teams]
+        players = contest.players(frame.scenario)
+        teams = [[robot for robot in team if robot in own] or [*team] for team in players]
         free = [[robot for robot in team if robot not in held] for team in teams]
         one, other = free if all(free) else teams
         apart = frame.pose[:2, one, None] - frame.pose[:2, None, other]
