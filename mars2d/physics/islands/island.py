@@ -15,10 +15,10 @@ from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import Arbiter, Vector
 from mars2d.physics.islands.contacts import Row, close_touches, note_row
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
+from mars2d.physics.islands.library import Arbiter, Vector, check_signals
 from mars2d.physics.islands.pair import Pair
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust, predict
@@ -314,7 +314,7 @@ class Island:
                 raise FloatingPointError
             count += 1
             if count % 256 == 0:
-                chipmunk.check_signals()
+                check_signals()
             for body in self.bodies:
                 body.gone += h * body.top_speed()
                 if body.gone > self.limit:
