@@ -126,6 +126,10 @@ class Contest(Addon):
         """
         return {}
 
+    def players(self, scenario: ScenarioLike) -> Teams:
+        """Return the indices of the robots that may leave, or let others leave, by role."""
+        return self.teams(scenario)
+
     def teams(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the first role's robots in a scenario, and of the second role's.
 

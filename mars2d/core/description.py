@@ -126,7 +126,7 @@ def choice(*, of: Sequence[str], **more: Any) -> Any:
     @accepts({"enum": list(of)})
     def check(name: str, value: object) -> str:
         if not isinstance(value, str) or value not in of:
-            hint = likely(value, of) if isinstance(value, str) else ""
+            hint = instead(value, name) or likely(value, of) if isinstance(value, str) else ""
             raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
         return value
 
@@ -141,7 +141,7 @@ def flag(**more: Any) -> Any:
 def text(*, optional: bool = False, **more: Any) -> Any:
     """Declare a field that is one line of text, such as a name or a title."""
 
-    @accepts({"type": "string"})
+    @accepts({"type": "string", "pattern": f"^[^{CONTROLS.pattern[1:]}*$"})
     def check(name: str, value: object) -> str | None:
         if optional and value is None:
             return None
@@ -236,16 +236,20 @@ def schema_of(field: dataclasses.Field[Any]) -> Schema:
 class Description:
     """The base of all descriptions. Raises InputError for a wrong, missing or unknown field."""
 
-    twins: ClassVar[dict[str, tuple[str, float]]] = {}
-    """Other names of fields: the field, and how many times the number given it is."""
-
     __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
+
+    _computed: ClassVar[frozenset[str]] = frozenset()
+    """The names of its cached properties."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         _keep_checks(cls)
         dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
         cls.__init__ = _gated(cls, cls.__init__)  # type: ignore[method-assign]
+        attributes = [each for kind in cls.__mro__ for each in vars(kind).items()]
+        cls._computed = frozenset(
+            name for name, value in attributes if isinstance(value, functools.cached_property)
+        )
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
@@ -266,23 +270,8 @@ class Description:
         certain = likely(name, known, CERTAIN)
         return certain or instead(name, *kinds) or nearest(name, known, most=40)
 
-    @classmethod
-    def translated(cls, given: dict[str, Any]) -> dict[str, Any]:
-        """Return values by the names of their fields, where some have a twin's name."""
-        twins = cls.twins.keys() & given.keys()
-        if not twins:
-            return given
-        translated = {name: value for name, value in given.items() if name not in twins}
-        for twin in twins:
-            name, times = cls.twins[twin]
-            if name in given:
-                raise InputError(f"{cls.__name__} has both {twin} and {name}: give one of them")
-            translated[name] = times * real(f"{cls.__name__}.{twin}", given[twin])
-        return translated
-
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed, validated again."""
-        changes = self.translated(changes)
         current = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         return type(self)(**(current | changes))
 
@@ -298,9 +287,7 @@ class Description:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state that is copied and pickled: everything but cached properties."""
-        kind, cached = type(self), functools.cached_property
-        state = self.__dict__.items()
-        return {k: value for k, value in state if not isinstance(getattr(kind, k, None), cached)}
+        return {k: value for k, value in self.__dict__.items() if k not in self._computed}
 
     def __repr__(self) -> str:
         changed = []
@@ -346,7 +333,6 @@ def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
     @functools.wraps(init)
     def checked(self: Any, *args: Any, **kwargs: Any) -> None:
         if type(self) is cls:
-            kwargs = cls.translated(kwargs)
             for name in kwargs:
                 if name not in known:
                     raise InputError(f"{cls.__name__} has no field {name!r}{cls.meant(name)}")

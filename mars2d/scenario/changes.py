@@ -25,7 +25,7 @@ MECHANICAL = frozenset(
 )
 """Fields of bodies that may change, and with which the engine starts again."""
 
-WHOLE = frozenset({"title", "workspace", "on_exit", "stop_time", "animation"})
+WHOLE = frozenset({"title", "workspace", "on_exit", "stop_time", "stop_on", "animation"})
 """Fields of a scenario that may change while its world runs, each as a whole."""
 
 PARTS = {
@@ -147,7 +147,7 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
         for rigid, pose in zip(scenario.bodies, poses.T.tolist(), strict=True)
     ]
     fault = next(faults(scenario, bodies, body), None)
-    if fault is None or (scenario.physics == "ideal" and fault.kind != "outside"):
+    if fault is None:
         return ""
     if fault.kind == "obstacle":
         return f"be in obstacle {fault.other}"
