@@ -326,8 +326,9 @@ class Editor:
 
     def zoom(self, notches: float) -> None:
         """Zoom about the pointer, or else about the middle, by notches of the wheel."""
-        pixel = self._pointer if self._pointer[0] >= 0 else self.layout.plot.center
-        self.viewpoint.zoom(notches, pixel)
+        plot = self.layout.plot
+        there = plot.collidepoint(self._pointer)
+        self.viewpoint.zoom(notches, self._pointer if there else plot.center)
 
     def _laid_out(self, size: tuple[int, int]) -> Layout:
         layout = self.looks.layout(size)
