@@ -130,7 +130,7 @@ def choice(*, of: Sequence[str], **more: Any) -> Any:
             raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
         return value
 
-    return entry(check=check, of=of, **more)
+    return entry(check=check, **more)
 
 
 def flag(**more: Any) -> Any:
@@ -161,10 +161,9 @@ def entry(
     doc: str = "",
     factory: Any = dataclasses.MISSING,
     kw_only: bool = True,
-    of: Sequence[str] = (),
     names: str = "",
 ) -> Any:
-    """Declare a field with its own check, which returns the value to keep; of: all its values.
+    """Declare a field with its own check, which returns the value to keep.
 
     names: what the field mentions by name, for example a "robot", a "body" or a "sensor".
     """
@@ -172,7 +171,7 @@ def entry(
         default=default,
         default_factory=factory,
         kw_only=kw_only,
-        metadata={"check": check, "unit": unit, "doc": doc, "of": of, "names": names},
+        metadata={"check": check, "unit": unit, "doc": doc, "names": names},
     )
 
 
@@ -277,13 +276,18 @@ class Description:
 
     def renamed(self, old: str, new: str) -> Self:
         """Return a copy in which it, and each of its parts, mentions a robot or prop anew."""
+        changes = self.mentions(old, new)
+        return self.replace(**changes) if changes else self
+
+    def mentions(self, old: str, new: str) -> dict[str, Any]:
+        """Return the fields that mention a robot or prop by a name, with another one instead."""
         changes = {}
         for field in dataclasses.fields(self):
             known, names = getattr(self, field.name), field.metadata.get("names")
             value = _renamed(known, old, new, mentions=names in ("robot", "body"))
             if value is not known:
                 changes[field.name] = value
-        return self.replace(**changes) if changes else self
+        return changes
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state that is copied and pickled: everything but cached properties."""

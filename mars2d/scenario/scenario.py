@@ -116,6 +116,7 @@ class Scenario(Description):
         default=None, check=stop_on,
         doc="touches that end the experiment: 'contact' for any, or pairs of names of bodies, of "
         "a game's roles, or 'wall'",
+        names="body",
     )  # fmt: skip
     command_delay: float = number(
         default=0.0, low=0, high=1e6, unit="s", doc="from a command's issue to its effect"

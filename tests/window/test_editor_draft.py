@@ -138,6 +138,7 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
         robots=[*scenario.robots, follow],
         addons=[*scenario.addons, *mentions],
         random_starts=[RandomStarts(["robot0"])],
+        stop_on=[("robot0", "box0")],
     )
     draft = Draft(scenario)
     draft = draft.renamed(Item("robot", 0), "Ada").renamed(Item("robot", 1), "Bo")
@@ -148,7 +149,7 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     game, trails, estimate = found.addons[-3:]
     assert game.roles == (("robot0", ("Ada",)), ("hunted", ("Bo", 2)))
     assert (game.hunted, trails.robots, estimate.robot) == (("Bo",), ("Bo", "Ada"), "Ada")
-    assert found.random_starts[0].bodies == ("Ada",)
+    assert (found.random_starts[0].bodies, found.stop_on) == (("Ada",), (("Ada", "box0"),))
     with pytest.raises(InputError, match="'Bo' is the name of another body"):
         draft.renamed(Item("robot", 0), "Bo")
 

@@ -221,7 +221,7 @@ def test_what_nobody_gave_reads_as_what_it_is_and_can_be_taken_back(open_editor)
     hands.until(lambda s: ["Mass", "automatic (0.24 kg)"] in s["rows"])
     hands.row("More")
     hands.entry("Material")
-    hands.fill("steel")
+    hands.entry("steel")
     hands.until(lambda s: ["Friction", "automatic (steel)"] in s["rows"])
 
 

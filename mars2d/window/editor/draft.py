@@ -322,12 +322,8 @@ class Draft:
             raise InputError("expected a name")
         if name in {part.name for part in self._members()} - {old}:
             raise InputError(f"{name!r} is the name of another body")
-        parts = ("robots", "props", "joints", "random_starts", "addons")
-        anew = {
-            field: tuple(part.renamed(old, name) for part in getattr(self.base, field))
-            for field in parts
-        }
-        return self.with_base(**anew).with_members([item], lambda part: part.replace(name=name))
+        anew = self.with_base(**self.base.mentions(old, name))
+        return anew.with_members([item], lambda part: part.replace(name=name))
 
     def with_joint(self, joint: Joint | None, instead: Joint | None = None) -> Self:
         """Return the draft with one more joint, or with one in place of another; None: without."""

@@ -307,8 +307,8 @@ class Properties:
             return [None, *(r.name for i, r in enumerate(robots) if i not in chosen)]
         if mentions == "sensor":
             return [sensor.key for i in chosen for sensor in robots[i].sensors]
-        choices: Sequence[Any] = field.metadata.get("of", ())
-        return choices
+        words = schema_of(field).get("enum", [])
+        return [None, *words] if words and field.default is None else words
 
     def _type(self, label: str, doc: str, text: str, take: Callable[[str], None]) -> None:
         """Ask for a value by a field to type in."""
