@@ -262,7 +262,8 @@ class Simulation(State):
         if command is None or isinstance(command, Mapping):
             wanted = asked = self.laws.commands(self._named(command or {}))
         else:
-            wanted = self._given(command)
+            refuse = partial(_refuse, "World.step(command)")
+            wanted = team_command(command, self.command, refuse)
             asked = self.laws.commands() if ask else wanted
         if ask:
             asked = self._saturate(self.operator.command(asked))
@@ -289,9 +290,6 @@ class Simulation(State):
             self._hooks.call("on_step", self.world)
             self.sensing.step(self.iteration)
             self._hooks.call("on_sensed", self.world)
-
-    def _given(self, command: Any) -> Float:
-        return team_command(command, self.command, partial(_refuse, "World.step(command)"))
 
     def _named(self, commands: Mapping[Any, Any]) -> dict[int, tuple[float, ...]]:
         """Return the commands that are given for some robots, by index."""

@@ -58,7 +58,7 @@ SCENARIOS = [
     ("robots=[Robot(mass=20), Robot(pose=(1, 0, 0), mass=1)]",
      "set the mass of robot0 to 10 kg or less, or that of robot1 to 2 kg or more"),
     ("on_exit='bounce'", "expected one of 'stop', 'wall', 'ignore'"),
-    ("Initial_pose=[[1], [3], [0]]", "robots=[Robot(pose=p) for p in P.T]"),
+    ("Initial_pose=[[1], [3], [0]]", "write robots=[Robot(pose=p) for p in P.T], with P (3, n)"),
     ("non_holonomic=False", "write Robot(drive=Holonomic())"),
     ("animation=Animation(enable=False)", "write speed=1 in mars2d.run(...) for a window"),
     ("animation=Animation(colors='rb')", "write base_colors=[...]"),
