@@ -46,6 +46,7 @@ class PotentialField(Addon):
         default=None,
         optional=True,
         doc="the robot whose field is drawn; None: that of the last route",
+        names="robot",
     )
     spacing: float = number(
         default=1.0, low=0.1, high=1e6, unit="m", doc="the spacing of the drawn grid"

@@ -11,13 +11,16 @@ _COMMAND = "return v, omega: a law returns its command"
 _INSTEAD: dict[str, dict[str, str]] = {
     "Robot": {
         _PLACE: "pose=(x, y, theta)",
-        "r size width length": "shape=Polygon([(x, y), ...]), of mars2d.geometry, or diameter=...",
+        "radius r": "diameter=2 * radius",
+        "size width length": "shape=Polygon([(x, y), ...]), of mars2d.geometry, or diameter=...",
         _SPEED: "drive=Unicycle(max_linear_speed=...)",
         _TURN: "drive=Unicycle(max_angular_speed=...)",
         "law control controllaw behaviour behavior policy function": "controller=law",
         "wheelssemiaxislength semiaxis wheelbase": "drive=Unicycle(wheel_semiaxis=...)",
         "distancecenterbarycenter": "center_offset=...",
     },
+    "Ball": {"radius r size": "diameter=2 * radius"},
+    "Puck": {"radius r size": "diameter=2 * radius"},
     "Scenario": {
         "n number numrobots agents": "robots=3, or robots=[Robot(...), ...]",
         "dt ts step timestep stepsize period": "sampling_time=...",
@@ -51,6 +54,13 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "dt ts step": "robot.sampling_time",
         "goal target state integral error": "robot.memory: a law keeps things there",
         "stop move setvelocity setspeed setcommand forward turn rotate": _COMMAND,
+    },
+    "a hook": {
+        "onend onfinish onfinished onclose ondone onexit": "on_stop(self, world)",
+        "oninit onbegin onreset onsetup oninitialize": "on_start(self, world)",
+        "onupdate onloop ontick": "on_step(self, world)",
+        "oncollision oncollide ontouch onhit": "on_contact(self, world, contact)",
+        "onrender onplot onpaint": "on_draw(self, world, scene)",
     },
     "a room": {
         "lidar laser laserscanner rangesensor scanner": "RangeFinder, of mars2d.sensors",
