@@ -173,11 +173,6 @@ def _named(record: Rows, name: object, bodies: tuple[int, ...]) -> list[Signal]:
     ]
 
 
-def _poses(record: Rows) -> Float:
-    """Return the poses of robots and props, (T, 3, N)."""
-    return np.concatenate([record.pose, record.prop_pose], axis=2)
-
-
 def _those_that_drive(record: Rows, name: str, bodies: tuple[int, ...]) -> tuple[int, ...]:
     """Return the robots among bodies. Raises InputError if there is none."""
     robots = tuple(body for body in bodies if body < len(record.scenario.robots))
@@ -188,7 +183,7 @@ def _those_that_drive(record: Rows, name: str, bodies: tuple[int, ...]) -> tuple
 
 def _of_poses(record: Rows, name: str, what: str, bodies: Sequence[int]) -> Signal:
     """Return a coordinate or the speed of some bodies."""
-    pose, bodies = _poses(record)[:, :, list(bodies)], tuple(bodies)
+    pose, bodies = record.all_poses[:, :, list(bodies)], tuple(bodies)
     if what in POSE_UNITS:
         return Signal(name, POSE_UNITS[what], pose[:, list(POSE_UNITS).index(what)], bodies)
     speed = np.full((len(pose), len(bodies)), np.nan)
@@ -227,7 +222,7 @@ def _distance(record: Rows, name: str, other: str, bodies: tuple[int, ...]) -> S
     bodies = tuple(body for body in bodies if body != to)
     if not bodies:
         raise InputError(f"columns: {name!r}: expected a body other than {other}")
-    place = _poses(record)[:, :2]
+    place = record.all_poses[:, :2]
     apart = place[:, :, list(bodies)] - place[:, :, [to]]
     return Signal(f"distance to {other}", "m", np.hypot(apart[:, 0], apart[:, 1]), bodies)
 

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene
-from mars2d.geometry.shapes import Shape
 from mars2d.output.layers.arrows import (
     LONGEST,
     Ruler,
@@ -16,6 +15,7 @@ from mars2d.output.layers.arrows import (
     shortening,
     usual_length,
 )
+from mars2d.output.layers.bodies import bounding_circle
 from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -92,13 +92,6 @@ def _slip_marks(scene: Scene, frame: Frame) -> None:
         center, radius = bounding_circle(frame.scenario.robots[i].chassis, frame.pose[:, i])
         for color, width in ((SLIP_EDGE, 4.5), (SLIP, 2.7)):
             scene.circle(center, radius, stroke=color, width=share * width, pixels=1.5)
-
-
-def bounding_circle(shape: Shape, pose: Float) -> tuple[Float, float]:
-    """Return the centre (2,) and radius of a circle round a body at a pose (3,), metres."""
-    (x, y), radius = shape.bound
-    c, s = np.cos(pose[2]), np.sin(pose[2])
-    return pose[:2] + np.array([c * x - s * y, s * x + c * y]), radius
 
 
 def _touching_points(frame: Frame) -> Float:

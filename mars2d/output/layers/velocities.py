@@ -18,7 +18,7 @@ from mars2d.output.layers.arrows import (
     shortening,
     usual_length,
 )
-from mars2d.output.layers.forces import bounding_circle
+from mars2d.output.layers.bodies import bounding_circle
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
@@ -65,7 +65,7 @@ def velocities(frame: Frame) -> Scene:
     if len(frame.scenario.robots) <= CROWD:
         _tightest_turns(scene, frame)
     scale = speed_scale(frame.scenario)
-    poses = np.hstack([frame.pose, frame.prop_pose])
+    poses = frame.all_poses
     turning = np.argsort(-np.abs(velocity[2]), kind="stable")[:MAX_ARCS]
     for i in sorted(turning.tolist()):
         if abs(velocity[2, i]) >= MIN_TURN:
