@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
+from mars2d.output.figures.extent import check_rows
 from mars2d.output.films.encoding import ENCODERS, Encoding
 from mars2d.output.films.footage import Cut, shots
 from mars2d.output.films.mp4 import require_av
@@ -72,8 +73,7 @@ def cut_of(
     end: float | None = None,
 ) -> Cut:
     """Return the part of a record that a film shows; see `film_record`."""
-    if len(record) == 0:
-        raise InputError("the record has no rows: there is nothing to be filmed")
+    check_rows(record, "film")
     return Cut.of(float(record.time[-1]), speed, fps, start, end, "the record")
 
 

@@ -10,6 +10,7 @@ from mars2d.output.layers.arrows import (
     LONGEST,
     Ruler,
     arrow,
+    as_read,
     beside,
     crowd_factor,
     shortening,
@@ -106,6 +107,4 @@ def _touching_points(frame: Frame) -> Float:
 
 def in_newtons(force: float) -> str:
     """Return a force as it is read: 0.25 N, 4.9 N, 12 N, 2.4 kN."""
-    if force >= 999.5:
-        return f"{force / 1000:.3g} kN"
-    return f"{force:.{2 if force < 0.995 else 1 if force < 9.95 else 0}f} N"
+    return f"{force / 1000:.3g} kN" if force >= 999.5 else f"{as_read(force)} N"

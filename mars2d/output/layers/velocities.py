@@ -14,6 +14,7 @@ from mars2d.output.layers.arrows import (
     LONGEST,
     Ruler,
     arrow,
+    as_read,
     crowd_factor,
     shortening,
     usual_length,
@@ -105,5 +106,4 @@ def _arc(scene: Scene, center: Float, radius: float, heading: float, turn: float
 
 def in_metres_a_second(speed: float) -> str:
     """Return a speed as it is read: 0.25 m/s, 4.9 m/s, 12 m/s."""
-    digits = 2 if speed < 1 else 1 if speed < 10 else 0
-    return f"{speed:.{digits}f} m/s"
+    return f"{as_read(speed)} m/s"
