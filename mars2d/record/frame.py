@@ -25,12 +25,8 @@ def _no_contacts() -> NDArray[np.void]:
     return np.empty(0, dtype=CONTACT)
 
 
-def _no_messages() -> NDArray[np.void]:
-    return np.empty(0, dtype=MESSAGE)
-
-
 def _no_message_log() -> tuple[NDArray[np.void], Sequence[str]]:
-    return _no_messages(), ()
+    return np.empty(0, dtype=MESSAGE), ()
 
 
 def _no_readings(name: str, robot: int) -> None:  # noqa: ARG001
@@ -70,7 +66,7 @@ class Frame:
     contact_log: Callable[[], NDArray[np.void]] = _no_contacts
     prop_path: Float = field(default_factory=lambda: np.empty((0, 3, 0)))
     effort_path: Float = field(default_factory=lambda: np.empty((0, 0)))
-    messages: NDArray[np.void] = field(default_factory=_no_messages)
+    messages: NDArray[np.void] = field(default_factory=lambda: _no_message_log()[0])
     command_path: Float = field(default_factory=lambda: np.empty((0, 2, 0)))
     message_log: Callable[[], tuple[NDArray[np.void], Sequence[str]]] = _no_message_log
     reading_path: Callable[[str, int], NDArray[Any] | None] = _no_readings
