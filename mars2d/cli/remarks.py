@@ -67,7 +67,7 @@ class Bounds:
         """Yield a remark on the robots most of whose commands were cut, or look like degrees."""
         if self._world is None or not self._world.iteration:
             return
-        cuts, robots = self._world.simulation.cuts, self._world.scenario.robots
+        cuts, robots = self._world.simulation.drives.cuts, self._world.scenario.robots
         first_command = self._world.history.command[0]
         for i, robot in enumerate(robots):
             for row, quantity in enumerate(robot.drive.inputs):
