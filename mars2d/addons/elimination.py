@@ -73,9 +73,8 @@ class Elimination(Contest):
 
     def on_step(self, world: WorldLike) -> None:
         """Note who leaves; end the experiment when it is decided, or when time is over."""
-        one, other, out = *self._teams, self.results
-        if out:
-            one, other = (tuple(r for r in team if r not in out) for team in self._teams)
+        out = self.results
+        one, other = (tuple(robot for robot in team if robot not in out) for team in self._teams)
         span = Span(world.scenario, np.array([world.time]), world.pose[None], world.contacts)
         now = self.exits((one, other), span)
         self._exits += tuple(now)
