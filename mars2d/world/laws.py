@@ -114,6 +114,10 @@ def team_command(value: Any, still: Float, refuse: Callable[[str], NoReturn]) ->
     inputs, robots = still.shape
     if value is None:
         refuse(f"returned nothing: a law returns its command, an array ({inputs}, n)")
+    square = inputs == robots > 1 and isinstance(value, (list, tuple))
+    if square and all(type(row) is tuple for row in value):
+        hint = "write np.transpose(...) of them, or a list for each row"
+        refuse(f"returned {shown(value)}: is each tuple a robot's command? Then {hint}")
     rows = f"{COUNTS[inputs]} row{'s' * (inputs > 1)}"
     expected = f"expected {rows} and a column for each robot, shape {still.shape}"
     command = _numbers(value)

@@ -99,7 +99,7 @@ class Past:
     def world_at(
         self, track: Track, row: int, progress: Progress, world: World | None = None
     ) -> World:
-        """Return a world as it was at a row, which has read its sensors; hands have let go of it.
+        """Return a world as it was at a row, which has read its sensors, with hands still on it.
 
         world: to begin with, at the start. Raises InputError where `progress` breaks it off, and
         where the world is not the same.
@@ -125,7 +125,6 @@ class Past:
                 f"can't go back: run again, things were not the same at step {row}. Does a law, a "
                 "sensor or an add-on depend on something outside of the world?"
             )
-        world.operator.let_go()
         return world
 
     def _nearest(self, track: Track, row: int) -> World:

@@ -20,6 +20,7 @@ from mars2d.core.hints import described
 from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene
 from mars2d.record.columns import DiskError, Storage
+from mars2d.record.contact import met, met_or_parted
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
 from mars2d.world.channel import Channel
@@ -286,6 +287,7 @@ class Simulation(State):
         self.command = locked(command)
         self._write_row()
         self._check_workspace()
+        self._check_contacts()
         if self.iteration >= self.scenario.last_iteration and not self.endless:
             self.stop(f"Time is over: {self.time:g} s")
         if self.over:
@@ -302,6 +304,9 @@ class Simulation(State):
             if self._channel is not None:
                 self._channel.deliver()
             self.sensing.hide()
+            if len(self.contacts) and self._hooks.defines("on_contact"):
+                for contact in self.contacts[met_or_parted(self.contacts)]:
+                    self._hooks.call("on_contact", self.world, contact)
             self._hooks.call("on_step", self.world)
             self.sensing.step(self.iteration)
             self._hooks.call("on_sensed", self.world)
@@ -342,6 +347,18 @@ class Simulation(State):
         if gone:
             name, (x, y) = self.scenario.robots[gone[0]].name, self.pose[:2, gone[0]]
             self.stop(f"Out of bounds: {name} left the workspace at ({x:.3g}, {y:.3g})")
+
+    def _check_contacts(self) -> None:
+        """End the experiment after a touch by which it ends."""
+        scenario = self.scenario
+        if scenario.stop_on is None or not len(self.contacts):
+            return
+        for contact in self.contacts[met(self.contacts)]:
+            a, b = int(contact["a"]), int(contact["b"])
+            if scenario.ends_by(a, b):
+                names = f"{scenario.body_name(a)} and {scenario.body_name(b)}"
+                self.stop(f"Contact: {names} touched at {contact['time']:.4g} s")
+                return
 
     def _drive(self, twist: Float | None) -> None:
         """Move the robots for one sampling time under the commands in effect, or twists (3, n)."""

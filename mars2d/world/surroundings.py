@@ -15,6 +15,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.core.through import through
 from mars2d.core.usercode import called
+from mars2d.physics.space import Space
 from mars2d.sensors.base import NOTHING
 from mars2d.world.state import Addons, State
 
@@ -34,9 +35,12 @@ class Around:
 
     def renew(self) -> None:
         """Drop all caches, after bodies, obstacles or add-ons were changed."""
-        self._space = self._world.engine.space
         for name in ("_colors", "_addons"):
             vars(self).pop(name, None)
+
+    @property
+    def _space(self) -> Space:
+        return self._world.engine.space
 
     time: float = through("_world.time")
     """The simulated time, seconds."""
@@ -67,7 +71,7 @@ class Around:
         """Return the length of a ray to the first surface, metres; inf if none is hit."""
         _check_look("start", start, "length", length)
         _check_all("angle", angle)
-        return self._space.rays.length(start, angle, length, ignore)
+        return self._space.length(start, angle, length, ignore)
 
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
         """Return the lengths of rays at angles (k,), metres; inf where nothing is hit."""
@@ -83,20 +87,20 @@ class Around:
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
         """Return the lengths (m, k) of rays from poses (3, m) at bearings (k,), metres."""
         _check_fans(poses, bearings, length)
-        return self._space.rays.distances(poses, bearings, length, ignore)
+        return self._space.distances(poses, bearings, length, ignore)
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
         """Return the lengths of rays as `scans`, and the body that each hits, (m, k)."""
         _check_fans(poses, bearings, length)
-        return self._space.rays.sight(poses, bearings, length, ignore, NOTHING)
+        return self._space.sight(poses, bearings, length, ignore, NOTHING)
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:
         """Return whether something stands between `start` and points (k, 2)."""
-        return self._space.rays.hidden(start, points, bodies, ignore)
+        return self._space.hidden(start, points, bodies, ignore)
 
     # -- looks -------------------------------------------------------------------------------
 

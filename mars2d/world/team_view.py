@@ -27,6 +27,17 @@ from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknow
 
 Float = NDArray[np.float64]
 
+MOST_SHOWN = 20
+"""The most bodies that a world is printed with."""
+
+
+def printed(world: WorldView | TeamPositionsView, bodies: Sequence[RobotView | PropView]) -> str:
+    """Return the text of a world: the time, and a line for each of the first bodies."""
+    lines = [f"  {body}" for body in bodies[:MOST_SHOWN]]
+    if len(bodies) > MOST_SHOWN:
+        lines.append(f"  and {len(bodies) - MOST_SHOWN} more")
+    return "\n".join([f"<{type(world).__name__} at {world.time:g} s:", *lines]) + ">"
+
 
 class WorldView(Uncopied):
     """A running world, as a law with full information sees and uses it.
@@ -40,6 +51,9 @@ class WorldView(Uncopied):
 
     def __getattr__(self, name: str) -> NoReturn:
         unknown(self, "a world", name)
+
+    def __repr__(self) -> str:
+        return printed(self, [*self.robots, *self.props])
 
     # -- the experiment ------------------------------------------------------------------------
 
@@ -55,7 +69,7 @@ class WorldView(Uncopied):
     """The polygon in which the robots move, or None."""
     bounds: tuple[float, float, float, float] = through("_simulation.scenario.bounds")
     """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-    obstacles: tuple[Outline, ...] = through("_simulation.engine.space.obstacles")
+    obstacles: tuple[Outline, ...] = through("_simulation.engine.obstacles")
     """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
 
     # -- this instant --------------------------------------------------------------------------
@@ -235,6 +249,9 @@ class TeamPositionsView:
     workspace, bounds, obstacles = WorldView.workspace, WorldView.bounds, WorldView.obstacles
     command, effort = WorldView.command, WorldView.effort
     addons, rng, stop = WorldView.addons, WorldView.rng, WorldView.stop
+
+    def __repr__(self) -> str:
+        return printed(self, self.robots)
 
     @property
     def position(self) -> Float:

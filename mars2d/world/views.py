@@ -114,6 +114,18 @@ class _Body:
     def __getattr__(self, name: str) -> NoReturn:
         unknown(self, self._kind, name, *self._more)
 
+    def __repr__(self) -> str:
+        kind, name = self._kind.partition(" ")[2], getattr(self, "name", "")
+        known = (getattr(type(self), place, None) for place in ("pose", "position"))
+        seen = next((p.fget(self) for p in known if type(p) is property and p.fget), ())
+        place = f" at ({', '.join(f'{number:.4g}' for number in seen)})" if len(seen) else ""
+        return f"<{kind} {name!r}{place}{self._readings}>"
+
+    @property
+    def _readings(self) -> str:
+        """What its sensors read, in words."""
+        return ""
+
     def __setattr__(self, name: str, value: Any) -> None:
         if not (name.startswith("_") or name in self._more):
             keep = "" if hasattr(type(self), name) else f"; keep things in robot.memory.{name}"
@@ -288,6 +300,10 @@ class RobotView(_Body):
         if index not in self._found:
             self._found[index] = self._neighbour(self._world, index, self._index)
         return self._found[index]
+
+    @property
+    def _readings(self) -> str:
+        return "".join(f", {name} = {shown(value)}" for name, value in vars(self.sense).items())
 
     @property
     def contacts(self) -> NDArray[np.void]:

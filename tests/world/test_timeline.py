@@ -227,6 +227,8 @@ def poke(timeline, upto=150):
             world.operator.steer(2, (0.2, 1.0))
         if k == 90:
             world.operator.steer(2, None)
+        if k == 100:  # it acts still when time goes on from row 120
+            world.operator.push(1, (3.0, 4.0), 30.3 * world.sampling_time, (0.1, 0.0))
         timeline.advance()
 
 
