@@ -68,10 +68,12 @@ class Controls:
         source = self._player.source
         if not isinstance(source, Timeline) or not source.newest:
             return ""
-        spent = source.world.simulation.seconds.items()
-        times = {name: seconds / source.newest for name, seconds in spent}
+        spent = source.world.simulation.seconds
+        times = {name: seconds / source.newest for name, seconds in spent.items()}
+        unit, scale, digits = ("ms", 1e3, 1) if sum(times.values()) >= 1e-3 else ("µs", 1e6, 0)
         times["picture"] = self._player.drawing
-        return "ms: " + ", ".join(f"{name} {1e3 * each:.2g}" for name, each in times.items())
+        parts = ", ".join(f"{name} {scale * each:.{digits}f}" for name, each in times.items())
+        return f"{unit}: {parts}"
 
     def time_state(self) -> TimeState:
         """Return the state that the time bar shows."""
