@@ -117,6 +117,11 @@ class Drives:
         self._rated = [team for team in self._teams if {*team.drive.rates} != {None}]
         self._noisy = [team for team in self._teams if team.noise is not None]
 
+    @property
+    def exact(self) -> bool:
+        """Whether all follow their commands at once and without noise."""
+        return not (self._rated or self._noisy)
+
     def limit(self, command: Float, last: Float) -> Float:
         """Limit commands (m, n), in place, to those that drives can follow after the last (m, n).
 

@@ -115,7 +115,7 @@ def _of_commands(world: World) -> Iterator[str]:
 
 def _of_time(world: World) -> Iterator[str]:
     """Yield a remark on laws that take much longer than the time that they have."""
-    step, mean = world.sampling_time, world.simulation.law_seconds / (world.iteration + 1)
+    step, mean = world.sampling_time, world.simulation.seconds["laws"] / (world.iteration + 1)
     if mean > LATE * step:
         yield (
             f"the laws took {mean:.2g} s at each control step, {mean / step:.0f} times its "

@@ -28,7 +28,7 @@ KEPT = frozenset({np.dtype(bool), np.dtype(float)})
 
 
 def _column(name: str) -> Any:
-    """Return a property: the rows of a column so far."""
+    """Return a property: the rows so far of a column."""
     return property(lambda history: history._recorder.column(name))
 
 

@@ -191,9 +191,10 @@ class Scenario(Description):
         self.neighbours.check_size(len(self.robots))
         self._check_bodies()
         if self.random_starts:
-            self._start_at_random(self._room, 0)  # it always has poses
+            vars(self).update(self._placed(0))  # it always has poses
         self._check_joints()
-        self._check_starts()
+        for fault in starts.faults(self, self.bodies):
+            raise InputError(fault.told(self))
         self.ends_by(0, 0)
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
@@ -249,8 +250,7 @@ class Scenario(Description):
         if not self.random_starts:
             return self
         found = copy.copy(self)  # whatever was checked holds for these starts as well
-        found._start_at_random(self._room, seed)
-        object.__setattr__(found, "random_starts", ())
+        vars(found).update(self._placed(seed), random_starts=())
         return found
 
     def _repr_svg_(self) -> str:
@@ -271,29 +271,23 @@ class Scenario(Description):
     def _room(self) -> Room:
         return room_of(self)
 
-    def _start_at_random(self, room: Room, seed: int) -> None:
-        """Give the bodies of `random_starts` the poses that follow from the seed."""
-        poses = poses_of(self, room, seed)
-        for field in ("robots", "props"):
-            parts = [
-                part.replace(pose=poses[part.name]) if part.name in poses else part
-                for part in getattr(self, field)
-            ]
-            object.__setattr__(self, field, tuple(parts))
-        for known in ("bodies", "bounds"):
-            self.__dict__.pop(known, None)
+    def _placed(self, seed: int) -> dict[str, Any]:
+        """Return the robots, props and bodies with the poses that follow from the seed."""
+        poses = poses_of(self, self._room, seed)
 
-    def _check_starts(self) -> None:
-        """Refuse bodies that start outside the workspace, in an obstacle or in each other."""
-        overlap = self.max_overlap
-        if self.workspace is not None and self.on_exit != "ignore":
-            starts.check_in_workspace(self.bodies[: len(self.robots)], self.workspace)
-        if self.physics == "ideal":  # bodies go through each other, and all else
-            return
-        if self.workspace is not None and self.on_exit == "wall":
-            starts.check_off_walls(self.bodies, self.workspace, overlap)
-        starts.check_off_obstacles(self.bodies, self.obstacles, overlap)
-        starts.check_apart(self.bodies, overlap, self.joined)
+        def placed(part: Any) -> Any:
+            if part.name not in poses:
+                return part
+            twin = copy.copy(part)
+            vars(twin)["pose"] = poses[part.name]
+            return twin
+
+        bodies = [body._replace(pose=poses.get(body.name, body.pose)) for body in self.bodies]
+        return {
+            "robots": tuple(map(placed, self.robots)),
+            "props": tuple(map(placed, self.props)),
+            "bodies": tuple(bodies),
+        }
 
     @cached_property
     def bodies(self) -> tuple[Rigid, ...]:

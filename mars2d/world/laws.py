@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.core import checks
 from mars2d.core.arrays import within
-from mars2d.core.errors import LawError, shown
+from mars2d.core.errors import InputError, LawError, shown
 from mars2d.core.quantity import Quantity
 from mars2d.core.usercode import called, definition, name_of
 
@@ -73,6 +73,11 @@ class Law:
         error = LawError(f"{self.name} {message}")
         error.where, error.robot = definition(self.function), self._robot
         raise error
+
+
+def refuse(given: str, message: str) -> NoReturn:
+    """Raise the error that a command can't be used that a program has given."""
+    raise InputError(f"{given} {message.replace('returned', 'was given', 1)}")
 
 
 def robot_command(

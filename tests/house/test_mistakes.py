@@ -59,6 +59,8 @@ SCENARIOS = [
     ("robots=[Robot(mass=20), Robot(pose=(1, 0, 0), mass=1)]",
      "set the mass of robot0 to 10 kg or less, or that of robot1 to 2 kg or more"),
     ("on_exit='bounce'", "expected one of 'stop', 'wall', 'ignore'"),
+    ("on_exit='wrap'", "takes distances modulo the side"),
+    ("periodic=True", "takes distances modulo the side"),
     ("physics='real'", "expected one of 'contact', 'stop', 'ideal'"),
     ("workspace=[(0, 0), (1, 1), (0, 1), (1, 0)]", "list its vertices in order"),
 ]  # fmt: skip

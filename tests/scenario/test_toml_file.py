@@ -289,8 +289,8 @@ WRONG = [
     ("\n[[joints]]\ntype = 'Rope'\na = 'robt0'", "line 2: Scenario.joints[0].a = 'robt0'"),
     ("\n[[addons]]\ntype = 'Map'\noutlines = [[0, 0], [1, 1]]", "line 4, addons[0]: Map.outlines"),
     (
-        "\n[[addons]]\ntype = 'Communication'\nburst = { to_bad = 7 }",
-        "addons[0].burst: Burst.to_bad",
+        "\n[[addons]]\ntype = 'Communication'\nburst = { bad = -7 }",
+        "addons[0].burst: Burst.bad",
     ),
     ("\nneighbours = 'Wthin'", "line 2, neighbours: type = 'Wthin': no Neighbourhood is called so"),
     (
