@@ -125,9 +125,7 @@ class Window(PlayerWindow):
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions |= {
-            "contacts": lambda: self.toolbar.open(
-                "contacts", partial(entries_of_contacts, self.player, self._actions)
-            ),
+            "contacts": self._offer_contacts,
             "printed": lambda: self.dock.switch("printed"),
             "ruler": self._measure_or_not,
             "stopwatch": lambda: self._stopwatch.press(self.player.frame.time),
@@ -487,6 +485,11 @@ class Window(PlayerWindow):
             self.dock.switch(panel.name)
         else:
             self.notes.say(f"this file has no {lacks}", "warning")
+
+    def _offer_contacts(self) -> None:
+        """Open the menu of contacts, beside the card of the last impact."""
+        self._impact.open()
+        self.toolbar.open("contacts", partial(entries_of_contacts, self.player, self._actions))
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces and its card are shown there."""
