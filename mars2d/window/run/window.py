@@ -14,6 +14,7 @@ import pygame
 from mars2d.core.errors import InputError, Mars2dError, counted
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
+from mars2d.output.layers.forces import in_newtons
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import Layout, fitted
@@ -42,6 +43,7 @@ from mars2d.window.run.director import RECORDING, Director
 from mars2d.window.run.ending import Ending
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import CLICK, Grab
+from mars2d.window.run.heat import AGAIN, MOST, heat, squeezes
 from mars2d.window.run.hints import hints_of
 from mars2d.window.run.measure import Ruler, Stopwatch
 from mars2d.window.run.mouse import Mouse
@@ -101,6 +103,7 @@ class Window(PlayerWindow):
         self.game: Play | None = None  # where people play
         self._before: Countdown | None = None
         self._score: ScorePanel | None = None
+        self._crowded = False  # whether forces are drawn as colours
         self._unseen = False  # whether a game has not been drawn yet
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
@@ -303,7 +306,12 @@ class Window(PlayerWindow):
         fit = partial(fitted, bounds, layout.size)
         room = self.dock.arrange(layout, frame, fit, bounds[3] - bounds[2])
         self.viewpoint.arrange(layout, frame.scenario, room)
-        marks = self.grab.marks(frame, self.camera, named=self.layers.names)
+        many = len(frame.contacts) > (AGAIN if self._crowded else MOST)
+        self._crowded, squeezed = many and layers.forces, ""
+        if self._crowded:
+            layers, over = layers.switched(forces=False), self.grab.over
+            squeezed = "" if over is None else in_newtons(float(squeezes(frame)[over]))
+        marks = self.grab.marks(frame, self.camera, named=self.layers.names, more=squeezed)
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
@@ -312,7 +320,7 @@ class Window(PlayerWindow):
             done = timeline.world.operator.log
         elif isinstance(source, Playback):
             done += source.record.interventions
-        scene, dt = Scene(), frame.scenario.sampling_time
+        scene, dt = heat(frame) if self._crowded else Scene(), frame.scenario.sampling_time
         draw_pushes(scene, frame, pushes_at(done, frame.time, dt), self.camera)
         pointer = None if self._pointer is None else self._point_at(self._pointer)
         self._ruler.draw(scene, frame, self.camera, pointer)
