@@ -29,6 +29,7 @@ from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel
 from mars2d.window.panels.predictions import Predictions
 from mars2d.window.panels.printed import Printed
+from mars2d.window.panels.rows import RowsPanel
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.run import keys
 from mars2d.window.run.context import (
@@ -150,6 +151,10 @@ class Window(PlayerWindow):
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
             "parameters": self._show_parameters,
+            "slider": self._to_sliders,
+            "offer": self._offer_by_key,
+            "turn_on": partial(self._turn_panels, -1),
+            "turn_back": partial(self._turn_panels, 1),
             "drive": self._drive_or_not,
             "push": self._ask_for_push,
             "edit": self._open_editor,
@@ -173,7 +178,9 @@ class Window(PlayerWindow):
             if not panel.offered:
                 del buttons[name]
         self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
-        self._scope_menu = ScopeMenu(self.scopes, self.toolbar, self.player, self._selection)
+        self._scope_menu = ScopeMenu(
+            self.scopes, self.toolbar, self.player, self._selection, self._actions
+        )
 
     @property
     def selected(self) -> int | None:
@@ -454,10 +461,20 @@ class Window(PlayerWindow):
         ((x, y),) = self.camera.to_world([pixel]).tolist()
         return x, y
 
+    def _offer_by_key(self) -> None:
+        """Open the menu of the selected body, or of the middle of the floor."""
+        frame, body = self.player.frame, self.selected
+        middle = self.viewpoint.room.center
+        self._offer_at(self._point_at(middle) if body is None else frame.body_pose(body)[:2])
+
     def _offer(self, point: Point) -> None:
-        """Open the menu of what can be done with the thing at a point [m] of the picture."""
+        """Select the thing at a point [m] of the picture, and open its menu."""
         self._ruler.end()
         self._select_at(point)
+        self._offer_at(point)
+
+    def _offer_at(self, point: Point) -> None:
+        """Open the menu of what can be done with what is selected, or at a point [m]."""
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
         frame, body = self.player.frame, self.selected
         if body is None:
@@ -612,6 +629,19 @@ class Window(PlayerWindow):
             self.notes.say(RECORDING, "warning")
         else:
             self.dock.switch("parameters")
+
+    def _to_sliders(self) -> None:
+        """Let keys go to the sliders of parameters, which are shown."""
+        if not self.parameters.is_open:
+            self._show_parameters()
+        self.parameters.focus = next(iter(self.parameters.parameters()), None)
+
+    def _turn_panels(self, notches: int) -> None:
+        """Scroll the panels that have more rows, as the wheel over them does."""
+        turned = pygame.Event(pygame.MOUSEWHEEL, x=0, y=3 * notches)
+        for panel in self.dock.panels:
+            if isinstance(panel, RowsPanel) and panel.is_open and panel.cut:
+                panel.handle(turned)
 
     def _set_parameter(self, name: str, value: float, restart: bool) -> str:
         """Set a parameter; return why the run starts again, or ""."""
