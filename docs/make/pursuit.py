@@ -66,13 +66,13 @@ STUDIES = {
         "capture, later than predicted [s]",
     ),
     "homicidal_chauffeur": Study(
-        {"stop_time": 30},
+        {"stop_time": 30, "reach": 0.2},
         {"any force": {}, "1 m/s$^2$": {"accel": 1.0}, "0.6 m/s$^2$": {"accel": 0.6}},
         passing,
         "first pass, farther than predicted [m]",
     ),
     "two_cars": Study(
-        {"stop_time": 30},
+        {"stop_time": 30, "radius": 0.5},
         {"any force": {}, "1.5 m/s$^2$": {"accel": 1.5}, "0.7 m/s$^2$": {"accel": 0.7}},
         passing,
         "first pass, farther than predicted [m]",

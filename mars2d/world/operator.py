@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from math import ceil, dist, sqrt
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +21,7 @@ from mars2d.physics.kinematics import Kinematics
 from mars2d.record.interventions import Change, Intervention, Place, Pull, Push, Steer
 from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario
-from mars2d.world.laws import COUNTS
+from mars2d.world.laws import refuse, robot_command
 
 if TYPE_CHECKING:
     from mars2d.world.simulation import Simulation
@@ -54,7 +55,7 @@ class Operator:
     def __init__(self, world: Simulation) -> None:
         """Take the world; nothing is done to it yet."""
         self._world = world
-        self._driven: dict[int, list[float]] = {}
+        self._driven: dict[int, tuple[float, ...]] = {}
         self._steered: set[int] = set()  # those that the log says are driven
         self._pulls: dict[int, Pull] = {}
         self._pushes: list[Push] = []
@@ -84,11 +85,8 @@ class Operator:
         if command is None:
             self._drive_no_more(index)
             return
-        given = command.tolist() if isinstance(command, np.ndarray) else command
-        count = len(self._world.scenario.robots[index].drive.inputs)
-        if not isinstance(given, (tuple, list)) or len(given) != count:
-            raise wrong("Operator.steer(command)", command, f"{COUNTS[count]} numbers, or None")
-        numbers = [real("Operator.steer(command)", number, "a number") for number in given]
+        inputs = self._world.scenario.robots[index].drive.inputs
+        numbers = robot_command(command, inputs, partial(refuse, "Operator.steer: the command"))
         if index not in self._steered:
             self._note(Steer(self._world.iteration, index, driven=True))
         self._driven[index] = numbers
@@ -274,7 +272,8 @@ class Operator:
             self.place(intervention.body, intervention.pose)
         elif isinstance(intervention, Change):
             moved, options = dict(intervention.moved), dict(intervention.options)
-            self.change(intervention.scenario, intervention.control, moved, options)
+            scenario, given = intervention.scenario, intervention.given
+            self.change(scenario, intervention.control, moved, options, given)
         elif isinstance(intervention, Steer):
             self._note(intervention)
         elif isinstance(intervention, Push):

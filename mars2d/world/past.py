@@ -187,10 +187,9 @@ def _redo(track: Track, world: World) -> None:
     row, log = world.iteration, world.operator.log
     if log and log[-1].row == row:
         return
-    for intervention in track.interventions(row):
-        if isinstance(intervention, Change):
-            scenario = carried(world.scenario, intervention.scenario, intervention.given)
-            moved, options = dict(intervention.moved), dict(intervention.options)
-            world.operator.change(scenario, world.control, moved, options, intervention.given)
-        else:
-            world.operator.redo(intervention)
+    for each in track.interventions(row):
+        again = each
+        if isinstance(each, Change):
+            scenario = carried(world.scenario, each.scenario, each.given)
+            again = replace(each, scenario=scenario, control=world.control)
+        world.operator.redo(again)

@@ -55,15 +55,6 @@ class Timeline:
     one left longest ago first. remark: a warning about the last way back, or empty.
     """
 
-    world: World
-    experiment: Experiment
-    _past: Past
-    branches: list[World]
-    row: int
-    _lines: dict[World, _Line]
-    _errors: dict[World, LawError]
-    _count: int
-
     def __init__(
         self,
         experiment: Experiment,
@@ -94,11 +85,11 @@ class Timeline:
         self.world = open_world(experiment, self._watchers)
         self.experiment = experiment
         self._past = Past(experiment)
-        self.branches = []
+        self.branches: list[World] = []
         self.row = 0
         self.remark = ""
         self._lines = {self.world: _Line(((0, 0),))}
-        self._errors = {}
+        self._errors: dict[World, LawError] = {}
         self._count = 0  # of branches that there have been
         self._seen: tuple[World, int, Record] | None = None
         self._write()
@@ -403,11 +394,6 @@ class Timeline:
     def others(self) -> list[World]:
         """The worlds that can be shown: those of other branches, then those of earlier runs."""
         return [*self.branches, *(run["world"] for run in self._earlier)]
-
-    def other_branch(self) -> None:
-        """Go to the branch that was left longest ago; without one, to an earlier run."""
-        if self.others:
-            self.show(self.others[0])
 
     def show(self, other: World) -> None:
         """Go to one of `others`, at the same row if it has it."""

@@ -69,7 +69,7 @@ def test_before_the_branches_part_there_are_none():
 
 def test_from_the_other_branch_this_one_is_seen():
     timeline = branched()
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     ((_, y),) = centers(ghosts(timeline, timeline.frame))
     assert y == -2.0
 

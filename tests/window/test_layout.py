@@ -47,6 +47,10 @@ def unfit(places, picture):
     yield from (name for name, place in places if not picture.contains(place))
 
 
+def press(editor, pixel):
+    editor.handle(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=pixel, button=pygame.BUTTON_LEFT))
+
+
 def editor_of(text):
     looks = Looks(Preferences(text=text))
     looks.painter = Painter(Pens(), theme=looks.painter.theme)
@@ -69,7 +73,7 @@ def faults_of_editor(size, text):
     yield from unfit([*buttons, ("the arena", plot)], picture)
     for title in ("Mass", "Colour", "More"):
         if title in editor.panel.places:
-            editor.panel.click(editor.panel.places[title].center)
+            press(editor, editor.panel.places[title].center)
             editor.draw(surface)
             prompt, entries = editor.dialogs.prompt, editor.menu.places
             yield from unfit([*(prompt.places if prompt else entries).items()], picture)
@@ -141,4 +145,4 @@ def test_all_has_room_at_every_size_of_the_window_and_of_the_text(size, monkeypa
         editor.draw(Written(size))
         sides.append(editor._toolbar.places["robot"].width)
     assert faults == []
-    assert min(sides) >= 0.8 * sides[0], "larger text takes room from the buttons, but not much"
+    assert min(sides) >= 0.87 * sides[0], "larger text takes little room from the buttons"

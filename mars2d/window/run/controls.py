@@ -60,8 +60,17 @@ class Controls:
         )  # fmt: skip
         self.slider.draw(
             surface, layout.slider, painter, player.speed, player.factor, pointer=pointer,
-            held=drags(self._choose_speed),
+            held=drags(self._choose_speed), costs=self._costs(),
         )  # fmt: skip
+
+    def _costs(self) -> str:
+        """Return where the time of a control step goes, and how long a picture takes."""
+        source = self._player.source
+        if not isinstance(source, Timeline) or not source.newest:
+            return ""
+        spent = source.world.simulation.seconds.items()
+        step = ", ".join(f"{name} {_short(all_ / source.newest)}" for name, all_ in spent)
+        return f"a step: {step}; a picture: {_short(self._player.drawing)}"
 
     def time_state(self) -> TimeState:
         """Return the state that the time bar shows."""
@@ -118,6 +127,11 @@ class Controls:
         speed = self.slider.speed_at(pixel[0])
         if speed is not None and speed != self._player.speed:
             self._player.set_speed(speed)
+
+
+def _short(seconds: float) -> str:
+    """Return a short time in words."""
+    return f"{1e3 * seconds:.2g} ms" if seconds >= 1e-3 else f"{1e6 * seconds:.0f} \N{MICRO SIGN}s"
 
 
 class Marks:

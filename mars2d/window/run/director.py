@@ -10,7 +10,7 @@ import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.scenario.changes import alike, carried, check_same, with_poses, without_body
-from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
@@ -355,6 +355,18 @@ class Director:
 
         if self.change(draw):
             self._notes.say("what was drawn holds from now on; Space goes on")
+
+    def next_start(self) -> None:
+        """Start again with the next seed."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        now = timeline.experiment
+        seed = now.options.get("seed", now.seed or 0) + 1
+        options = {name: value for name, value in now.options.items() if name != "seed"}
+        law = None if now.alone else now.control
+        again = open_experiment(now.source.path or now.scenario, options, law, seed)
+        self._restart(again, f"start {seed}")
 
     def _restart(self, experiment: Experiment, said: str) -> None:
         assert self.timeline is not None

@@ -12,7 +12,7 @@ from mars2d.bodies.rigid import Triple
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
-from mars2d.output.layers.forces import FORCE, as_read, in_newtons
+from mars2d.output.layers.forces import FORCE, in_newtons
 from mars2d.output.raster.camera import Camera
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Push
@@ -63,7 +63,7 @@ class Aim:
     def move(self, frame: Frame, point: Point, mods: int) -> None:
         """Aim at a point; with Ctrl in steps of 15 degrees."""
         start = world_point(frame.body_pose(self.body), self.grip)
-        self.newtons = as_read(self._stiffness * dist(start, point))
+        self.newtons = float(f"{self._stiffness * dist(start, point):.2g}")
         self.angle = atan2(point[1] - start[1], point[0] - start[0])
         if mods & pygame.KMOD_CTRL:
             self.angle = NOTCH * round(self.angle / NOTCH)
@@ -117,5 +117,5 @@ def pushed(text: str, heading: float) -> tuple[Point, float]:
 
 def suggested(frame: Frame, body: int) -> str:
     """Return a push of a body as it is typed: as strong as a strong pull, ahead."""
-    force = as_read(pull_of(frame.scenario, body)[0])
-    return f"{force:g} N for {SECONDS:g} s at {round(degrees(frame.body_pose(body)[2])):d}°"
+    force = pull_of(frame.scenario, body)[0]
+    return f"{force:.2g} N for {SECONDS:g} s at {round(degrees(frame.body_pose(body)[2])):d}°"

@@ -10,7 +10,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
 from mars2d.window.panels.rows import Row, RowsPanel
-from mars2d.window.run.play import Play, Seat
+from mars2d.window.run.play import NEXT, Play, Seat
 from mars2d.window.widgets.help import draw_cap
 from mars2d.window.widgets.words import Word, write_line
 
@@ -63,10 +63,10 @@ class ScorePanel(RowsPanel):
             if not seat.role:
                 about = str(scenario.robots[seat.robot].name), "you", ""
                 yield from self._role(frame, seat.robot, about, [seat], width)
-        first = next((seat.role for seat in play.seats if seat.role), "")
-        if words := play.tally(first).in_words if first else "":
-            yield Row(GAP, self._rule)
-            yield from self._text(f"so far as {first}: {words}", width, 2)
+        for role in dict.fromkeys(seat.role for seat in play.seats if seat.role):
+            if words := play.tally(role).in_words:
+                yield Row(GAP, self._rule)
+                yield from self._text(f"so far as {role}: {words}", width, 2)
 
     def _role(
         self,
@@ -86,6 +86,8 @@ class ScorePanel(RowsPanel):
             yield self._keys(seat.keys)
             if contest is not None and seat.role:
                 yield from self._text(contest.aim(seat.role, frame.scenario), width, 2)
+            elif contest is None:
+                yield from self._text(self.play.task, width, MAX_LINES)
             yield self.line(GAP / 2)
 
     def _ending(self, frame: Frame, width: float) -> Iterator[Row]:
@@ -97,6 +99,7 @@ class ScorePanel(RowsPanel):
         yield from self._text(frame.over_message, width, MAX_LINES)
         yield from self._text(result.news, width, 2)
         yield self._keys(("R",), "play again")
+        yield self._keys((str(NEXT),), "next start")
         numbers = tuple(str(choice.number) for choice in self.play.choices)
         if numbers:
             yield self._keys(numbers, "other roles")

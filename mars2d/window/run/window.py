@@ -23,6 +23,7 @@ from mars2d.record.frame import Frame
 from mars2d.record.interventions import Intervention, pushes_at
 from mars2d.scenario.controllers import standing_still
 from mars2d.scenario.examples import experiment_name
+from mars2d.window.panels.impact import Impact
 from mars2d.window.panels.inspector import Inspector
 from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel
@@ -120,7 +121,7 @@ class Window(PlayerWindow):
         self._printed = Printed(painter, lambda: self.player.source.frame.time)
         self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
-        self._lesson = Lesson(painter, _path(source))
+        self._lesson, self._impact = Lesson(painter, _path(source)), Impact(painter, self.player)
         self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
         bounds = source.bounds if isinstance(source, Playback) else None
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None), bounds)
@@ -157,14 +158,10 @@ class Window(PlayerWindow):
         self.dock: Dock = Dock(
             painter,
             [
-                self._inspector,
-                self.scopes,
-                self.parameters,
-                self._predictions,
-                self._lesson,
-                self._printed,
+                self._inspector, self.scopes, self.parameters, self._predictions, self._lesson,
+                self._printed, self._impact,
             ],
-        )
+        )  # fmt: skip
         buttons = self._actions | {"branch": self._choose_branch}
         for name, panel in (("predictions", self._predictions), ("lesson", self._lesson)):
             if not panel.offered:
@@ -510,9 +507,10 @@ class Window(PlayerWindow):
             self.notes.say(LACKS[name], "warning")
 
     def _to_contact(self, go: Callable[[], None]) -> None:
-        """Go to a contact of the selected body, or of any; forces are shown there."""
+        """Go to a contact of the selected body, or of any; forces and its card are shown there."""
         self.player.body = self.selected
         super()._to_contact(go)
+        self._impact.open()
 
     def _step_within(self, way: int) -> None:
         """Go to another moment within a control step; forces are shown there."""
