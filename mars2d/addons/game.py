@@ -160,6 +160,13 @@ class Game(Elimination):
         late = self.par is not None and row * scenario.sampling_time > self.par
         return late or super().time_is_over(scenario, row)
 
+    def outcome(self, record: Any) -> Outcome:
+        """Return captures, score, winner and payoff of a record, loaded or just made."""
+        found, end = super().outcome(record), float(record.time[-1])
+        caught = {capture.evader: capture.time for capture in found.captures}
+        evaders = self.players(record.scenario)[1]
+        return found._replace(payoff=sum(caught.get(k, end) for k in evaders) / len(evaders))
+
     @property
     def captures(self) -> tuple[Capture, ...]:
         """The captures so far, in order."""
