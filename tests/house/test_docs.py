@@ -75,7 +75,7 @@ MEASURED = {
     "lion_and_man_bodies.png", "encirclement_bodies.png", "learning_pursuit.png",
     "learning_push.png", "learning_sumo.png", "learning_coverage.png",
 }  # fmt: skip
-"""Pictures that no block makes: `benchmarks/growth.py` and `docs/make_pursuit.py` take minutes, a
+"""Pictures that no block makes: `benchmarks/growth.py` and `docs/make/pursuit.py` take minutes, a
 page needs a browser, a window somebody at the keys."""
 
 LANGUAGES = {"python", "toml", "console", "text", "matlab", ""}
@@ -226,7 +226,7 @@ def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0}, raising=False)
     Reader(document).read()
     if document in SENSORS:
-        return  # their pictures are made by docs/make_sensors.py
+        return  # their pictures are made by docs/make/sensors.py
     for name in set(pictures(document)) - MEASURED:
         assert (tmp_path / name).is_file(), f"{name} was not made"
         if os.environ.get("MARS2D_PICTURES") == "new":
@@ -281,11 +281,11 @@ def test_each_document_is_in_the_index():
 
 @each_case("name", sorted(members("sensors")))
 def test_a_sensors_page_has_its_picture_and_the_table_of_its_fields(name, monkeypatch):
-    monkeypatch.syspath_prepend(ROOT / "docs")
-    made = importlib.import_module("make_sensors")
+    monkeypatch.syspath_prepend(ROOT / "docs" / "make")
+    made = importlib.import_module("sensors")
     kind = getattr(sensors, name)
     text = made.page(kind).read_text(encoding="utf-8")
-    assert text == made.with_table(text, kind), "run: python docs/make_sensors.py"
+    assert text == made.with_table(text, kind), "run: python docs/make/sensors.py"
     assert kind in made.SCENES
     assert pictures(made.page(kind)) == [f"sensor_{snake_case(name)}.png"]
     titles = re.findall(r"^## (.+)$", prose(made.page(kind)), flags=re.M)
@@ -383,10 +383,10 @@ def test_the_keys_in_its_page_are_those_of_the_window():
 
 
 def test_the_table_of_fields_is_up_to_date():
-    path = ROOT / "docs" / "make_fields.py"
+    path = ROOT / "docs" / "make" / "fields.py"
     made = module(path).document()
     assert made == (ROOT / "docs" / "fields.md").read_text(encoding="utf-8"), (
-        "run: python docs/make_fields.py"
+        "run: python docs/make/fields.py"
     )
 
 

@@ -1,6 +1,6 @@
 """Draw by how much theory misses in each pursuit game with real bodies, docs/pictures/*_bodies.png.
 
-python docs/make_pursuit.py [NAME ...]
+python docs/make/pursuit.py [NAME ...]
 
 Each game is run from the same seeds with contact, stop and ideal, and with drives that are weaker
 and weaker. A dot is a run: what was measured, less what the formula says of its start. The bars are
@@ -23,7 +23,7 @@ import mars2d
 from mars2d import Record
 from mars2d.scenario.experiment import open_experiment, open_module
 
-PICTURES = Path(__file__).parent / "pictures"
+PICTURES = Path(__file__).parents[1] / "pictures"
 SEEDS = 10
 COLORS = {"contact": "#d55e00", "stop": "#0072b2", "ideal": "#707070"}
 
