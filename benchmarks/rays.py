@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
+from mars2d.core.plane import edges_of
 from mars2d.geometry.shapes import rectangle
 from mars2d.sensors import RangeFinder
 
@@ -41,6 +42,8 @@ SIZES = (20, 200, 2000)
 ROUNDS = 7
 SECONDS = 20.0
 SPEED, NEAR = 0.3, 0.6
+GOLDEN = (5**0.5 - 1) / 2
+"""The fractional parts of its multiples are scattered evenly from 0 to 1."""
 
 
 def boxes(count: int, rng: np.random.Generator) -> tuple[list[Outline], float]:
@@ -122,9 +125,29 @@ def fans(world: World) -> Callable[[], Float]:
     return lambda: np.asarray(sensor.read_all(world.robots, world.surroundings, rngs))
 
 
+def in_pymunk(world: World) -> pymunk.Space:
+    """Return a space with the same shapes."""
+    space = pymunk.Space()
+    for i, rigid in enumerate(world.scenario.bodies):
+        body = pymunk.Body(1.0, 1.0)
+        x, y, body.angle = world.simulation.engine.pose[:, i].tolist()
+        body.position = x, y
+        space.add(body)
+        for points, radius in rigid.shape.pieces:
+            disc = len(points) == 1
+            shape = pymunk.Circle(body, radius, points[0]) if disc else pymunk.Poly(body, points)
+            shape.filter = pymunk.ShapeFilter(group=i + 1)
+            space.add(shape)
+        space.reindex_shapes_for_body(body)
+    edges = [edge for outline in world.obstacles for edge in edges_of(outline)]
+    order = sorted(range(len(edges)), key=lambda k: k * GOLDEN % 1.0)  # its tree is balanced so
+    space.add(*(pymunk.Segment(space.static_body, *edges[k], 0.0) for k in order))
+    return space
+
+
 def public(world: World) -> Callable[[], Float]:
     """Return a function that does the same by pymunk's method."""
-    space: pymunk.Space = world.simulation.engine.space._seen  # the same shapes
+    space = in_pymunk(world)
     (sensor,) = world.scenario.robots[0].sensors
     assert isinstance(sensor, RangeFinder)
 

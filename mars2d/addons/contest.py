@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from abc import abstractmethod
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
@@ -88,6 +88,14 @@ class Contest(Addon):
 
     scored: ClassVar[tuple[str, str]] = ("", "")
     """What the score of each role counts, in a word for people."""
+
+    def renamed(self, old: str, new: str) -> Self:
+        """Return a copy in which a robot has another name; roles keep theirs."""
+        roles = [
+            (role, tuple(new if robot == old else robot for robot in robots))
+            for role, robots in self.roles
+        ]
+        return super().renamed(old, new).replace(roles=roles)
 
     @abstractmethod
     def outcome(self, record: Any) -> Outcome:

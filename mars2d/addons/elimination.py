@@ -70,16 +70,23 @@ class Elimination(Contest):
         """Find the robots; raise InputError if one is not there, or has two roles."""
         self._teams, self._time_is_over = self.players(world.scenario), False
         self._exits: tuple[Exit, ...] = ()
+        self._before: tuple[float, Float] | None = None  # the last control step
 
     def on_step(self, world: WorldLike) -> None:
         """Note who leaves; end the experiment when it is decided, or when time is over."""
-        out = self.results
-        one, other = (tuple(robot for robot in team if robot not in out) for team in self._teams)
-        span = Span(world.scenario, np.array([world.time]), world.pose[None], world.contacts)
+        one, other, out, time = *self._teams, self.results, world.time
+        if out:
+            one, other = (tuple(r for r in team if r not in out) for team in self._teams)
+        before = self._before or (time, world.pose)
+        times, poses = map(np.array, zip(before, (time, world.pose), strict=True))
+        self._before = time, world.pose
+        span = Span(world.scenario, times, poses, world.contacts)
         now = self.exits((one, other), span)
         self._exits += tuple(now)
         self._time_is_over = self.time_is_over(world.scenario, world.iteration)
-        if why := self.ending(world):
+        changes = now or self._time_is_over or not world.iteration  # else it stands as before
+        why = self.ending(world) if changes else ""
+        if why:
             world.stop(why)
         for leaving in now if self.holds_last or not why else ():
             world.hold(leaving.robot)

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 CONTACT, SIGHT = "contact", "sight"
 GRASS = "#dcebdc"
 """The colour of the floor of a goal."""
+FURTHER = 2.0
+"""How many times its drive's speed a robot is never pushed at."""
+TINY = 1e-30
 
 
 @accepts({"anyOf": [{"type": "number", "exclusiveMinimum": 0}, {"enum": [CONTACT, SIGHT]}]})
@@ -48,9 +51,10 @@ class Game(Elimination):
     (('pursuer', ('red',)), ('evader', ('blue',)))
 
     An evader is caught when a hunter touches it, comes as near as `capture`, or has it in sight:
-    then no obstacle lies on the line between their poses. This is checked once a control step. A
-    caught evader brakes from then on, but can be pushed, and shields others; the game goes on with
-    those. Where `capture` is None nobody is caught: bodies alone keep evaders from their goal.
+    then no obstacle lies on the line between their poses. This is checked once a control step, for
+    nearness on the straight ways that both have come since the last one. A caught evader brakes
+    from then on, but can be pushed, and shields others; the game goes on with those. Where
+    `capture` is None nobody is caught: bodies alone keep evaders from their goal.
 
     With a `goal`, an evader is safe as soon as its pose is in it, and stands still there, too;
     without one, it is safe when time is over. The hunters need `wanted` captures, by default of
@@ -73,6 +77,7 @@ class Game(Elimination):
     hunted: tuple[str | int, ...] | None = entry(
         default=None, check=checks.optional(robots_of),
         doc="the robots to catch, if not those of the second role, which then help them",
+        names="robot",
     )  # fmt: skip
     wanted: int | None = integer(
         default=None, low=1, high=10**6, optional=True,
@@ -305,19 +310,22 @@ def _so_many_are(count: int, needed: int) -> str:
 def _touches(teams: Teams, span: Span) -> list[Exit]:
     """Return an exit for each touch of a hunter and an evader, in the order of the contacts."""
     hunters, evaders = teams
-    a, b = span.contacts["a"], span.contacts["b"]
+    met = span.contacts[np.minimum(span.contacts["a"], span.contacts["b"]) >= 0]  # no obstacles
+    if not len(met):
+        return []
+    a, b = met["a"], met["b"]
     hunts = np.isin(a, hunters) & np.isin(b, evaders)
     hunted = np.isin(b, hunters) & np.isin(a, evaders)
     return [
-        Exit(float(span.contacts["time"][k]), int(evader), -1.0, int(hunter))
+        Exit(float(met["time"][k]), int(evader), -1.0, int(hunter))
         for k in np.flatnonzero(hunts | hunted)
         for hunter, evader in [(a[k], b[k]) if hunts[k] else (b[k], a[k])]
     ]
 
 
-def _lines(teams: Teams, span: Span) -> Sequence[Float]:
-    """Return the ends of the lines from hunters to evaders, two arrays (T, h, e, 2)."""
-    hunters, evaders = (span.pose[:, :2, list(team)].swapaxes(1, 2) for team in teams)
+def _lines(teams: Teams, position: Float) -> Sequence[Float]:
+    """Return the ends of the lines from hunters to evaders, (T, h, e, 2). position: (T, 2, n)."""
+    hunters, evaders = (position[:, :, list(team)].swapaxes(1, 2) for team in teams)
     return np.broadcast_arrays(hunters[:, :, None], evaders[:, None])
 
 
@@ -325,7 +333,7 @@ def _sights(teams: Teams, span: Span) -> NDArray[np.bool_]:
     """Return which evaders are in sight of which hunters (T, h, e): no edge is between them."""
     import shapely
 
-    lines = shapely.linestrings(np.stack(_lines(teams, span), axis=-2))
+    lines = shapely.linestrings(np.stack(_lines(teams, span.pose[:, :2]), axis=-2))
     hidden, _ = _edges(span.scenario.obstacles).query(lines.ravel(), predicate="crosses")
     seen = np.ones(lines.size, dtype=bool)
     seen[hidden] = False
@@ -341,15 +349,34 @@ def _edges(obstacles: tuple[Outline, ...]) -> shapely.STRtree:
     return shapely.STRtree(shapely.linestrings(np.reshape(ends, (-1, 2, 2))))
 
 
+def _distances(teams: Teams, span: Span, *, passing: bool) -> Float:
+    """Return the distances (T, h, e) of hunters from evaders, metres.
+
+    passing: return the least on the straight ways from the poses before. Who has come further than
+    its drive takes it was put there, and has passed nobody.
+    """
+    there = span.pose[:, :2]
+    start, end = _lines(teams, there)
+    apart = end - start
+    if passing:
+        before = np.concatenate([there[:1], there[:-1]])
+        fastest = np.array([robot.drive.max_linear_speed for robot in span.scenario.robots])
+        far = FURTHER * fastest * np.diff(span.time, prepend=span.time[:1])[:, None]
+        put = norms(*(there - before).swapaxes(0, 1)) > far
+        start, end = _lines(teams, np.where(put[:, None], there, before))
+        way = apart - (end - start)
+        share = (apart * way).sum(axis=-1) / np.maximum((way**2).sum(axis=-1), TINY)
+        apart = apart - share.clip(0.0, 1.0)[..., None] * way
+    return norms(*np.moveaxis(apart, -1, 0))
+
+
 def _approaches(teams: Teams, span: Span, reach: float, seen: Any) -> list[Exit]:
     """Return the first capture of each evader by the nearest hunter in reach, in order.
 
     seen: whom the hunters see (T, h, e).
     """
     hunters, evaders = teams
-    start, end = _lines(teams, span)
-    x, y = np.moveaxis(start - end, -1, 0)
-    distance = np.where(seen, norms(x, y), np.inf)
+    distance = np.where(seen, _distances(teams, span, passing=np.isfinite(reach)), np.inf)
     near = distance.min(axis=1)
     there = (near <= reach) & np.isfinite(near)
     return [

@@ -43,8 +43,7 @@ class Engine(Motion):
             raise FloatingPointError(
                 "the bodies' motion is lost: a number is not finite, or nearly so"
             ) from error
-        self._mover.write_states(self._numbers)
-        self.space.moved()
+        self._moved()
 
     # -- pulls --------------------------------------------------------------------------------
 
@@ -57,7 +56,7 @@ class Engine(Motion):
     def pull(self, body: int, force: tuple[float, float], torque: float) -> None:
         """Let a force (x, y) [N] and a torque [N m] act on a body from now on."""
         self._mover.pull(body, [float(force[0]), float(force[1]), float(torque)])
-        self._mover.write_states(self._numbers)
+        self._moved()
 
     def step_under(self, acceleration: float) -> float:
         """Return how long a pull may act unchanged, seconds.

@@ -33,5 +33,4 @@ class Kinematics(Motion):
         time: at the start, seconds, for the contacts.
         """
         self._mover.drift(array("d", twist.tobytes()), duration, time, self._stops)
-        self._mover.write_states(self._numbers)
-        self.space.moved()
+        self._moved()

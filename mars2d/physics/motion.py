@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from array import array
 from collections.abc import Callable, Mapping
-from functools import wraps
+from functools import cached_property, wraps
 from typing import Any, Self, TypeVar, cast
 
 import numpy as np
@@ -39,7 +39,7 @@ def repeated(act: Act) -> Act:
 
 
 class Motion:
-    """The base of engines: robots first, then props. space: the bodies as sensors see them.
+    """The base of engines: robots first, then props. obstacles: their outlines.
 
     seen_velocity, seen_work: as `velocity`, and the work on all bodies since the start (6,), J, see
     `mars2d.record.energy.WORK`; at the last `look`, in memory that the next one writes again.
@@ -54,11 +54,29 @@ class Motion:
         self.rest()
         self._numbers = array("d", bytes(48 * self.count))
         self._state = np.frombuffer(self._numbers).reshape(-1, 6)
-        self._mover.write_states(self._numbers)
+        self._seen = False  # whether the space has the bodies where they are
         self._rates, self._worked = array("d", bytes(24 * self.count)), array("d", bytes(48))
         self.seen_velocity = locked(np.frombuffer(self._rates).reshape(3, -1))
         self.seen_work = locked(np.frombuffer(self._worked))
-        self.space = Space(scenario, self._state)
+        self.obstacles = tuple(surface.outline for surface in scenario.surfaces)
+        self._moved()
+
+    @cached_property
+    def _space(self) -> Space:
+        return Space([rigid.shape.pieces for rigid in self._scenario.bodies], self.obstacles)
+
+    @property
+    def space(self) -> Space:
+        """The bodies and obstacles as sensors see them, where they are now."""
+        if not self._seen:
+            self._seen = True
+            self._space.place(self._state)
+        return self._space
+
+    def _moved(self) -> None:
+        """Note where bodies are after they have moved."""
+        self._mover.write_states(self._numbers)
+        self._seen = False
 
     @property
     def pose(self) -> Float:
@@ -133,6 +151,6 @@ class Motion:
     def _resumed(self, scenario: Scenario, memories: list[Any]) -> Self:
         resumed = type(self)(scenario)
         resumed._mover.remember(memories)
-        resumed._mover.write_states(resumed._numbers)
+        resumed._moved()
         resumed._rested = memories
         return resumed

@@ -1,148 +1,192 @@
-"""Space: the walls and bodies of a world, as its sensors see them, in pymunk.
-
-Bodies are numbered robots first, then props; obstacles are -1, -2, ... Nothing here is stepped.
-"""
+"""Space: bodies and obstacles as sensors see them: what rays meet, and the nearest points."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cached_property
-from math import inf
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from math import inf, pi
+from typing import Any
 
 import numpy as np
-import pymunk
-from numpy.typing import NDArray
-from pymunk import batch
-from pymunk._chipmunk_cffi import ffi, lib
+from numpy.typing import ArrayLike, NDArray
 
-from mars2d.bodies.rigid import Rigid
-from mars2d.core.arithmetic import cosines_sines
-from mars2d.core.plane import WITHIN, Outline, Point, edges_of
-from mars2d.physics.islands.chipmunk import frame_of
-from mars2d.physics.rays import Rays
-from mars2d.scenario.scenario import Scenario
+from mars2d.core.arithmetic import cosines_sines, norms
+from mars2d.core.plane import WITHIN, Outline, Point, edges_of, up_to
+from mars2d.physics.islands import islands
 
 Float = NDArray[np.float64]
+Int = NDArray[np.int64]
 
-_ALL = 0xFFFFFFFF
+Parts = Sequence[tuple[Sequence[Point], float]]
+"""The parts of a body: convex polygons, counter-clockwise, or one point with a radius > 0."""
 
-POSE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
+Ring = Sequence[Point]
+"""Corners of a convex ring, counter-clockwise, or the ends of a single edge."""
 
-GOLDEN = (5**0.5 - 1) / 2
-"""The fractional parts of its multiples are scattered evenly from 0 to 1."""
+WIDE = 4.0
+"""Things so many times larger than the middle one are looked at by each ray."""
+
+AT_THE_END = 1e-9
+"""A surface as near to the end of a ray does not hide the end, metres."""
 
 
 class Space:
-    """Robots, props and obstacles as pymunk shapes, made when they are first looked at."""
+    """Moving bodies and fixed obstacles.
 
-    def __init__(self, scenario: Scenario, state: Float) -> None:
-        """Take the scenario, and the states (N, 6) of all bodies, which change as they move."""
-        self.obstacles = tuple(surface.outline for surface in scenario.surfaces)
-        self._rigids, self._robots = scenario.bodies, len(scenario.robots)
-        self._state = state
-        self._moved = self._rays_moved = True
-        self._filter = ffi.new("cpShapeFilter *", (0, _ALL, _ALL))
-        self._info = ffi.new("cpPointQueryInfo *")
+    A body is solid: a ray that starts in it has length 0. An obstacle is an outline: a ray that
+    starts in it goes on to its edge. Ends of edges belong to them, so that no ray slips through a
+    corner, and a ray along a wall meets its near end.
 
-    def moved(self) -> None:
-        """Note that bodies have moved: the next query finds them where they are."""
-        self._moved = self._rays_moved = True
+    >>> space = Space([], [[(1, -1), (1, 1)]])
+    >>> space.distances(np.zeros((3, 1)), [-0.1, 0, 3], 5.0, [0]).round(3).tolist()
+    [[1.005, 1.0, inf]]
+    """
 
-    # -- building ---------------------------------------------------------------------------
+    def __init__(self, bodies: Sequence[Parts], obstacles: Sequence[Outline]) -> None:
+        """Take the bodies' parts in their own frames, and the obstacles' outlines, metres.
 
-    @cached_property
-    def _space(self) -> pymunk.Space:
-        """The space, with all shapes."""
-        space = pymunk.Space()
-        self._bodies = [self._body(space, i, rigid) for i, rigid in enumerate(self._rigids)]
-        walls = [shape for outline in self.obstacles for shape in _walls(space, outline)]
-        space.add(*_scattered(walls))
-        self._poses = np.zeros((len(self._bodies) + 1 + len(self.obstacles), 3))
-        self._buffer = batch.Buffer()
-        self._frames = [np.frombuffer(frame_of(body._body)) for body in self._bodies]
-        return space
+        Body i has the number i, obstacle k the number -1 - k.
+        """
+        rings = [(ring, 0.0, -1 - k) for k, each in enumerate(obstacles) for ring in _rings(each)]
+        parts = [(points, radius, i) for i, body in enumerate(bodies) for points, radius in body]
+        fixed, self._moving = _things(rings, solid=False), _things(parts, solid=True)
+        self._caster = islands().Caster([fixed, self._moving])
+        fixed.place(np.zeros(6))
 
-    def _body(self, space: pymunk.Space, i: int, rigid: Rigid) -> pymunk.Body:
-        """Return a body in the space, with its shapes."""
-        body = pymunk.Body(1.0, 1.0)
-        space.add(body)
-        for vertices, radius in rigid.shape.pieces:
-            shape: pymunk.Shape
-            if len(vertices) == 1:
-                shape = pymunk.Circle(body, radius, vertices[0])
-            else:
-                shape = pymunk.Poly(body, vertices)
-            # A robot's sensors do not see itself.
-            shape.filter = pymunk.ShapeFilter(i + 1 if i < self._robots else 0)
-            space.add(shape)
-        return body
-
-    # -- what sensors ask -------------------------------------------------------------------
-
-    @property
-    def _seen(self) -> pymunk.Space:
-        """The space, with all shapes where their bodies are."""
-        space = self._space
-        if self._moved:
-            self._moved = False
-            self._poses[: len(self._bodies)] = self._state[:, :3]
-            self._buffer.set_float_buf(self._poses)
-            batch.set_space_bodies(space, POSE, self._buffer)
-            self._turn()
-            for body in self._bodies:
-                space.reindex_shapes_for_body(body)
-        return space
-
-    def _turn(self) -> None:
-        """Turn bodies by sines that do not depend on the C library, as pymunk's do."""
-        x, y, theta = self._poses[: len(self._bodies)].T
-        c, s = cosines_sines(theta)
-        rows = np.column_stack([c, s, -s, c, x, y])
-        for frame, row in zip(self._frames, rows, strict=True):
-            frame[:] = row
-
-    @cached_property
-    def _rays(self) -> Rays:
-        return Rays([rigid.shape.pieces for rigid in self._rigids], self.obstacles)
-
-    @property
-    def rays(self) -> Rays:
-        """What casts rays, with all bodies where they are."""
-        if self._rays_moved:
-            self._rays_moved = False
-            self._rays.place(self._state[:, :3].T)
-        return self._rays
+    def place(self, states: Float) -> None:
+        """Move the bodies to where they are, (N, 6): x, y [m], theta [rad], and any three more."""
+        if states.size:
+            self._moving.place(states.reshape(-1))
 
     def distance(self, point: Point, limit: float, ignore: int) -> float:
-        """Return the distance to the nearest surface, inf beyond `limit`; see Surroundings.
-
-        It is pymunk's `Space.point_query_nearest` without the objects that this makes.
-        """
-        space = self._seen._space
-        self._filter.group = ignore + 1
-        info = self._info
-        hit = lib.cpSpacePointQueryNearest(space, point, WITHIN * limit, self._filter[0], info)
-        return min(info.distance, limit) if hit else inf
+        """Return the distance to the nearest surface, inf beyond `limit`; see Surroundings."""
+        near = self._caster.nearby(*point, WITHIN * limit, ignore)
+        return min(float(min(near)[0]), limit) if near else inf
 
     def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
         """Yield the nearest point of each surface at most `limit` away; see Surroundings."""
-        own = pymunk.ShapeFilter(group=ignore + 1)
-        for info in self._seen.point_query(point, WITHIN * limit, own):
-            yield info.point.x, info.point.y
+        for _, x, y in self._caster.nearby(*point, WITHIN * limit, ignore):
+            yield x, y
+
+    def distances(
+        self, poses: Float, bearings: ArrayLike, reach: ArrayLike, ignore: ArrayLike
+    ) -> Float:
+        """Return the lengths of rays, (m, k) metres; inf for a ray that hits nothing.
+
+        poses: x, y [m], heading [rad] of the fans (3, m). bearings: those of their rays relative to
+        the heading, rad (k,). reach: the range of all rays, or of each (k,), metres. ignore: the
+        body that each fan does not see (m,), a negative number for none.
+        """
+        return self.sight(poses, bearings, reach, ignore, 0)[0]
+
+    def sight(
+        self,
+        poses: Float,
+        bearings: ArrayLike,
+        reach: ArrayLike,
+        ignore: ArrayLike,
+        nothing: int,
+    ) -> tuple[Float, Int]:
+        """Return the lengths of rays and the bodies that they hit, (m, k) each; see `distances`.
+
+        nothing: the value for a ray that hits nothing. Of equally distant bodies, the one with the
+        lowest number counts.
+        """
+        order, *rays = _table(np.asarray(bearings, dtype=float).tobytes())
+        far, blind = np.asarray(reach, dtype=float), np.array(ignore, dtype=float)
+        lengths, owners = np.full((2, len(blind), len(order)), inf)
+        owners[:] = nothing
+        start = np.array(poses, dtype=float, order="C").reshape(-1)
+        limit = WITHIN * float(far.max(initial=0.0))
+        if lengths.size:
+            found = lengths.reshape(-1), owners.reshape(-1)
+            self._caster.scan(start, rays, limit, blind, np.empty((2, len(order))), found)
+        seen, met = np.empty_like(lengths), np.empty(lengths.shape, dtype=int)
+        seen[:, order], met[:, order] = lengths, owners
+        seen = up_to(seen, far)
+        met[np.isinf(seen)] = nothing
+        return seen, met
+
+    def length(self, start: Point, angle: float, reach: float, ignore: int) -> float:
+        """Return the length of one ray, metres; inf if it hits nothing."""
+        found = np.full((2, 1), inf)
+        pose, blind = np.array([*start, angle]), np.array([float(ignore)])
+        self._caster.scan(pose, _AHEAD, WITHIN * reach, blind, np.empty((2, 1)), found)
+        length = float(found[0, 0])
+        return min(length, reach) if length <= WITHIN * reach else inf
+
+    def hidden(
+        self, start: Point, points: Float, bodies: ArrayLike, ignore: int
+    ) -> NDArray[np.bool_]:
+        """Return whether something stands before points (k, 2); see Surroundings."""
+        points = np.asarray(points, dtype=float).reshape(-1, 2)
+        lengths, owners = np.full((2, len(points)), inf)
+        across = np.array(points.T, order="C").reshape(-1)
+        self._caster.reach_points(*start, across, ignore, np.empty((3, 1)), (lengths, owners))
+        apart = norms(points[:, 0] - start[0], points[:, 1] - start[1])
+        return np.asarray((apart - lengths > AT_THE_END) & (owners != bodies))
 
 
-def _walls(space: pymunk.Space, outline: Outline) -> list[pymunk.Shape]:
-    """Return the shapes of an obstacle, on a body of its own in the space."""
-    body = pymunk.Body(body_type=pymunk.Body.STATIC)
-    space.add(body)
-    return [pymunk.Segment(body, a, b, 0.0) for a, b in edges_of(outline)]
+def _things(parts: Sequence[tuple[Ring, float, int]], *, solid: bool) -> Any:
+    """Return parts for the caster: corners of a ring, or one point and a radius > 0; and owners."""
+    rings = [np.array(points, dtype=float).reshape(-1, 2) for points, _, _ in parts]
+    boxes = [(ring.min(axis=0), ring.max(axis=0)) for ring in rings]
+    radius = np.array(
+        [
+            radius or norms(*(high - low)) / 2
+            for (_, radius, _), (low, high) in zip(parts, boxes, strict=True)
+        ]
+    )
+    wide = radius > WIDE * np.median(radius) if len(parts) else radius > 0.0
+    order = np.argsort(~wide, kind="stable")
+    rings, boxes = [rings[k] for k in order], [boxes[k] for k in order]
+    owner = np.array([parts[k][2] for k in order], dtype=float)
+    # A single edge has two ends, but is one edge.
+    edges = np.array([{1: 0, 2: 1}.get(len(ring), len(ring)) for ring in rings], dtype=int)
+    starts = [ring[:many] for ring, many in zip(rings, edges, strict=True)]
+    ends = [np.roll(ring, -1, axis=0)[:many] for ring, many in zip(rings, edges, strict=True)]
+    middles = [(low + high) / 2 for low, high in boxes]
+    local = np.vstack([np.empty((0, 2)), *middles, *starts, *ends]).T.copy()
+    of_edge = np.repeat(owner, edges)
+    bodies = np.maximum(np.concatenate([owner, of_edge, of_edge]), 0.0)
+    n, corners = len(parts), len(parts) + len(of_edge)
+    x, y = np.empty(local.shape)
+    return islands().Things(
+        solid,
+        int(wide.sum()),
+        float(radius[~wide].max(initial=0.0)),
+        (owner, np.cumsum(edges, dtype=float) - edges, edges.astype(float), radius[order]),
+        (bodies, *local, x, y, x[:n], y[:n], x[n:corners], y[n:corners], x[corners:], y[corners:]),
+    )
 
 
-def _scattered(shapes: list[pymunk.Shape]) -> list[pymunk.Shape]:
-    """Return shapes in a fixed order in which neighbours lie far apart.
+_AHEAD = np.zeros(1), np.ones(1), np.zeros(1)
+"""The table of a single bearing, 0: its diamond angle, cosine and sine."""
 
-    The engine sorts shapes into a tree as they come. If neighbours follow one another, the tree is
-    lopsided, and queries of it are up to twice as slow.
+
+@lru_cache(maxsize=16)
+def _table(bearings: bytes) -> tuple[Int, Float, Float, Float]:
+    """Return the order of bearings, and in it their diamond angles, cosines and sines (k,).
+
+    bearings: the bytes of floats.
     """
-    order = sorted(range(len(shapes)), key=lambda k: k * GOLDEN % 1.0)
-    return [shapes[k] for k in order]
+    c, s = cosines_sines(np.frombuffer(bearings))
+    way = s / (np.abs(c) + np.abs(s))
+    angle = np.where(c < 0, 2.0 - way, np.where(way < 0, 4.0 + way, way))
+    order = np.argsort(angle, kind="stable")
+    return order, angle[order], c[order], s[order]
+
+
+def _rings(outline: Outline) -> list[Ring]:
+    """Return a convex outline as one ring, counter-clockwise; any other one as single edges."""
+    if len(outline) > 2:
+        ring = np.array(outline, dtype=float)
+        edge = np.roll(ring, -1, axis=0) - ring
+        after = np.roll(edge, -1, axis=0)
+        turn = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
+        bend = np.arctan2(turn, (edge * after).sum(axis=1))
+        if (turn > 0).all() and bend.sum() < 3 * pi:
+            return [outline]
+        if (turn < 0).all() and bend.sum() > -3 * pi:
+            return [outline[::-1]]
+    return [*edges_of(outline)]

@@ -25,7 +25,7 @@ from mars2d.bodies.rigid import Rigid, Surface
 from mars2d.core.arithmetic import cosines_sines, norm
 from mars2d.core.materials import GRAVITY, MATERIALS, RULES, material_of
 from mars2d.physics import settings
-from mars2d.physics.islands import chipmunk, islands
+from mars2d.physics.islands import islands, library
 from mars2d.physics.walls import Wall, walls_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Obstacle, Scenario
@@ -305,16 +305,16 @@ def _translated(
     world_first = attached.b < 0  # it is a that turns against the world
     match constraint:
         case MaxDistance(length=length):
-            return chipmunk.SLIDE, False, (0.0, float(length) - settings.ROPE_TOLERANCE, 0.0)
+            return library.SLIDE, False, (0.0, float(length) - settings.ROPE_TOLERANCE, 0.0)
         case FixedDistance(length=length):
-            return chipmunk.PIN, False, (float(length), 0.0, 0.0)
+            return library.PIN, False, (float(length), 0.0, 0.0)
         case SpringDamper(length=length, stiffness=k, damping=c):
-            return chipmunk.DAMPED_SPRING, False, (float(length), float(k), float(c))
+            return library.DAMPED_SPRING, False, (float(length), float(k), float(c))
         case Pin():
-            return chipmunk.PIVOT, False, (0.0, 0.0, 0.0)
+            return library.PIVOT, False, (0.0, 0.0, 0.0)
         case TurningRange(least=least, largest=largest):
             numbers = float(turned + least), float(turned + largest), 0.0
-            return chipmunk.ROTARY_LIMIT, world_first, numbers
+            return library.ROTARY_LIMIT, world_first, numbers
         case TurningSpring(stiffness=k, damping=c):
-            return chipmunk.ROTARY_SPRING, world_first, (float(-turned), float(k), float(c))
+            return library.ROTARY_SPRING, world_first, (float(-turned), float(k), float(c))
     raise TypeError(f"{constraint!r} is unknown to the physics")

@@ -106,9 +106,19 @@ def walls_of(obstacles: tuple[tuple[Outline, Surface, bool], ...]) -> tuple[Wall
         for k, (outline, surface, _) in enumerate(obstacles)
         for ends in edges_of(outline)
     ]
+    first: dict[tuple[Point, Point, int], Edge] = {}
+    for edge in edges:  # of those in one place, solid on the same side, the first counts
+        first.setdefault(_place(edge), edge)
+    edges = [*first.values()]
     straight = [wall for group in _in_line(edges) for wall in _joined(edges, group)]
     meetings = _meetings([(wall.start, wall.end) for wall in straight])
     return tuple(_met(wall, straight, meetings[k]) for k, wall in enumerate(straight))
+
+
+def _place(edge: Edge) -> tuple[Point, Point, int]:
+    """Return the ends of an edge in order, and on which side of the way between them is a solid."""
+    start, end = sorted((edge.start, edge.end))
+    return start, end, edge.solid if start == edge.start else -edge.solid
 
 
 def _solid_side(outline: Outline) -> int:

@@ -48,12 +48,10 @@ def _replaced(
     described = (scenario, simulation.declared, *scenario.robots, *drives, *parts)
     for part in (*described, *scenario.addons):  # frozen
         yield part, part
-    engine = simulation.engine.fork()
     yield simulation.recorder, recorder
     yield simulation.history, History(recorder)
     yield simulation.storage, None
-    yield simulation.engine, engine
-    yield simulation.engine.space, engine.space
+    yield simulation.engine, simulation.engine.fork()
     yield simulation.operator.log, [*simulation.operator.log]
     if simulation.watch is not None:
         yield simulation.watch, None

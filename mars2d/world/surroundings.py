@@ -13,7 +13,9 @@ from mars2d.addons.base import Addon, Color
 from mars2d.bodies.colors import OBSTACLE, prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
+from mars2d.core.through import through
 from mars2d.core.usercode import called
+from mars2d.physics.space import Space
 from mars2d.sensors.base import NOTHING
 from mars2d.world.state import Addons, State
 
@@ -33,34 +35,25 @@ class Around:
 
     def renew(self) -> None:
         """Drop all caches, after bodies, obstacles or add-ons were changed."""
-        self._space = self._world.engine.space
         for name in ("_colors", "_addons"):
             vars(self).pop(name, None)
 
     @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
-        return self._world.time
+    def _space(self) -> Space:
+        return self._world.engine.space
 
-    @property
-    def sampling_time(self) -> float:
-        """The time between control steps, seconds."""
-        return self._world.scenario.sampling_time
-
-    @property
-    def pose(self) -> Float:
-        """The poses of all robots, (3, n)."""
-        return self._world.pose
-
-    @property
-    def prop_pose(self) -> Float:
-        """The poses of all props, (3, p)."""
-        return self._world.prop_pose
-
-    @property
-    def driven(self) -> Sequence[tuple[float, Float]]:
-        """The twists that the drives asked for in the last control step."""
-        return self._world.driven
+    time: float = through("_world.time")
+    """The simulated time, seconds."""
+    sampling_time: float = through("_world.sampling_time")
+    """The time between control steps, seconds."""
+    pose: Float = through("_world.pose")
+    """The poses of all robots, (3, n)."""
+    prop_pose: Float = through("_world.prop_pose")
+    """The poses of all props, (3, p)."""
+    driven: Sequence[tuple[float, Float]] = through("_world.driven")
+    """The twists that the drives asked for in the last control step."""
+    addons: Addons = through("_world.addons")
+    """The add-ons by name, as ``world.addons``."""
 
     # -- rays and points -------------------------------------------------------------------
 
@@ -78,7 +71,7 @@ class Around:
         """Return the length of a ray to the first surface, metres; inf if none is hit."""
         _check_look("start", start, "length", length)
         _check_all("angle", angle)
-        return self._space.rays.length(start, angle, length, ignore)
+        return self._space.length(start, angle, length, ignore)
 
     def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
         """Return the lengths of rays at angles (k,), metres; inf where nothing is hit."""
@@ -94,20 +87,20 @@ class Around:
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
         """Return the lengths (m, k) of rays from poses (3, m) at bearings (k,), metres."""
         _check_fans(poses, bearings, length)
-        return self._space.rays.distances(poses, bearings, length, ignore)
+        return self._space.distances(poses, bearings, length, ignore)
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
         """Return the lengths of rays as `scans`, and the body that each hits, (m, k)."""
         _check_fans(poses, bearings, length)
-        return self._space.rays.sight(poses, bearings, length, ignore, NOTHING)
+        return self._space.sight(poses, bearings, length, ignore, NOTHING)
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:
         """Return whether something stands between `start` and points (k, 2)."""
-        return self._space.rays.hidden(start, points, bodies, ignore)
+        return self._space.hidden(start, points, bodies, ignore)
 
     # -- looks -------------------------------------------------------------------------------
 
@@ -125,11 +118,6 @@ class Around:
     @cached_property
     def _addons(self) -> tuple[Addon, ...]:
         return tuple(vars(self._world.addons).values())
-
-    @property
-    def addons(self) -> Addons:
-        """The add-ons by name, as ``world.addons``."""
-        return self._world.addons
 
     @property
     def beacons(self) -> Mapping[str, Point]:

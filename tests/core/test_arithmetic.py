@@ -110,7 +110,7 @@ LIBRARY = {
 """Functions of math and numpy that round as a processor or a library does."""
 
 ALLOWED = {
-    ("physics/rays.py", "arctan2"),  # whether an outline is convex
+    ("physics/space.py", "arctan2"),  # whether an outline is convex
     ("core/plane.py", "log10"),  # how to divide an axis
     ("addons/estimate.py", "log"),  # how large an ellipse is drawn
     ("scenario/parameters.py", "log10"),  # how many digits a slider shows

@@ -91,7 +91,7 @@ def test_a_wheel_of_the_source_distribution_brings_the_engine_compiled(project, 
     assert not list((project / "mars2d").rglob("_compiled.*"))  # the sources are left as they are
     assert engine_of(site).startswith("ok  engine      compiled")
 
-    source = site / "mars2d" / "physics" / "islands" / "chipmunk.pxi"
+    source = site / "mars2d" / "physics" / "islands" / "library.pxi"
     source.write_text(source.read_text() + "# changed\n")
     assert "its sources have changed" in engine_of(site)
 

@@ -1,4 +1,4 @@
-"""The structs of pymunk's engine: do they have their numbers where `chipmunk` expects them?"""
+"""The structs of pymunk's engine: do they have their numbers where `library` expects them?"""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import chain
 
 from pymunk._chipmunk_cffi import ffi, lib
 
-from mars2d.physics.islands import chipmunk
+from mars2d.physics.islands import chipmunk, library
 from mars2d.physics.islands.arithmetic import cosine_sine, exponential
 
 STEP = 0.0625
@@ -29,7 +29,7 @@ def misplaced() -> list[str]:
 Places = dict[int, tuple[float, ...]]
 
 
-def _of_bodies() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
+def _of_bodies() -> Iterator[tuple[str, library.Handle, Places]]:
     """Yield a body, and the numbers that it should have from some places on."""
     body = lib.cpBodyNew(2.0, 3.0)
     lib.cpBodySetCenterOfGravity(body, (0.25, -0.5))
@@ -41,18 +41,18 @@ def _of_bodies() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
         "bodies have their poses",
         body,
         {
-            chipmunk.LEAD: (0.25, -0.5),
-            chipmunk.CENTER: (4 + 0.25 * c + 0.5 * s, 5 + 0.25 * s - 0.5 * c),
-            chipmunk.FAST: (6.0, 7.0),
-            chipmunk.ANGLE: (0.75, 8.0),
-            chipmunk.TURN: (c, s, -s, c, 4.0, 5.0),
-            chipmunk.BIAS: (0.0, 0.0, 0.0),
+            library.LEAD: (0.25, -0.5),
+            library.CENTER: (4 + 0.25 * c + 0.5 * s, 5 + 0.25 * s - 0.5 * c),
+            library.FAST: (6.0, 7.0),
+            library.ANGLE: (0.75, 8.0),
+            library.TURN: (c, s, -s, c, 4.0, 5.0),
+            library.BIAS: (0.0, 0.0, 0.0),
         },
     )
     chipmunk.free_body(body)
 
 
-def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
+def _of_joints() -> Iterator[tuple[str, library.Handle, Places]]:
     """Yield joints that have acted on a body for a step, and the numbers that they should have."""
     space, body = chipmunk.new_space(0.0), chipmunk.new_body(2.0, 3.0, 0)
     chipmunk.add_body(space, body)
@@ -60,14 +60,14 @@ def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
     rest = (0.125, 4.0, 1.5)
     impulses, damping = "joints have their impulses", "springs have their damping"
     tried: tuple[tuple[str, int, tuple[float, float], Places], ...] = (
-        (impulses, chipmunk.PIVOT, (0.0, 0.0), {chipmunk.PIVOT_IMPULSE: (-3.0, 4.0)}),
-        (impulses, chipmunk.GEAR, (0.0, 1.0), {chipmunk.GEAR_IMPULSE: (-12.0,)}),
-        (impulses, chipmunk.GROOVE, (0.0, 1.0), {chipmunk.GROOVE_IMPULSE: (-3.0, 0.0)}),
-        (damping, chipmunk.DAMPED_SPRING, rest[:2],
-         {chipmunk.REST: rest, chipmunk.LOST: (lost[0],), chipmunk.EFFECTIVE_MASS: (2.0,)}),
-        (damping, chipmunk.ROTARY_SPRING, rest[:2],
-         {chipmunk.REST_ANGLE: rest, chipmunk.LOST_TURNING: (lost[1],),
-          chipmunk.EFFECTIVE_MOMENT: (3.0,)}),
+        (impulses, library.PIVOT, (0.0, 0.0), {library.PIVOT_IMPULSE: (-3.0, 4.0)}),
+        (impulses, library.GEAR, (0.0, 1.0), {library.GEAR_IMPULSE: (-12.0,)}),
+        (impulses, library.GROOVE, (0.0, 1.0), {library.GROOVE_IMPULSE: (-3.0, 0.0)}),
+        (damping, library.DAMPED_SPRING, rest[:2],
+         {library.REST: rest, library.LOST: (lost[0],), library.EFFECTIVE_MASS: (2.0,)}),
+        (damping, library.ROTARY_SPRING, rest[:2],
+         {library.REST_ANGLE: rest, library.LOST_TURNING: (lost[1],),
+          library.EFFECTIVE_MOMENT: (3.0,)}),
     )  # fmt: skip
     for what, kind, numbers, wanted in tried:
         chipmunk.put(body, 0.0, 0.0, 0.0)
@@ -77,9 +77,9 @@ def _of_joints() -> Iterator[tuple[str, chipmunk.Handle, Places]]:
             kind, None, chipmunk.ground_of(space), body, ends, *numbers, 0.0
         )
         chipmunk.set_max_bias(joint, 0.0)
-        if kind == chipmunk.DAMPED_SPRING:  # as the engine damps, not as we do
+        if kind == library.DAMPED_SPRING:  # as the engine damps, not as we do
             lib.cpDampedSpringSetDamping(joint, rest[2])
-        elif kind == chipmunk.ROTARY_SPRING:
+        elif kind == library.ROTARY_SPRING:
             lib.cpDampedRotarySpringSetDamping(joint, rest[2])
         chipmunk.add_joint(space, joint)
         chipmunk.step(space, STEP, 0.5)

@@ -15,6 +15,7 @@ import mars2d
 from mars2d import Scenario, World
 from mars2d.core.errors import InputError
 from mars2d.physics import islands
+from mars2d.physics.islands import library
 from tests.islands import plainly
 from tests.physics import structs
 
@@ -83,8 +84,8 @@ def test_a_change_of_any_of_its_sources_is_noticed(copied, monkeypatch):
     before = islands.fingerprint()
     monkeypatch.setattr(islands.build, "HERE", copied)
     assert islands.fingerprint() == before
-    names = [*islands.build.MODULES, "build", "chipmunk"]
-    for source in [*(copied / f"{name}.py" for name in names), copied / "chipmunk.pxi"]:
+    names = [*islands.build.MODULES, "build"]
+    for source in [*(copied / f"{name}.py" for name in names), copied / "library.pxi"]:
         text = source.read_text(encoding="utf-8")
         source.write_text(text + "# changed\n", encoding="utf-8")
         assert islands.fingerprint() != before, source
@@ -128,11 +129,15 @@ def test_a_pymunk_whose_structs_are_unknown_is_refused(monkeypatch):
 
 
 def test_all_functions_that_it_calls_are_checked():
-    """Each that stands in the C of chipmunk.pxi, in the order in which it takes addresses."""
+    """Each that stands in the C, in the order in which it takes addresses; `owned` counts kinds."""
     names = [name for name, _ in islands.functions()]
     assert len(names) == len(set(names)) > 60
     called = re.findall(r"\bengine\.(cp\w+)", islands.build.joined())
-    assert set(called) == set(names)
+    first = names.index("cpPivotJointAlloc")
+    assert len(library._KINDS) - 1 == library.ROTARY_SPRING
+    made = names[first : first + len(library._KINDS)]
+    assert made == [f"cp{kind}Alloc" for kind in library._KINDS]
+    assert {*called, *made} == set(names)
 
 
 # -- numbers and signals --------------------------------------------------------------------

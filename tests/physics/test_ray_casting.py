@@ -1,4 +1,4 @@
-"""Fans of rays: they go as far as pymunk's, and a ray alone has the bits of one among many."""
+"""Rays and nearest points are pymunk's, and a ray alone has the bits of one among many."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.core.plane import edges_of
 from mars2d.geometry.shapes import Compound, Disc, Polygon
-from mars2d.physics.rays import Rays
+from mars2d.physics.space import Space
 from mars2d.sensors import LineCamera, RangeFinder, SonarRing
 from tests.cases import each_case
 
@@ -53,13 +53,13 @@ def some_scene(rng):
 
 
 def fans_of(bodies, poses, outlines):
-    fans = Rays(bodies, outlines)
-    fans.place(poses)
+    fans = Space(bodies, outlines)
+    fans.place(np.vstack([poses, 0 * poses]).T.copy())
     return fans
 
 
-def engines(bodies, poses, outlines):
-    """A function that returns the length of a ray by pymunk's method in the same scene."""
+def engines_space(bodies, poses, outlines):
+    """The same scene in pymunk."""
     space = pymunk.Space()
     for i, (pieces, (x, y, theta)) in enumerate(zip(bodies, poses.T.tolist(), strict=True)):
         body = pymunk.Body(1.0, 1.0)
@@ -72,6 +72,13 @@ def engines(bodies, poses, outlines):
             space.add(shape)
     for outline in outlines:
         space.add(*(pymunk.Segment(space.static_body, a, b, 0.0) for a, b in edges_of(outline)))
+
+    return space
+
+
+def engines(bodies, poses, outlines):
+    """A function that returns the length of a ray by pymunk's method in the same scene."""
+    space = engines_space(bodies, poses, outlines)
 
     def length(start, angle, reach, ignore):
         end = start[0] + reach * cos(angle), start[1] + reach * sin(angle)
@@ -120,6 +127,26 @@ def test_fans_are_the_engines_rays():
     assert starts_within > 20
 
 
+def test_nearest_points_are_the_engines():
+    rng = np.random.default_rng(7)
+    count = within = 0
+    for _ in range(100):
+        bodies, poses, _ = scene = some_scene(rng)
+        space, engine = fans_of(*scene), engines_space(*scene)
+        for point in [*rng.uniform(-4, 4, (5, 2)).tolist(), *(poses[:2].T + 0.01).tolist()]:
+            own, limit = int(rng.integers(-1, len(bodies))), rng.uniform(0.1, 6)
+            wanted = engine.point_query(tuple(point), limit, pymunk.ShapeFilter(own + 1))
+            found = list(space.nearby(point, limit, own))
+            assert sorted(found) == [
+                pytest.approx(each, abs=EXACT) for each in sorted(info.point for info in wanted)
+            ]
+            nearest = min((info.distance for info in wanted), default=inf)
+            assert space.distance(point, limit, own) == pytest.approx(nearest, abs=EXACT)
+            count, within = count + len(found), within + (nearest < 0)
+    assert count > 2000
+    assert within > 100
+
+
 def test_a_ray_hits_the_body_that_alone_is_as_far():
     rng = np.random.default_rng(1)
     for _ in range(30):
@@ -131,7 +158,7 @@ def test_a_ray_hits_the_body_that_alone_is_as_far():
         assert np.array_equal(hit == NOTHING, np.isinf(distances))
         for number in np.unique(hit[hit != NOTHING]).tolist():
             if number < 0:
-                alone = Rays([], [outlines[-1 - number]])
+                alone = Space([], [outlines[-1 - number]])
             else:
                 alone = fans_of([bodies[number]], poses[:, number : number + 1], [])
             mine = alone.distances(look, bearings, 6.0, [-1])
@@ -145,7 +172,7 @@ def test_of_bodies_equally_far_the_lowest_number_is_hit():
     look = np.zeros((3, 1))
     assert fans.sight(look, [0.0], 5.0, [-1], NOTHING)[1].tolist() == [[0]]
     assert fans.sight(look, [0.0], 5.0, [0], NOTHING)[1].tolist() == [[1]]
-    walls = Rays([], [[(2, -1), (2, 1)], [(2, -1), (2, 1)]])
+    walls = Space([], [[(2, -1), (2, 1)], [(2, -1), (2, 1)]])
     assert walls.sight(look, [0.0], 5.0, [-1], NOTHING)[1].tolist() == [[-2]]
 
 
@@ -161,7 +188,7 @@ def test_a_ray_that_grazes_an_edge_is_as_long_as_exact_arithmetic_says():
             ends = [tuple(map(float, a)), tuple(map(float, b))]
             target = a + rng.uniform(0.01, 0.99) * (b - a)
             bearing = float(np.arctan2(target[1] - y, target[0] - x))
-            found = Rays([], [ends]).distances(np.array([[x], [y], [0.0]]), [bearing], 99.0, [-1])
+            found = Space([], [ends]).distances(np.array([[x], [y], [0.0]]), [bearing], 99.0, [-1])
             c, s = Fraction(float(np.cos(bearing))), Fraction(float(np.sin(bearing)))
             ax, ay = (
                 Fraction(p) - Fraction(float(q)) for p, q in zip(ends[0], (x, y), strict=True)
@@ -178,7 +205,7 @@ def test_a_ray_that_grazes_an_edge_is_as_long_as_exact_arithmetic_says():
 def test_a_ray_along_the_long_side_of_a_box_that_just_touches_it_goes_to_its_corner():
     box = [(1.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0)]
     for turn in (1, -1):
-        fans = Rays([], [box[::turn]])
+        fans = Space([], [box[::turn]])
         looks = np.array([[0.0, 6, 2, 2, 4], [0.0, 1, 0, 0.5, 1], [0.0, pi, 0, 0, 0]])
         found = fans.distances(looks, [0.0, pi], 9.0, [-1] * 5)
         assert found[0].tolist() == [1.0, inf]
@@ -190,16 +217,16 @@ def test_a_ray_along_the_long_side_of_a_box_that_just_touches_it_goes_to_its_cor
 
 def test_there_may_be_nothing_to_see_and_no_ray_to_see_it():
     look = np.zeros((3, 2))
-    assert Rays([], []).distances(look, [0.0, 1.0], 5.0, [-1, -1]).tolist() == [[inf] * 2] * 2
-    assert Rays([], [[(1, -1), (1, 1)]]).distances(look, [], 5.0, [-1, -1]).shape == (2, 0)
-    assert Rays([], [[(1, -1), (1, 1)]]).distances(look[:, :0], [0.0], 5.0, []).shape == (0, 1)
+    assert Space([], []).distances(look, [0.0, 1.0], 5.0, [-1, -1]).tolist() == [[inf] * 2] * 2
+    assert Space([], [[(1, -1), (1, 1)]]).distances(look, [], 5.0, [-1, -1]).shape == (2, 0)
+    assert Space([], [[(1, -1), (1, 1)]]).distances(look[:, :0], [0.0], 5.0, []).shape == (0, 1)
 
 
 @each_case("far", [1e3, 1e5])
 def test_far_from_the_origin_no_ray_slips_through_a_corner(far):
     rng = np.random.default_rng(0)
     room = [(far + x, far + y) for x, y in [(0, 0), (9.1, 0.3), (8.7, 7.9), (4.0, 3.0), (0.2, 8)]]
-    fans = Rays([], [room])
+    fans = Space([], [room])
     for start in rng.uniform(1, 2.5, (200, 2)) + far:
         aimed = [np.arctan2(y - start[1], x - start[0]) for x, y in room]
         bearings = np.concatenate([np.nextafter(aimed, side) for side in (-9, 9)] + [aimed])

@@ -628,6 +628,17 @@ def test_what_adjoining_solids_have_in_common_is_left_out():
     assert ends_of(walls_of(parts(low, low))) == ends_of(walls_of(parts(low)))
 
 
+def test_walls_in_one_place_are_looked_at_once(monkeypatch):
+    counts = []
+    meetings = walls._meetings
+    monkeypatch.setattr(
+        walls, "_meetings", lambda lines: counts.append(len(lines)) or meetings(lines)
+    )
+    box = [(0, 0), (2, 0), (2, 1), (0, 1)]
+    assert walls_of(parts(*[box, box[::-1]] * 1500)) == walls_of(parts(box))
+    assert max(counts) == 4
+
+
 def test_the_workspace_is_no_solid():
     room, block = [(0, 0), (4, 0), (4, 3), (0, 3)], [(0, 0), (1, 0), (1, 1), (0, 1)]
     inside = (*parts(block), (tuple(room), (1.0, 1.0), False))

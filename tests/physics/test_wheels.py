@@ -244,8 +244,7 @@ def test_at_a_smooth_wall_it_stops_if_its_wheels_bear_what_wall_and_motors_do(
     make = alone(wheels, sampling_time, [[(-9, 0.15), (99, 0.15)]], pose=(0, 0, angle))
     poses, _ = way_of(make, ((speed, 0), 2.0, (0, 0)), ((speed, 0), 2.0, (0, 0)))
     way = 0.0 if stops else 2.0 * speed * cos(angle)
-    near = 5e-4 if stops else 1e-6  # so close to its grip, it slips a little as the solver rests
-    assert poses[1] - poses[0] == pytest.approx([way, 0, 0], abs=near)
+    assert poses[1] - poses[0] == pytest.approx([way, 0, 0], abs=1e-6)
 
 
 @TIMES

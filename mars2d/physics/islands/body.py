@@ -6,8 +6,8 @@ from typing import Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.chipmunk import Handle
 from mars2d.physics.islands.drive import DrivenBody
+from mars2d.physics.islands.library import Handle
 from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.state import Progress, State
 

@@ -1,7 +1,7 @@
 """How the islands are compiled: by `pip install`, through the hook in ``hatch_build.py``.
 
 The modules are joined into one, in the order in which they import each other, with Cython in the
-place of `shadow`, and ``chipmunk.pxi`` in that of `chipmunk`. So what runs in Python where there is
+place of `shadow`, and ``library.pxi`` in that of `library`. So what runs in Python where there is
 no compiler and what runs as C where there is one are the same lines.
 """
 
@@ -17,11 +17,14 @@ from pathlib import Path
 HERE = Path(__file__).parent
 
 MODULES = (
-    "arithmetic", "piece", "state", "rigid", "drive", "body", "floor", "flush", "seams", "surfaces",
-    "thrust", "pair", "tie", "solver", "contacts", "impact", "island", "neighbours", "mover",
-    "rays",
+    "arithmetic", "chipmunk", "piece", "state", "rigid", "drive", "body", "floor", "flush", "seams",
+    "surfaces", "thrust", "pair", "tie", "solver", "contacts", "impact", "island", "neighbours",
+    "mover", "rays",
 )  # fmt: skip
 """The modules, each after those that it imports."""
+
+ALIASES = r"^(\w+(?:, \w+)*) = (lib\.cp\w+(?:, lib\.cp\w+)*)$"
+"""Lines in which `chipmunk` only gives names to the engine's functions."""
 
 FUNCTIONS = """
 void(Handle, double): SpaceStep SpaceSetCurrentTimeStep SpaceSetCollisionSlop
@@ -84,7 +87,7 @@ EXACTLY = ["/O2", "/fp:precise", "/w"] if sys.platform == "win32" else [
 
 def fingerprint() -> str:
     """Return a key that tells whether the islands were compiled from the present sources."""
-    names = [*(f"{name}.py" for name in MODULES), "build.py", "chipmunk.py", "chipmunk.pxi"]
+    names = [*(f"{name}.py" for name in MODULES), "build.py", "library.pxi"]
     return hashlib.sha256(b"\0".join((HERE / name).read_bytes() for name in names)).hexdigest()
 
 
@@ -108,7 +111,7 @@ def struct() -> str:
 def in_c() -> dict[str, str]:
     """Return what is called in C by the names that `chipmunk` only gives to engine's functions."""
     text = (HERE / "chipmunk.py").read_text(encoding="utf-8")
-    found = re.findall(r"^(\w+(?:, \w+)*) = (lib\.cp\w+(?:, lib\.cp\w+)*)$", text, flags=re.M)
+    found = re.findall(ALIASES, text, flags=re.M)
     return {
         name: function.replace("lib.", "engine.")
         for names, functions in found
@@ -118,7 +121,7 @@ def in_c() -> dict[str, str]:
 
 def joined() -> str:
     """Return the modules as one for Cython."""
-    engine = (HERE / "chipmunk.pxi").read_text("utf-8")
+    engine = (HERE / "library.pxi").read_text("utf-8")
     engine = engine.replace("cdef Engine engine", f"{struct()}\ncdef Engine engine")
     parts = [HEAD.format(fingerprint=fingerprint()), engine]
     named = in_c()
@@ -127,6 +130,9 @@ def joined() -> str:
         text = re.sub(r"^from [^\n]+ import (\([^)]*\)|[^\n]*)\n", "", text, flags=re.M)
         text = re.sub(r"\bchipmunk\.(\w+)", lambda found: named.get(found[1], found[1]), text)
         text = re.sub(r"\bcython\.Doubles\b", "cython.double[::1]", text)
+        text = re.sub(ALIASES, "", text, flags=re.M)
+        text = re.sub(r"\blib\.cp", "engine.cp", text)
+        text = re.sub(r"^@callback\(.*\)$", "@cython.exceptval(check=False)", text, flags=re.M)
         parts.append(f"# -- {name}.py\n{text}")
     return "\n".join(parts)
 

@@ -11,7 +11,15 @@ from __future__ import annotations
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.chipmunk import Arbiter, Handle, Vector
+from mars2d.physics.islands.library import (
+    JOINED,
+    Arbiter,
+    Handle,
+    Vector,
+    address_of,
+    callback,
+    thing_at,
+)
 from mars2d.physics.islands.piece import Corner, Edge, Piece
 
 PARALLEL = 0.9999
@@ -94,7 +102,7 @@ class Flush:
         Where three corners meet, faces of both may ask for it. Then it is left out, since both
         bodies are held by the third.
         """
-        other: Flush = chipmunk.flush_of(arbiter, True)
+        other: Flush = flush_of(arbiter, True)
         if arbiter.count == 0:
             return
         asks: cython.bint = self.look(arbiter, other.piece, False)
@@ -200,3 +208,31 @@ class Flush:
             chipmunk.put_point(arbiter, self.px, self.py, x, y)
         else:
             chipmunk.put_point(arbiter, x, y, self.px, self.py)
+
+
+@cython.cfunc
+def show(shape: Handle, flush: Flush) -> cython.void:
+    """Say what is to straighten contacts with a shape of a body, once it is joined."""
+    chipmunk.set_data(shape, address_of(flush))
+
+
+@cython.cfunc
+def join(shape: Handle) -> cython.void:
+    """Let contacts with a shape of a body be straightened."""
+    chipmunk.set_type(shape, JOINED)
+
+
+@cython.cfunc
+def flush_of(arbiter: Arbiter, second: cython.bint) -> Flush:
+    """Return what was shown of a contact's first or second shape."""
+    flush: Flush = thing_at(chipmunk.data_of(chipmunk.shape_of(arbiter, second)))
+    return flush
+
+
+@cython.cfunc
+@callback("void(cpArbiter *, cpSpace *, void *)")
+def straighten_contact(arbiter: Arbiter, _space: Handle, _data: Handle) -> cython.void:
+    """Let the pieces of two bodies straighten a contact before it is solved."""
+    if chipmunk.first_of(arbiter) >= 0 and chipmunk.second_of(arbiter) >= 0:
+        flush: Flush = flush_of(arbiter, False)
+        flush.straighten(arbiter)

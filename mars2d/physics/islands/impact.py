@@ -10,7 +10,7 @@ from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import Arbiter, Vector
+from mars2d.physics.islands.library import Arbiter, Vector
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.tie import Tie
 

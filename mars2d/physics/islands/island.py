@@ -15,10 +15,10 @@ from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import Arbiter, Vector
 from mars2d.physics.islands.contacts import Row, close_touches, note_row
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.impact import Impact, settle
+from mars2d.physics.islands.library import Arbiter, Vector, check_signals
 from mars2d.physics.islands.pair import Pair
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust, predict
@@ -201,14 +201,18 @@ class Island:
             self.load = min(accuracy.load_growth * self.load, self.most_load)
             # If the solver goes round in a circle it ends elsewhere in it each time.
             self.tries = min(self.tries + 1, 64)
-            chipmunk.set_iterations(
-                self.solver.space, self.iterations * accuracy.iteration_factor + 2 * self.tries
-            )
-            return
-        self.load = max(accuracy.load_decay * self.load, self.least_load)
-        if self.tries > 0:
+        else:
+            self.load = max(accuracy.load_decay * self.load, self.least_load)
             self.tries = 0
-            chipmunk.set_iterations(self.solver.space, self.iterations)
+        self.set_iterations()
+
+    @cython.cfunc
+    def set_iterations(self) -> cython.void:
+        """Let the solver have more iterations while it has to try harder."""
+        count: cython.int = self.iterations
+        if self.tries > 0:
+            count = count * self.accuracy.iteration_factor + 2 * self.tries
+        chipmunk.set_iterations(self.solver.space, count)
 
     @cython.cfunc
     def commit(self) -> cython.void:
@@ -237,8 +241,10 @@ class Island:
         tie: Tie
         for tie in self.ties:
             solver.tie(tie)
-        self.tries, solver.hurries = 0, False
-        chipmunk.set_iterations(solver.space, self.iterations)
+        solver.hurries = False
+        # One that knows no impulses of bodies that touch already has to try harder.
+        self.tries = 1 if self.any_solved and solver.last_step >= 1e300 else 0
+        self.set_iterations()
         solver.used = True
 
     @cython.cfunc
@@ -308,7 +314,7 @@ class Island:
                 raise FloatingPointError
             count += 1
             if count % 256 == 0:
-                chipmunk.check_signals()
+                check_signals()
             for body in self.bodies:
                 body.gone += h * body.top_speed()
                 if body.gone > self.limit:

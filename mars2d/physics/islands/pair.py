@@ -9,11 +9,10 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.flush import PARALLEL, lay
+from mars2d.physics.islands.flush import PARALLEL, join, lay
 from mars2d.physics.islands.piece import Corner, Edge, Piece
 from mars2d.physics.islands.seams import Seams
 
@@ -461,10 +460,10 @@ class PiecePair(Pair):
         if not self.meet_at_corners(2 * room):
             return
         if lay(self.p, self.q, x, y, self.b.number, room):
-            chipmunk.join(self.p.shape)
+            join(self.p.shape)
             self.a.laid = True
         if lay(self.q, self.p, -x, -y, self.a.number, room):
-            chipmunk.join(self.q.shape)
+            join(self.q.shape)
             self.b.laid = True
 
     @cython.cfunc

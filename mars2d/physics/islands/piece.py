@@ -6,7 +6,7 @@ from typing import Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.chipmunk import Handle
+from mars2d.physics.islands.library import Handle
 
 
 @cython.final

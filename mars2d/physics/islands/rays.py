@@ -1,4 +1,6 @@
-"""Rays: how far they go, and what they hit; a ray alone and one of many get the same bits.
+"""Rays and nearest points: how far it is to what is there.
+
+A ray alone and one of many get the same bits.
 
 A fan is a set of rays that start in one point. What is near covers an interval of their bearings,
 and only rays within it are worked out: a fan of 180 rays among 200 edges needs about a hundred
@@ -22,54 +24,72 @@ from mars2d.physics.islands.arithmetic import cosine_sine, length
 class Things:
     """What rays may hit: convex rings of edges, counter-clockwise, and discs.
 
-    The first `wide` of them are much larger than the others, which are sorted by `x`.
+    The first `wide` of them are much larger than the others, which are kept in the order of `x`.
     """
 
     solid: cython.bint  # whether a ray that starts within one has the length 0
     wide: cython.int
     largest: cython.double  # radius of the others
-    # of each thing: a circle about it, its owner, its first edge, and how many; none for a disc
-    x: cython.Doubles
-    y: cython.Doubles
-    radius: cython.Doubles
+    order: list[int]  # of the others
+    # of each thing: its owner, its first edge, how many (none for a disc), and a circle about it
     owner: cython.Doubles
     first: cython.Doubles
     edges: cython.Doubles
+    radius: cython.Doubles
+    x: cython.Doubles
+    y: cython.Doubles
     # the ends of each edge
     ax: cython.Doubles
     ay: cython.Doubles
     bx: cython.Doubles
     by: cython.Doubles
+    # all middles of circles and ends: whose they are, where in its frame, and where they are
+    bodies: cython.Doubles
+    local_x: cython.Doubles
+    local_y: cython.Doubles
+    all_x: cython.Doubles
+    all_y: cython.Doubles
 
-    def __init__(self, solid: bool) -> None:
-        """Start without any."""
-        self.solid = solid
+    def __init__(self, solid: bool, wide: int, largest: float, things: Any, points: Any) -> None:
+        """Take things: owners, first edges, numbers of edges, radii; and the memory of points.
 
-    def take(
-        self,
-        wide: int,
-        largest: float,
-        circles: Any,
-        owner: cython.Doubles,
-        rings: Any,
-        ends: Any,
-    ) -> None:
-        """Take all things: circles (x, y, radius), owners, rings (first, edges), ends of edges."""
-        self.wide, self.largest = wide, largest
-        self.x, self.y, self.radius = circles
-        self.owner = owner
-        self.first, self.edges = rings
-        self.ax, self.ay, self.bx, self.by = ends
+        points: their bodies, and where they are in the frames of these; x and y of all, and the
+        parts of both for middles, starts and ends.
+        """
+        self.solid, self.wide, self.largest = solid, wide, largest
+        self.owner, self.first, self.edges, self.radius = things
+        self.bodies, self.local_x, self.local_y = points[:3]
+        self.all_x, self.all_y, self.x, self.y, self.ax, self.ay, self.bx, self.by = points[3:]
+        self.order = list(range(wide, len(self.radius)))
+
+    def place(self, states: cython.Doubles) -> None:
+        """Move all to where their bodies are: six numbers each, first x, y [m], theta [rad]."""
+        k: cython.int
+        at: cython.int = 0
+        c, s = cosine_sine(states[2])
+        for k in range(len(self.bodies)):
+            if 6 * int(self.bodies[k]) != at:
+                at = 6 * int(self.bodies[k])
+                c, s = cosine_sine(states[at + 2])
+            self.all_x[k] = states[at] + c * self.local_x[k] - s * self.local_y[k]
+            self.all_y[k] = states[at + 1] + s * self.local_x[k] + c * self.local_y[k]
+        self.order.sort(key=self.x_of)
+
+    def x_of(self, thing: int) -> float:
+        """Return the x of a thing."""
+        return self.x[thing]
 
     @cython.cfunc
     def from_x(self, x: cython.double) -> cython.int:
-        """Return the first of the sorted things whose x is no less."""
-        low: cython.int = self.wide
-        high: cython.int = len(self.x)
+        """Return how many of the things in order have a smaller x."""
+        low: cython.int = 0
+        high: cython.int = len(self.order)
         middle: cython.int
+        thing: cython.int
         while low < high:
             middle = (low + high) // 2
-            if self.x[middle] < x:
+            thing = self.order[middle]
+            if self.x[thing] < x:
                 low = middle + 1
             else:
                 high = middle
@@ -98,6 +118,8 @@ class Caster:
     at: cython.int
     lengths: cython.Doubles
     owners: cython.Doubles
+    # or without rays, of the nearest points: how far away they are [m], x and y
+    nearest: list[Any]
 
     def __init__(self, groups: list[Things]) -> None:
         """Take the groups of things."""
@@ -163,19 +185,32 @@ class Caster:
                 self.angle[0], self.way_x[0], self.way_y[0] = 0.0, self.c, self.s
                 self.look()
 
+    def nearby(self, x: float, y: float, limit: float, ignore: int) -> list[Any]:
+        """Return the nearest points of the surfaces that are nearer to a point than `limit`.
+
+        They are tuples: how far away, in metres and negative within a body, x and y. A surface is
+        an edge of what is not solid, or else a disc or ring.
+        """
+        self.x, self.y, self.reach, self.ignore, self.count = x, y, limit, ignore, 0
+        self.nearest = []
+        self.look()
+        return self.nearest
+
     @cython.cfunc
     def look(self) -> cython.void:
-        """Cast the fan."""
+        """Cast the fan, or find the nearest points."""
         things: Things
+        thing: cython.int
         k: cython.int
         for things in self.groups:
             for k in range(things.wide):
                 self.meet(things, k)
             far: cython.double = (1.0 + 1e-9) * (self.reach + things.largest)
-            k = things.from_x(self.x - far)
-            while k < len(things.x) and things.x[k] <= self.x + far:
-                self.meet(things, k)
-                k += 1
+            for k in range(things.from_x(self.x - far), len(things.order)):
+                thing = things.order[k]
+                if things.x[thing] > self.x + far:
+                    break
+                self.meet(things, thing)
 
     @cython.cfunc
     def meet(self, things: Things, thing: cython.int) -> cython.void:
@@ -187,6 +222,9 @@ class Caster:
         owner: cython.int = int(things.owner[thing])
         if x * x + y * y > far * far or (owner >= 0 and owner == self.ignore):
             return
+        if self.count == 0:
+            self.approach(things, thing)
+            return
         if self.count == 1:  # most things are beside a single ray
             beside: cython.double = self.way_x[0] * y - self.way_y[0] * x
             if abs(beside) > (1.0 + 1e-9) * radius + 1e-9:
@@ -195,6 +233,49 @@ class Caster:
             self.meet_disc(x, y, radius, owner)
         else:
             self.meet_ring(things, int(things.first[thing]), int(things.edges[thing]), owner)
+
+    @cython.cfunc
+    def approach(self, things: Things, thing: cython.int) -> cython.void:
+        """Find the nearest point of a thing.
+
+        Source for a disc and an edge: C. Ericson, Real-Time Collision Detection, 5.1 (2005).
+        """
+        x: cython.double = things.x[thing] - self.x
+        y: cython.double = things.y[thing] - self.y
+        far: cython.double
+        if things.edges[thing] == 0.0:
+            far = length(x, y)
+            share: cython.double = things.radius[thing] / far if far > 0.0 else 0.0
+            x, y = things.x[thing] - x * share, things.y[thing] - y * share
+            self.note(far - things.radius[thing], x, y)
+            return
+        first: cython.int = int(things.first[thing])
+        edge: cython.int
+        least: cython.double = 1e300
+        inside: cython.bint = things.solid
+        for edge in range(first, first + int(things.edges[thing])):
+            back_x: cython.double = things.ax[edge] - things.bx[edge]
+            back_y: cython.double = things.ay[edge] - things.by[edge]
+            along: cython.double = (self.x - things.bx[edge]) * back_x
+            along = along + (self.y - things.by[edge]) * back_y
+            along = along / (back_x * back_x + back_y * back_y)
+            along = max(0.0, min(along, 1.0))
+            at_x: cython.double = things.bx[edge] + back_x * along
+            at_y: cython.double = things.by[edge] + back_y * along
+            far = length(self.x - at_x, self.y - at_y)
+            inside = inside and self.area(things, edge) >= 0.0
+            if not things.solid:
+                self.note(far, at_x, at_y)
+            elif far < least:
+                least, x, y = far, at_x, at_y
+        if things.solid:
+            self.note(-least if inside else least, x, y)
+
+    @cython.cfunc
+    def note(self, far: cython.double, x: cython.double, y: cython.double) -> cython.void:
+        """Keep a point that is near enough."""
+        if far < self.reach:
+            self.nearest.append((far, x, y))
 
     @cython.cfunc
     def meet_disc(

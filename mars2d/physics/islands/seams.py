@@ -13,7 +13,15 @@ from __future__ import annotations
 
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.chipmunk import Arbiter, Handle, Vector
+from mars2d.physics.islands.library import (
+    SEWN,
+    Arbiter,
+    Handle,
+    Vector,
+    address_of,
+    callback,
+    thing_at,
+)
 
 STRAIGHT = 1e-9
 """The sine up to which a contact's normal stands upright on a wall."""
@@ -169,3 +177,19 @@ class Seams:
             return
         arbiter.n.x, arbiter.n.y = fx, fy
         chipmunk.put_point(arbiter, px + deepest * fx, py + deepest * fy, px, py)
+
+
+@cython.cfunc
+def sew(segment: Handle, seams: Seams) -> cython.void:
+    """Let contacts with a wall be corrected at its seams."""
+    chipmunk.set_data(segment, address_of(seams))
+    chipmunk.set_type(segment, SEWN)
+
+
+@cython.cfunc
+@callback("void(cpArbiter *, cpSpace *, void *)")
+def correct_contact(arbiter: Arbiter, _space: Handle, _data: Handle) -> cython.void:
+    """Let the seams of a wall correct a contact with it before it is solved."""
+    is_first: cython.bint = chipmunk.first_of(arbiter) < 0
+    seams: Seams = thing_at(chipmunk.data_of(chipmunk.shape_of(arbiter, not is_first)))
+    seams.correct(arbiter, is_first)

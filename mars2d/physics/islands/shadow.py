@@ -17,6 +17,7 @@ int: TypeAlias = builtins.int  # noqa: A001
 longlong: TypeAlias = builtins.int
 bint: TypeAlias = bool
 void: TypeAlias = None
+p_double: TypeAlias = Any
 Doubles: TypeAlias = "array[float]"
 """Numbers in a row, shared with numpy."""
 

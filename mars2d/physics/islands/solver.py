@@ -8,19 +8,26 @@ from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponential, length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import (
+from mars2d.physics.islands.floor import hold
+from mars2d.physics.islands.flush import Flush, join, lay, show, straighten_contact
+from mars2d.physics.islands.library import (
     GEAR,
     GROOVE,
+    JOINED,
     PIVOT,
     ROTARY_LIMIT,
     ROTARY_SPRING,
+    SEWN,
+    Arbiters,
     Handle,
     Vector,
+    handle_contacts,
+    watch_contacts,
 )
-from mars2d.physics.islands.floor import hold
-from mars2d.physics.islands.flush import Flush, lay
 from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.piece import Piece
+from mars2d.physics.islands.seams import correct_contact, sew
+from mars2d.physics.islands.surfaces import settle_contact
 from mars2d.physics.islands.tie import Tie
 
 ENDS = ((0.0, 0.0), (0.0, 0.0))
@@ -47,7 +54,7 @@ class Solver:
     bodies: list[Body]
     walls: dict[int, Held]
     ties: list[Tie]
-    arbiters: chipmunk.Arbiters
+    arbiters: Arbiters
     last_step: cython.double
     used: cython.bint  # in this control step
     idle: cython.bint  # whether it waits for an island
@@ -74,14 +81,16 @@ class Solver:
         products.
         """
         self.space, self.room = chipmunk.new_space(slop), room
+        handle_contacts(self.space, SEWN, correct_contact)
+        handle_contacts(self.space, JOINED, straighten_contact)
         self.bias_rate, self.joint_bias_rate = bias_rate, joint_bias_rate
         self.bias_base = exponential(-bias_rate)
         self.joint_bias_base = exponential(-joint_bias_rate)
         self.surfaces = surfaces
         if surfaces is not None:
-            chipmunk.watch(self.space, surfaces)
+            watch_contacts(self.space, settle_contact, surfaces)
         self.bodies, self.walls, self.ties = [], {}, []
-        self.arbiters = chipmunk.Arbiters()
+        self.arbiters = Arbiters()
         self.last_step = 1e300
 
     # -- who is in it -------------------------------------------------------------------------
@@ -121,10 +130,10 @@ class Solver:
             else:
                 shape.handle = chipmunk.new_polygon(body.handle, points, body.surface)
             piece.shape, piece.flush = shape.handle, Flush(piece, self.room)
-            chipmunk.show(piece.shape, piece.flush)
+            show(piece.shape, piece.flush)
             for other in body.pieces:
                 if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room / 8):
-                    chipmunk.join(piece.shape)
+                    join(piece.shape)
         if body.is_robot:
             body.control = chipmunk.new_control()
             self.hold_by(body, body.control)
@@ -221,7 +230,7 @@ class Solver:
         ends = ((wall.x, wall.y), (wall.x + wall.edge_x, wall.y + wall.edge_y))
         held.handle = chipmunk.new_segment(held.ground, ends, wall.surface)
         if wall.seams is not None:
-            chipmunk.sew(held.handle, wall.seams)
+            sew(held.handle, wall.seams)
         chipmunk.add_body(self.space, held.ground)
         chipmunk.add_shape(self.space, held.handle)
 

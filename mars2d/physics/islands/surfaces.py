@@ -11,7 +11,7 @@ from math import sqrt
 from mars2d.physics.islands import chipmunk
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.chipmunk import Arbiter, Vector
+from mars2d.physics.islands.library import Arbiter, Handle, Vector, callback, thing_at
 
 
 @cython.final
@@ -122,6 +122,14 @@ class Surfaces:
         normal: Vector = arbiter.n
         along: cython.double = vy * normal.x - vx * normal.y
         return abs(along)
+
+
+@cython.cfunc
+@callback("void(cpArbiter *, cpSpace *, void *)")
+def settle_contact(arbiter: Arbiter, _space: Handle, data: Handle) -> cython.void:
+    """Let surfaces settle a contact before it is solved."""
+    surfaces: Surfaces = thing_at(data)
+    surfaces.settle(arbiter)
 
 
 @cython.cfunc

@@ -66,6 +66,23 @@ class Director:
             self._notes.say(timeline.remark, "warning")
         return True
 
+    def step_within(self, way: int) -> None:
+        """Show the next moment within a control step, or for -1 the one before."""
+        timeline, player = self._live(), self._player
+        if timeline is None or player.step_within(way):
+            return
+        if way < 0:
+            player.back()
+        elif player.frame.time > timeline.frame.time:  # this is the last moment, the next row
+            player.step()
+        try:
+            moments = timeline.within(self._show_way_back)
+        except Mars2dError as error:
+            self._notes.say(str(error), "warning")
+            return
+        player.look_within(moments)
+        player.step_within(len(moments) - 1 if way < 0 else 1)
+
     def _live(self) -> Timeline | None:
         """Return the timeline; None, with a note, for a recording."""
         if self.timeline is None:
