@@ -155,6 +155,15 @@ class Contest(Addon):
         return teams[0], teams[1]
 
 
+def wins(role: str) -> str:
+    """Return the words for a role's victory, such as "evader wins" and "hunters win".
+
+    >>> wins("hunters")
+    'hunters win'
+    """
+    return f"{role} {'win' if role.endswith('s') else 'wins'}"
+
+
 def listed(scenario: ScenarioLike, team: tuple[int, ...]) -> str:
     """Return the names of a team, by its indices, or how many they are if they are many."""
     names = [str(scenario.robots[robot].name) for robot in team]

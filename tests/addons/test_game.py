@@ -107,7 +107,7 @@ def test_the_nearest_of_several_hunters_is_the_one_who_catches():
     )
     assert World(scenario).over is False
     world = finished(scenario)
-    assert world.over_message == "robot1 catches robot2 after 0 s: hunters wins"
+    assert world.over_message == "robot1 catches robot2 after 0 s: hunters win"
 
 
 def test_contacts_with_others_are_no_captures():
