@@ -191,7 +191,10 @@ def test_the_folder_has_a_row_for_each_match_and_law_and_a_page(evening):
         [row["role"], row["place"], row["law"]] for row in rows_of(evening.out / "league.csv")
     ]
     assert league[:2] == [["pursuer", "1", "quick"], ["pursuer", "2", "loop"]]
-    grades = [[*row.values()] for row in rows_of(evening.out / "grades.csv")]
+    rated = rows_of(evening.out / "grades.csv")
+    elo = {row["group"]: int(row.pop("elo")) for row in rated}
+    assert elo["quick"] > elo["nan"] > elo["loop"]
+    grades = [[*row.values()] for row in rated]
     slow = "slow in 2 matches, first in match 1: loop.py, line 2: no command after 1 s"
     told = "ran out of time in 2 matches before, and forfeits the rest"
     out = f"late in 4 matches, first in match 3: {told}"
